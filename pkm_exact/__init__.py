@@ -1,0 +1,71 @@
+"""Exact and certified forward kinematics of parallel robots.
+
+From the exact geometry and leg lengths of a robot to every real pose of its platform, each in a rational box that
+provably holds exactly one, with a certificate that a second, small program checks.
+
+Everything below is loaded when it is first used, so that importing the package costs next to nothing.
+
+>>> from pkm_exact import Robot
+>>> Robot.__module__
+'pkm_exact.geometry.robot'
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from pkm_exact.certify.build import certificate as certificate
+    from pkm_exact.certify.build import write_certificate as write_certificate
+    from pkm_exact.certify.check import check_bytes as check_bytes
+    from pkm_exact.engine import solve as solve
+    from pkm_exact.errors import InputError as InputError
+    from pkm_exact.errors import PkmExactError as PkmExactError
+    from pkm_exact.geometry.problem import ForwardProblem as ForwardProblem
+    from pkm_exact.geometry.problem import Leg as Leg
+    from pkm_exact.geometry.reader import read_robot as read_robot
+    from pkm_exact.geometry.robot import Configuration as Configuration
+    from pkm_exact.geometry.robot import Robot as Robot
+    from pkm_exact.policy import Policy as Policy
+    from pkm_exact.poses.pose import Interval as Interval
+    from pkm_exact.poses.pose import Pose as Pose
+    from pkm_exact.solution import Solution as Solution
+    from pkm_exact.verdict import Claim as Claim
+    from pkm_exact.verdict import CompletenessRoute as CompletenessRoute
+
+__version__: Final = "0.1.0"
+
+_HOME: Final = {
+    "Claim": "verdict",
+    "CompletenessRoute": "verdict",
+    "Configuration": "geometry.robot",
+    "ForwardProblem": "geometry.problem",
+    "InputError": "errors",
+    "Interval": "poses.pose",
+    "Leg": "geometry.problem",
+    "PkmExactError": "errors",
+    "Policy": "policy",
+    "Pose": "poses.pose",
+    "Robot": "geometry.robot",
+    "Solution": "solution",
+    "certificate": "certify.build",
+    "check_bytes": "certify.check",
+    "read_robot": "geometry.reader",
+    "solve": "engine",
+    "write_certificate": "certify.build",
+}
+
+__all__ = ["__version__", *_HOME]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

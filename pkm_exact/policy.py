@@ -1,0 +1,37 @@
+"""Every limit, precision and random choice of a solve, in one frozen object that is passed down."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Policy:
+    """Limits and choices of the exact engine. The defaults suit robots; nothing here decides a zero test.
+
+    Attributes
+    ----------
+    prime_bits : int
+        Size of the primes; 62 bits is the largest that FLINT's word arithmetic takes at full speed.
+    seed : int
+        Seed of every random choice (coefficients of separating forms, combinations of equations).
+    lifting : {"newton", "multimodular"}
+        How a representation modulo a prime becomes one over Q. "newton" lifts p-adically and needs simple
+        solutions; "multimodular" repeats the elimination at many primes.
+    attempts : int
+        Primes, forms or charts tried after a failed choice before the engine gives up.
+    lifting_bits : int
+        Largest precision of a lift, in bits of the modulus.
+    degree_limit : int
+        Largest degree of a critical pair before the elimination is declared out of reach.
+    dimension_limit : int
+        Largest dimension of a quotient algebra.
+    """
+
+    prime_bits: int = 62
+    seed: int = 20081125
+    lifting: str = "newton"
+    attempts: int = 12
+    lifting_bits: int = 1 << 20
+    degree_limit: int = 40
+    dimension_limit: int = 2000

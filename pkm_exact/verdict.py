@@ -1,0 +1,31 @@
+"""What a solution claims, and by which route completeness was proved."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+
+class Claim(StrEnum):
+    """What is claimed of a list of poses.
+
+    ``COMPLETE`` is a theorem about the very input; every other member promises less. In particular
+    ``NOT_PROVEN_COMPLETE`` does not mean that a pose is missing, and ``POSITIVE_DIMENSIONAL_DETECTED`` is
+    evidence from several primes, not a proof.
+    """
+
+    COMPLETE = "complete"
+    NOT_PROVEN_COMPLETE = "not-proven-complete"
+    POSITIVE_DIMENSIONAL_DETECTED = "positive-dimensional-detected"
+    POSITIVE_DIMENSIONAL_PROVED = "positive-dimensional-proved"
+    INCONSISTENT = "inconsistent"
+
+
+class CompletenessRoute(StrEnum):
+    """The argument that proves a list of poses complete.
+
+    ``REFINED_BEZOUT``: the variety of rigid motions has degree 40 in P^16, so the irreducible components of
+    its section by six hyperplanes have degrees that sum to at most 40 (Fulton, Intersection Theory, 12.3);
+    40 distinct isolated solutions leave room for no other.
+    """
+
+    REFINED_BEZOUT = "refined-bezout"

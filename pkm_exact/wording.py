@@ -1,0 +1,47 @@
+"""Input values as they appear in messages: short, on one line, and harmless to a terminal."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Final
+
+_LONGEST: Final = 40
+_LONGEST_BITS: Final = 1400
+
+
+def printable(text: str) -> str:
+    r"""The text with every character that a terminal might obey or that ends a line written as an escape.
+
+    >>> printable("a\x1b[2Jb")
+    'a\\x1b[2Jb'
+    """
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+
+
+def shown(value: object) -> str:
+    """A short printable form of any input value.
+
+    >>> shown("x" * 100)
+    "'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx'... (100 characters)"
+    >>> shown([1, 2, 3])
+    'a list of 3'
+    """
+    if isinstance(value, str):
+        if len(value) <= _LONGEST:
+            return ascii(value)
+        return f"{type(value)(value[:_LONGEST])!a}... ({len(value)} characters)"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int) and value.bit_length() > _LONGEST_BITS:
+        return f"an integer of {value.bit_length()} bits"
+    if (
+        isinstance(value, Fraction)
+        and max(value.numerator.bit_length(), value.denominator.bit_length()) > _LONGEST_BITS
+    ):
+        return f"a fraction of {value.numerator.bit_length()} by {value.denominator.bit_length()} bits"
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list | tuple):
+        return f"a list of {len(value)}"
+    text = printable(str(value))
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}... ({len(text)} characters)"
