@@ -1,0 +1,85 @@
+"""From a polynomial system to its quotient algebra modulo a prime, learned once and applied at further primes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from pkm_exact.algebra import groebner
+from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.quotient import QuotientAlgebra, quotient_algebra
+from pkm_exact.algebra.system import PolynomialSystem
+from pkm_exact.policy import Policy
+
+
+@dataclass(frozen=True)
+class ModularImage:
+    """What a system looks like modulo one prime.
+
+    Attributes
+    ----------
+    prime : int
+    basis : GroebnerBasis
+    algebra : QuotientAlgebra or None
+        None if the staircase is infinite.
+    """
+
+    prime: int
+    basis: groebner.GroebnerBasis
+    algebra: QuotientAlgebra | None
+
+    @property
+    def dimension(self) -> int | None:
+        """Number of solutions with multiplicity modulo the prime, or None if it is infinite."""
+        return None if self.algebra is None else self.algebra.dimension
+
+
+@dataclass
+class Elimination:
+    """The modular eliminations of one system: deterministic, each prime used once.
+
+    Attributes
+    ----------
+    system : PolynomialSystem
+    policy : Policy
+    """
+
+    system: PolynomialSystem
+    policy: Policy
+    _primes: Iterator[int] = field(init=False, repr=False)
+    _trace: groebner.Trace | None = field(init=False, default=None, repr=False)
+    primes_used: list[int] = field(init=False, default_factory=list)
+    primes_unlucky: list[int] = field(init=False, default_factory=list)
+
+    def __post_init__(self) -> None:
+        self._primes = primes_below(self.policy.prime_bits)
+
+    def image(self, *, record: bool = False) -> ModularImage:
+        """The image at the next prime, found from scratch; with ``record`` its trace is kept for ``following``."""
+        prime = next(self._primes)
+        ring = self.system.monomials
+        basis = groebner.learn(
+            self.system.modulo(prime), ring, prime, degree_limit=self.policy.degree_limit, record=record
+        )
+        if record:
+            self._trace = basis.trace
+        return self._finished(prime, basis)
+
+    def following(self) -> ModularImage:
+        """The image at the next lucky prime, along the recorded trace."""
+        if self._trace is None:
+            return self.image(record=True)
+        while True:
+            prime = next(self._primes)
+            try:
+                basis = groebner.apply(self._trace, self.system.modulo(prime), self.system.monomials, prime)
+            except groebner.UnluckyPrimeError:
+                self.primes_unlucky.append(prime)
+                continue
+            return self._finished(prime, basis)
+
+    def _finished(self, prime: int, basis: groebner.GroebnerBasis) -> ModularImage:
+        self.primes_used.append(prime)
+        finite = basis.is_zero_dimensional
+        algebra = quotient_algebra(basis, self.policy.dimension_limit) if finite else None
+        return ModularImage(prime, basis, algebra)

@@ -1,0 +1,81 @@
+"""A polynomial system as square equations for Newton lifting."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from random import Random
+
+from flint import fmpz_mod_poly, fmpz_mpoly
+
+from pkm_exact.algebra.residue_ring import ResidueRing
+from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring
+
+
+@dataclass(frozen=True)
+class SystemEquations:
+    """Random combinations of a system's polynomials, as many as there are unknowns.
+
+    Solutions of the system are solutions of the combinations; a simple one stays simple for all but few choices.
+
+    Attributes
+    ----------
+    system : PolynomialSystem
+    seed : int
+        Seed of the combinations.
+    """
+
+    system: PolynomialSystem
+    seed: int
+
+    @cached_property
+    def combinations(self) -> tuple[fmpz_mpoly, ...]:
+        """The square system."""
+        random = Random(self.seed)
+        context = polynomial_ring(self.system.unknowns)
+        combined = []
+        for _ in self.system.unknowns:
+            total = context.constant(0)
+            for polynomial in self.system.polynomials:
+                total += random.randrange(-(1 << 16), 1 << 16) * polynomial
+            combined.append(total)
+        return tuple(combined)
+
+    @cached_property
+    def derivatives(self) -> tuple[tuple[fmpz_mpoly, ...], ...]:
+        """Partial derivatives of the square system."""
+        size = len(self.system.unknowns)
+        return tuple(tuple(polynomial.derivative(j) for j in range(size)) for polynomial in self.combinations)
+
+    def values(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
+        """The square system at a point."""
+        values = _MonomialValues(ring, point)
+        return [values.evaluate(polynomial) for polynomial in self.combinations]
+
+    def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
+        """The Jacobian matrix at a point."""
+        values = _MonomialValues(ring, point)
+        return [[values.evaluate(polynomial) for polynomial in row] for row in self.derivatives]
+
+
+class _MonomialValues:
+    """Monomials at a point, each multiplied out once."""
+
+    def __init__(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> None:
+        self.ring = ring
+        self.point = point
+        self.known = {(0,) * len(point): ring.one}
+
+    def evaluate(self, polynomial: fmpz_mpoly) -> fmpz_mod_poly:
+        total = self.ring.one * 0
+        for exponents, coefficient in polynomial.to_dict().items():
+            total += self.monomial(tuple(map(int, exponents))) * int(coefficient)
+        return total
+
+    def monomial(self, exponents: tuple[int, ...]) -> fmpz_mod_poly:
+        if exponents not in self.known:
+            index = next(i for i, exponent in enumerate(exponents) if exponent)
+            smaller = (*exponents[:index], exponents[index] - 1, *exponents[index + 1 :])
+            self.known[exponents] = self.ring.multiply(self.monomial(smaller), self.point[index])
+        return self.known[exponents]

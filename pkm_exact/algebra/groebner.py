@@ -1,0 +1,319 @@
+"""Groebner bases modulo a prime by matrix reduction (F4), with a trace that is learned once and applied again.
+
+Critical pairs of least degree are reduced together: their halves and all the reducers that they need are the rows
+of one matrix, whose reduced row echelon form yields the new basis elements (Faugere, "A new efficient algorithm for
+computing Groebner bases (F4)", J. Pure Appl. Algebra 139, 1999). Pairs are pruned by the criteria of Gebauer and
+Moeller. The rows that mattered are recorded (Traverso, "Groebner trace algorithms", ISSAC 1988): at another prime
+only those are built again, and a prime at which a recorded pivot moves is reported as unlucky.
+
+A Groebner basis modulo one prime is a guide, not a proof: what it suggests over Q is verified elsewhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from flint import nmod_mat
+
+from pkm_exact.algebra.monomials import MonomialRing
+from pkm_exact.algebra.system import ModularPolynomial
+from pkm_exact.errors import PkmExactError
+
+Row = tuple[int, int]
+"""A row of a reduction matrix: index of a basis element and the monomial that multiplies it."""
+
+
+class OutOfReachError(PkmExactError):
+    """The elimination met a degree beyond the limit of the policy."""
+
+
+class UnluckyPrimeError(PkmExactError):
+    """At this prime the elimination takes another course than at the prime where it was learned."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One matrix: the rows that span its row space, its columns, its pivots, and the pivots that are new."""
+
+    rows: tuple[Row, ...]
+    columns: tuple[int, ...]
+    pivots: tuple[int, ...]
+    new: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Trace:
+    """What an elimination did: enough to repeat it at another prime without a search."""
+
+    start: tuple[int, ...]
+    steps: tuple[Step, ...]
+    basis: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class GroebnerBasis:
+    """A minimal Groebner basis modulo a prime, degree reverse lexicographic; each element is monic.
+
+    Attributes
+    ----------
+    prime : int
+    ring : MonomialRing
+    elements : tuple of (packed monomials, coefficients)
+        Sorted by leading monomial.
+    trace : Trace
+        How it was found.
+    """
+
+    prime: int
+    ring: MonomialRing
+    elements: tuple[ModularPolynomial, ...]
+    trace: Trace | None = field(repr=False)
+
+    @property
+    def leading_monomials(self) -> tuple[int, ...]:
+        """Leading monomials, increasing."""
+        return tuple(element[0][0] for element in self.elements)
+
+    @property
+    def is_unit_ideal(self) -> bool:
+        """Whether 1 lies in the ideal modulo the prime."""
+        return self.leading_monomials[:1] == (0,)
+
+    @property
+    def is_zero_dimensional(self) -> bool:
+        """Whether the staircase is finite: some power of every unknown is a leading monomial."""
+        if self.is_unit_ideal:
+            return True
+        pure = set()
+        for monomial in self.leading_monomials:
+            exponents = self.ring.unpack(monomial)
+            support = [index for index, exponent in enumerate(exponents) if exponent]
+            if len(support) == 1:
+                pure.add(support[0])
+        return len(pure) == self.ring.size
+
+
+def learn(
+    polynomials: list[ModularPolynomial], ring: MonomialRing, prime: int, *, degree_limit: int, record: bool = True
+) -> GroebnerBasis:
+    """Groebner basis of the ideal that ``polynomials`` generate modulo ``prime``.
+
+    Parameters
+    ----------
+    polynomials : list of (packed monomials, coefficients)
+    ring : MonomialRing
+    prime : int
+    degree_limit : int
+        Largest degree of a critical pair that is treated.
+    record : bool
+        Whether to find the rows that mattered, so that ``apply`` can repeat the run (one more elimination a step).
+
+    Raises
+    ------
+    OutOfReachError
+        If a critical pair exceeds the degree limit.
+    """
+    return _Elimination(polynomials, ring, prime).run(degree_limit, record)
+
+
+def apply(trace: Trace, polynomials: list[ModularPolynomial], ring: MonomialRing, prime: int) -> GroebnerBasis:
+    """The same elimination at another prime, along a learned trace.
+
+    Raises
+    ------
+    UnluckyPrimeError
+        If a recorded pivot is not a pivot at this prime.
+    """
+    known: list[ModularPolynomial] = _interreduced(polynomials, prime)
+    if tuple(polynomial[0][0] for polynomial in known) != trace.start:
+        raise UnluckyPrimeError(f"the generators have other leading monomials modulo {prime}")
+    for step in trace.steps:
+        reduced, pivots = _echelon(_matrix(step.rows, known, step.columns, prime))
+        if tuple(pivots) != step.pivots:
+            raise UnluckyPrimeError(f"a pivot is lost modulo {prime}")
+        known.extend(_read_row(reduced, row, step.columns, step.pivots[row]) for row in step.new)
+    elements = tuple(known[index] for index in trace.basis)
+    return GroebnerBasis(prime, ring, elements, trace)
+
+
+def _matrix(rows: Iterable[Row], known: list[ModularPolynomial], columns: tuple[int, ...], prime: int) -> nmod_mat:
+    position = {monomial: index for index, monomial in enumerate(columns)}
+    width = len(columns)
+    entries: list[int] = []
+    count = 0
+    for index, multiplier in rows:
+        row = [0] * width
+        for monomial, coefficient in zip(*known[index], strict=True):
+            row[position[monomial + multiplier]] = coefficient
+        entries += row
+        count += 1
+    return nmod_mat(count, width, entries, prime)
+
+
+def _echelon(matrix: nmod_mat) -> tuple[nmod_mat, list[int]]:
+    reduced, rank = matrix.rref()
+    pivots = []
+    column = 0
+    for row in range(rank):
+        while not reduced[row, column]:
+            column += 1
+        pivots.append(column)
+        column += 1
+    return reduced, pivots
+
+
+def _read_row(matrix: nmod_mat, row: int, columns: tuple[int, ...], start: int) -> ModularPolynomial:
+    monomials = []
+    coefficients = []
+    for column in range(start, len(columns)):
+        value = int(matrix[row, column])
+        if value:
+            monomials.append(columns[column])
+            coefficients.append(value)
+    return monomials, coefficients
+
+
+def _interreduced(polynomials: list[ModularPolynomial], prime: int) -> list[ModularPolynomial]:
+    """Row echelon form of the generators, smallest leading monomial last."""
+    columns = tuple(sorted({monomial for polynomial in polynomials for monomial in polynomial[0]}, reverse=True))
+    if not columns:
+        return []
+    rows = [(index, 0) for index in range(len(polynomials))]
+    reduced, pivots = _echelon(_matrix(rows, polynomials, columns, prime))
+    return [_read_row(reduced, row, columns, pivot) for row, pivot in enumerate(pivots)]
+
+
+def _spanning_rows(matrix: nmod_mat) -> list[int]:
+    """Indices of rows that form a basis of the row space."""
+    return _echelon(matrix.transpose())[1]
+
+
+@dataclass(frozen=True)
+class _Pair:
+    degree: int
+    lcm: tuple[int, ...]
+    first: int
+    second: int
+
+
+class _Elimination:
+    """The state of one run: basis elements, which of them still lead, and the pairs that wait."""
+
+    def __init__(self, polynomials: list[ModularPolynomial], ring: MonomialRing, prime: int) -> None:
+        self.ring = ring
+        self.prime = prime
+        self.known: list[ModularPolynomial] = []
+        self.exponents: list[tuple[int, ...]] = []
+        self.active: list[int] = []
+        self.pairs: list[_Pair] = []
+        self._divisor_cache: dict[int, tuple[int, int]] = {}
+        self.generators = _interreduced(polynomials, prime)
+
+    def run(self, degree_limit: int, record: bool) -> GroebnerBasis:
+        for generator in self.generators:
+            self._append(generator)
+        for index in range(len(self.known) - 1, -1, -1):
+            self._update(index)
+        steps = []
+        while self.pairs:
+            degree = min(pair.degree for pair in self.pairs)
+            if degree > degree_limit:
+                raise OutOfReachError(f"a critical pair of degree {degree} exceeds the limit {degree_limit}")
+            steps.append(self._reduce([pair for pair in self.pairs if pair.degree == degree], record))
+        basis = sorted(self.active, key=lambda index: self.known[index][0][0])
+        start = tuple(generator[0][0] for generator in self.generators)
+        trace = Trace(start, tuple(step for step in steps if step.new), tuple(basis)) if record else None
+        return GroebnerBasis(self.prime, self.ring, tuple(self.known[index] for index in basis), trace)
+
+    def _append(self, polynomial: ModularPolynomial) -> None:
+        self.known.append(polynomial)
+        self.exponents.append(self.ring.unpack(polynomial[0][0]))
+
+    def _reduce(self, selected: list[_Pair], record: bool) -> Step:
+        chosen = set(selected)
+        self.pairs = [pair for pair in self.pairs if pair not in chosen]
+        halves: dict[Row, None] = {}
+        for pair in selected:
+            top = self.ring.pack(pair.lcm)
+            for index in (pair.first, pair.second):
+                halves[(index, top - self.known[index][0][0])] = None
+        rows, columns = self._with_reducers(list(halves))
+        matrix = _matrix(rows, self.known, columns, self.prime)
+        reduced, pivots = _echelon(matrix)
+        leading = {self.known[index][0][0] + multiplier for index, multiplier in rows}
+        new = [row for row, pivot in enumerate(pivots) if columns[pivot] not in leading]
+        if record and new:
+            rows = [rows[index] for index in _spanning_rows(matrix)]
+        first = len(self.known)
+        for row in new:
+            self._append(_read_row(reduced, row, columns, pivots[row]))
+        for index in range(len(self.known) - 1, first - 1, -1):
+            self._update(index)
+        return Step(tuple(rows), columns, tuple(pivots), tuple(new))
+
+    def _with_reducers(self, rows: list[Row]) -> tuple[list[Row], tuple[int, ...]]:
+        """Symbolic preprocessing: a reducer for every monomial that some leading monomial divides."""
+        seen: set[int] = set()
+        led = {self.known[index][0][0] + multiplier for index, multiplier in rows}
+        rows = list(rows)
+        done = 0
+        while done < len(rows):
+            index, multiplier = rows[done]
+            done += 1
+            for monomial in self.known[index][0]:
+                product = monomial + multiplier
+                if product in seen:
+                    continue
+                seen.add(product)
+                if product in led:
+                    continue
+                divisor = self._divisor(product)
+                if divisor >= 0:
+                    led.add(product)
+                    rows.append((divisor, product - self.known[divisor][0][0]))
+        return rows, tuple(sorted(seen, reverse=True))
+
+    def _divisor(self, monomial: int) -> int:
+        """Index of a basis element whose leading monomial divides ``monomial``, or -1."""
+        found, checked = self._divisor_cache.get(monomial, (-1, 0))
+        if found >= 0 or checked == len(self.known):
+            return found
+        exponents = self.ring.unpack(monomial)
+        for index in range(checked, len(self.known)):
+            if all(a <= b for a, b in zip(self.exponents[index], exponents, strict=True)):
+                found = index
+                break
+        self._divisor_cache[monomial] = (found, len(self.known))
+        return found
+
+    def _update(self, index: int) -> None:
+        """Add a basis element: form its pairs, prune by the criteria of Gebauer and Moeller."""
+        new = self.exponents[index]
+        lcms = {other: tuple(map(max, self.exponents[other], new)) for other in self.active}
+        self.pairs = [pair for pair in self.pairs if not self._superseded(pair, new)]
+        classes: dict[tuple[int, ...], list[int]] = {}
+        for other, lcm in lcms.items():
+            classes.setdefault(lcm, []).append(other)
+        kept: list[tuple[int, ...]] = []
+        for lcm in sorted(classes, key=sum):
+            if any(_divides(smaller, lcm) for smaller in kept):
+                continue
+            kept.append(lcm)
+            if any(sum(lcm) == sum(new) + sum(self.exponents[other]) for other in classes[lcm]):
+                continue
+            self.pairs.append(_Pair(sum(lcm), lcm, classes[lcm][0], index))
+        self.active = [other for other in self.active if not _divides(new, self.exponents[other])]
+        self.active.append(index)
+
+    def _superseded(self, pair: _Pair, new: tuple[int, ...]) -> bool:
+        """Whether the pairs of the new element with both members make this pair superfluous."""
+        return (
+            _divides(new, pair.lcm)
+            and tuple(map(max, self.exponents[pair.first], new)) != pair.lcm
+            and tuple(map(max, self.exponents[pair.second], new)) != pair.lcm
+        )
+
+
+def _divides(divisor: tuple[int, ...], multiple: tuple[int, ...]) -> bool:
+    return all(a <= b for a, b in zip(divisor, multiple, strict=True))

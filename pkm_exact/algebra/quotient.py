@@ -1,0 +1,219 @@
+"""Quotient algebras modulo a prime: normal set, multiplication matrices, elements, trace.
+
+An element is a 1 x D row of its coordinates on the normal set; ``element * matrix`` multiplies it by what the matrix
+stands for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from flint import nmod, nmod_mat
+
+from pkm_exact.algebra.groebner import GroebnerBasis, OutOfReachError
+from pkm_exact.algebra.monomials import MonomialRing
+from pkm_exact.algebra.system import ModularPolynomial
+
+
+@dataclass(frozen=True)
+class QuotientAlgebra:
+    """F_p[x] / I for a zero-dimensional ideal I.
+
+    Attributes
+    ----------
+    prime : int
+    ring : MonomialRing
+    normal_set : tuple of int
+        Monomials outside the leading ideal, increasing; a basis of the algebra. Its first member is 1.
+    unknowns : tuple of nmod_mat
+        Multiplication matrices: row b of the i-th one holds the coordinates of x_i times the b-th basis monomial.
+    """
+
+    prime: int
+    ring: MonomialRing
+    normal_set: tuple[int, ...]
+    unknowns: tuple[nmod_mat, ...]
+
+    @property
+    def dimension(self) -> int:
+        """Number of solutions over the algebraic closure of F_p, with multiplicity."""
+        return len(self.normal_set)
+
+    @cached_property
+    def one(self) -> nmod_mat:
+        """The element 1."""
+        return nmod_mat(1, self.dimension, [1] + [0] * (self.dimension - 1), self.prime)
+
+    @cached_property
+    def _paths(self) -> dict[int, tuple[int, int]]:
+        """For every normal monomial but 1: an unknown that divides it, and the position of the quotient."""
+        position = {monomial: index for index, monomial in enumerate(self.normal_set)}
+        paths = {}
+        for monomial in self.normal_set[1:]:
+            unknown = next(i for i, exponent in enumerate(self.ring.unpack(monomial)) if exponent)
+            paths[monomial] = (unknown, position[monomial - self.ring.unknown(unknown)])
+        return paths
+
+    @cached_property
+    def basis_matrices(self) -> tuple[nmod_mat, ...]:
+        """Multiplication matrices of the normal set."""
+        matrices = [_identity(self.dimension, self.prime)]
+        for monomial in self.normal_set[1:]:
+            unknown, quotient = self._paths[monomial]
+            matrices.append(matrices[quotient] * self.unknowns[unknown])
+        return tuple(matrices)
+
+    @cached_property
+    def trace(self) -> nmod_mat:
+        """The trace form as a D x 1 column: traces of the multiplications by the normal set."""
+        traces = []
+        for matrix in self.basis_matrices:
+            total = nmod(0, self.prime)
+            for index in range(self.dimension):
+                total += matrix[index, index]
+            traces.append(total)
+        return nmod_mat(self.dimension, 1, traces, self.prime)
+
+    def element(self, polynomial: ModularPolynomial) -> nmod_mat:
+        """The class of a polynomial, given by packed monomials and coefficients."""
+        values = self._monomial_values(polynomial[0])
+        total = nmod_mat(1, self.dimension, self.prime)
+        for monomial, coefficient in zip(*polynomial, strict=True):
+            total += values[monomial] * coefficient
+        return total
+
+    def matrix(self, element: nmod_mat) -> nmod_mat:
+        """The multiplication matrix of an element."""
+        rows = [element]
+        for monomial in self.normal_set[1:]:
+            unknown, quotient = self._paths[monomial]
+            rows.append(rows[quotient] * self.unknowns[unknown])
+        return _stack(rows, self.prime)
+
+    def _monomial_values(self, monomials: Sequence[int]) -> dict[int, nmod_mat]:
+        values = {0: self.one}
+        for monomial in sorted(monomials):
+            exponents = self.ring.unpack(monomial)
+            value, partial = self.one, 0
+            for unknown, exponent in enumerate(exponents):
+                for _ in range(exponent):
+                    partial += self.ring.unknown(unknown)
+                    if partial not in values:
+                        values[partial] = value * self.unknowns[unknown]
+                    value = values[partial]
+        return values
+
+
+def _identity(size: int, prime: int) -> nmod_mat:
+    return nmod_mat(size, size, [int(i == j) for i in range(size) for j in range(size)], prime)
+
+
+def _stack(rows: Sequence[nmod_mat], prime: int) -> nmod_mat:
+    entries = [value for row in rows for value in row.entries()]
+    return nmod_mat(len(rows), rows[0].ncols(), entries, prime)
+
+
+def normal_set(basis: GroebnerBasis, limit: int) -> tuple[int, ...]:
+    """Monomials that no leading monomial divides, increasing; the staircase must be finite.
+
+    Raises
+    ------
+    OutOfReachError
+        If there are more than ``limit``.
+    """
+    ring = basis.ring
+    if basis.is_unit_ideal:
+        return ()
+    leading = [ring.unpack(monomial) for monomial in basis.leading_monomials]
+    found = [0]
+    layer = [(0,) * ring.size]
+    while layer:
+        following: dict[tuple[int, ...], None] = {}
+        for exponents in layer:
+            # Each monomial is reached once: only unknowns not before the last one present are raised.
+            last = max((i for i, exponent in enumerate(exponents) if exponent), default=0)
+            for index in range(last, ring.size):
+                raised = (*exponents[:index], exponents[index] + 1, *exponents[index + 1 :])
+                if not any(all(a <= b for a, b in zip(lead, raised, strict=True)) for lead in leading):
+                    following[raised] = None
+        layer = list(following)
+        found += [ring.pack(exponents) for exponents in layer]
+        if len(found) > limit:
+            raise OutOfReachError(f"more than {limit} solutions")
+    return tuple(sorted(found))
+
+
+def quotient_algebra(basis: GroebnerBasis, limit: int) -> QuotientAlgebra:
+    """Multiplication matrices of the unknowns on the normal set of a zero-dimensional Groebner basis."""
+    ring, prime = basis.ring, basis.prime
+    normal = normal_set(basis, limit)
+    border = _BorderReduction(basis, normal)
+    tables: list[list[list[int]]] = [[] for _ in range(ring.size)]
+    unknowns = [ring.unknown(index) for index in range(ring.size)]
+    border.reduce_all(sorted({monomial + unknown for monomial in normal for unknown in unknowns}))
+    for index, unknown in enumerate(unknowns):
+        tables[index] = [border.forms[monomial + unknown] for monomial in normal]
+    matrices = tuple(
+        nmod_mat(len(normal), len(normal), [value for row in table for value in row], prime) for table in tables
+    )
+    return QuotientAlgebra(prime, ring, normal, matrices)
+
+
+class _BorderReduction:
+    """Normal forms of the normal set and its border, in increasing order."""
+
+    def __init__(self, basis: GroebnerBasis, normal: tuple[int, ...]) -> None:
+        self.prime = basis.prime
+        self.ring = basis.ring
+        self.normal = normal
+        self.elements = {element[0][0]: element for element in basis.elements}
+        self.position = {monomial: index for index, monomial in enumerate(normal)}
+        self.unknowns = [self.ring.unknown(index) for index in range(self.ring.size)]
+        self.forms: dict[int, list[int]] = {}
+        self._rows: dict[int, nmod_mat] = {}
+
+    def reduce_all(self, monomials: Sequence[int]) -> None:
+        size = len(self.normal)
+        for monomial in monomials:
+            if monomial in self.position:
+                form = [0] * size
+                form[self.position[monomial]] = 1
+                self.forms[monomial] = form
+            elif monomial in self.elements:
+                self.forms[monomial] = self._tail(*self.elements[monomial])
+            else:
+                self.forms[monomial] = self._climb(monomial)
+
+    def _tail(self, monomials: list[int], coefficients: list[int]) -> list[int]:
+        form = [0] * len(self.normal)
+        prime = self.prime
+        for monomial, coefficient in zip(monomials[1:], coefficients[1:], strict=True):
+            if monomial in self.position:
+                index = self.position[monomial]
+                form[index] = (form[index] - coefficient) % prime
+            else:
+                form = [(a - coefficient * b) % prime for a, b in zip(form, self._form(monomial), strict=True)]
+        return form
+
+    def _form(self, monomial: int) -> list[int]:
+        if monomial not in self.forms:
+            self.reduce_all([monomial])
+        return self.forms[monomial]
+
+    def _climb(self, monomial: int) -> list[int]:
+        """Normal form of x_i m from that of a smaller monomial m outside the normal set."""
+        exponents = self.ring.unpack(monomial)
+        for index, exponent in enumerate(exponents):
+            smaller = monomial - self.unknowns[index] if exponent else 0
+            if exponent and smaller not in self.position:
+                break
+        unknown = self.unknowns[index]
+        total = [0] * len(self.normal)
+        prime = self.prime
+        for coefficient, factor in zip(self._form(smaller), self.normal, strict=True):
+            if coefficient:
+                image = self._form(factor + unknown)
+                total = [a + coefficient * b for a, b in zip(total, image, strict=True)]
+        return [value % prime for value in total]

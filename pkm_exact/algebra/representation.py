@@ -1,0 +1,155 @@
+"""Rational univariate representations over Q, and their exact verification."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from math import gcd
+
+from flint import fmpz_mpoly, fmpz_poly, nmod_poly
+
+from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.system import PolynomialSystem
+
+
+@dataclass(frozen=True)
+class UnivariateRepresentation:
+    """All solutions at once: x_i = n_i(t) / h'(t) at the roots t of a squarefree h.
+
+    Attributes
+    ----------
+    form : tuple of int
+        Coefficients c_i of the separating form: t = sum c_i x_i.
+    eliminant : tuple of int
+        h, lowest degree first, leading coefficient positive.
+    numerators : tuple of tuple of int
+        The n_i. All coefficients of h and of the n_i together have greatest common divisor 1.
+
+    Examples
+    --------
+    >>> golden = UnivariateRepresentation((1,), (-1, -1, 1), ((2, 1),))
+    >>> golden.degree
+    2
+    """
+
+    form: tuple[int, ...]
+    eliminant: tuple[int, ...]
+    numerators: tuple[tuple[int, ...], ...]
+
+    @property
+    def degree(self) -> int:
+        """Number of distinct solutions."""
+        return len(self.eliminant) - 1
+
+    @property
+    def bits(self) -> int:
+        """Size of the largest coefficient of h."""
+        return max(abs(value).bit_length() for value in self.eliminant)
+
+    @cached_property
+    def polynomial(self) -> fmpz_poly:
+        """h as a FLINT polynomial."""
+        return fmpz_poly(list(self.eliminant))
+
+    @cached_property
+    def primitive_polynomial(self) -> fmpz_poly:
+        """h divided by its content: what divides in Z[T] exactly if h divides in Q[T]."""
+        content = self.polynomial.content()
+        return fmpz_poly([value // content for value in self.polynomial.coeffs()])
+
+    @cached_property
+    def numerator_polynomials(self) -> tuple[fmpz_poly, ...]:
+        """The n_i as FLINT polynomials."""
+        return tuple(fmpz_poly(list(numerator)) for numerator in self.numerators)
+
+    def vanishes(self, value: fmpz_poly) -> bool:
+        """Whether a polynomial in T is 0 at every root of h (h squarefree)."""
+        return bool(divmod(value, self.primitive_polynomial)[1].is_zero())
+
+    @property
+    def is_separated(self) -> bool:
+        """Whether the form takes the value t at every root: then distinct roots are distinct solutions."""
+        combined = fmpz_poly([0, -1]) * self.polynomial.derivative()
+        for coefficient, numerator in zip(self.form, self.numerator_polynomials, strict=True):
+            combined += coefficient * numerator
+        return self.vanishes(combined)
+
+    @property
+    def is_squarefree(self) -> bool:
+        """Whether h has no multiple root."""
+        return are_coprime(self.primitive_polynomial, self.primitive_polynomial.derivative())
+
+
+def are_coprime(left: fmpz_poly, right: fmpz_poly) -> bool:
+    """Whether two integer polynomials have no common complex root.
+
+    Coprime images modulo a prime that does not divide the leading coefficient of ``left`` prove it; only if the images
+    have a factor in common is the greatest common divisor over Q computed.
+
+    Examples
+    --------
+    >>> are_coprime(fmpz_poly([-1, 0, 1]), fmpz_poly([2, 1])), are_coprime(fmpz_poly([-1, 0, 1]), fmpz_poly([1, 1]))
+    (True, False)
+    """
+    prime = next(prime for prime in primes_below(62) if int(left.leading_coefficient()) % prime)
+    images = [nmod_poly([int(value) % prime for value in polynomial.coeffs()], prime) for polynomial in (left, right)]
+    return int(images[0].gcd(images[1]).degree()) == 0 or int(left.gcd(right).degree()) == 0
+
+
+def from_common_fractions(
+    form: Sequence[int], eliminant: Sequence[int], denominator: int, numerators: Sequence[Sequence[int]], scale: int
+) -> UnivariateRepresentation:
+    """The representation with h = eliminant / denominator and n_i = numerators_i / scale, made jointly primitive."""
+    common = denominator * scale // gcd(denominator, scale)
+    h = [value * (common // denominator) for value in eliminant]
+    lists = [[value * (common // scale) for value in numerator] for numerator in numerators]
+    content = gcd(*h, *(value for numerator in lists for value in numerator))
+    return UnivariateRepresentation(
+        tuple(form),
+        tuple(value // content for value in h),
+        tuple(_trimmed([value // content for value in numerator]) for numerator in lists),
+    )
+
+
+def _trimmed(values: Sequence[int]) -> tuple[int, ...]:
+    size = len(values)
+    while size and not values[size - 1]:
+        size -= 1
+    return tuple(values[:size])
+
+
+def satisfies(representation: UnivariateRepresentation, system: PolynomialSystem) -> bool:
+    """Whether every polynomial of the system vanishes, exactly, at every solution of the representation."""
+    denominator = representation.polynomial.derivative()
+    evaluate = homogeneous_evaluator(representation.numerator_polynomials, denominator)
+    return all(representation.vanishes(evaluate(polynomial)) for polynomial in system.polynomials)
+
+
+def homogeneous_evaluator(numerators: Sequence[fmpz_poly], denominator: fmpz_poly) -> Callable[[fmpz_mpoly], fmpz_poly]:
+    """A function that gives denominator^deg(F) F(numerators / denominator); products are kept between calls."""
+    values: dict[tuple[int, ...], fmpz_poly] = {(0,) * len(numerators): fmpz_poly([1])}
+    powers = [fmpz_poly([1])]
+
+    def monomial(exponents: tuple[int, ...]) -> fmpz_poly:
+        if exponents not in values:
+            index = next(i for i, exponent in enumerate(exponents) if exponent)
+            smaller = (*exponents[:index], exponents[index] - 1, *exponents[index + 1 :])
+            values[exponents] = monomial(smaller) * numerators[index]
+        return values[exponents]
+
+    def evaluate(polynomial: fmpz_mpoly) -> fmpz_poly:
+        degree = int(polynomial.total_degree())
+        while len(powers) <= degree:
+            powers.append(powers[-1] * denominator)
+        by_degree = [fmpz_poly() for _ in range(degree + 1)]
+        for exponents, coefficient in polynomial.to_dict().items():
+            key = tuple(map(int, exponents))
+            by_degree[sum(key)] += coefficient * monomial(key)
+        total = fmpz_poly()
+        for low, part in enumerate(by_degree):
+            if part:
+                total += part * powers[degree - low]
+        return total
+
+    return evaluate

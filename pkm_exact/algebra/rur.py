@@ -1,0 +1,87 @@
+"""Rational univariate representations modulo a prime, from the trace form.
+
+For a separating form T with distinct values t_1..t_d on the zeros, and multiplicities m_i,
+
+    h(T) = prod (T - t_i),     g_x(T) = sum_i m_i x(i) prod_{j != i} (T - t_j),
+
+so that x(i) = g_x(t_i) / g_1(t_i) for every coordinate x (Rouillier, "Solving zero-dimensional systems through the
+rational univariate representation", AAECC 9, 1999). The g_x come from the traces of x T^k.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import nmod_mat, nmod_poly
+
+from pkm_exact.algebra.quotient import QuotientAlgebra
+
+
+@dataclass(frozen=True)
+class ModularRepresentation:
+    """A rational univariate representation modulo a prime.
+
+    Attributes
+    ----------
+    eliminant : nmod_poly
+        h, monic and squarefree.
+    denominator : nmod_poly
+        g_1, coprime to h.
+    numerators : tuple of nmod_poly
+        g_x for every coordinate x.
+    """
+
+    eliminant: nmod_poly
+    denominator: nmod_poly
+    numerators: tuple[nmod_poly, ...]
+
+    @property
+    def degree(self) -> int:
+        """Number of distinct solutions."""
+        return int(self.eliminant.degree())
+
+    @property
+    def is_simple(self) -> bool:
+        """Whether all solutions have the same multiplicity: g_1 is a constant times h'."""
+        derivative = self.eliminant.derivative()
+        scale = self.denominator.leading_coefficient() / derivative.leading_coefficient()
+        return bool(self.denominator == derivative * scale)
+
+    def shape(self) -> tuple[nmod_poly, ...]:
+        """The coordinates as polynomials in T modulo h: g_x / g_1."""
+        inverse = self.denominator.xgcd(self.eliminant)[1]
+        return tuple(numerator * inverse % self.eliminant for numerator in self.numerators)
+
+
+def squarefree_part(polynomial: nmod_poly) -> nmod_poly:
+    """Monic polynomial with the same zeros, each once (characteristic above the degree)."""
+    part = polynomial // polynomial.gcd(polynomial.derivative())
+    return part / part.leading_coefficient()
+
+
+def distinct_values(algebra: QuotientAlgebra, form: nmod_mat) -> int:
+    """Number of distinct values of an element on the zeros."""
+    return int(squarefree_part(algebra.matrix(form).charpoly()).degree())
+
+
+def modular_representation(
+    algebra: QuotientAlgebra, form: nmod_mat, coordinates: Sequence[nmod_mat]
+) -> ModularRepresentation:
+    """The representation of the given coordinates by the values of ``form``.
+
+    Whether ``form`` separates the zeros is for the caller to test, by the degree of the eliminant.
+    """
+    matrix = algebra.matrix(form)
+    eliminant = squarefree_part(matrix.charpoly())
+    degree = int(eliminant.degree())
+    weighted = [algebra.trace] + [algebra.matrix(coordinate) * algebra.trace for coordinate in coordinates]
+    powers = [algebra.one]
+    for _ in range(degree - 1):
+        powers.append(powers[-1] * matrix)
+    numerators = []
+    for column in weighted:
+        traces = [(power * column)[0, 0] for power in powers]
+        series = nmod_poly([int(value) for value in reversed(traces)], algebra.prime)
+        numerators.append((eliminant * series).right_shift(degree))
+    return ModularRepresentation(eliminant, numerators[0], tuple(numerators[1:]))
