@@ -1,0 +1,144 @@
+"""Displacement-based formulations: the unknowns are the position C and the rotation of the platform.
+
+Every leg gives |C + R B - A|^2 = l^2, that is (Rolland 2008, equations (4), (9), (12), (14), with the factor 2 that
+they lack, and l^2 for l)
+
+    |C|^2 + 2 C.(R B) - 2 A.C - 2 A.(R B) + |A|^2 + |B|^2 - l^2 = 0
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import fmpq
+
+from pkm_exact.formulations.base import (
+    Expression,
+    FormulatedProblem,
+    PoseMap,
+    cross,
+    dot,
+    matrix_vector,
+    over_integers,
+    rational,
+    rational_ring,
+)
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.rotation import quaternion_norm, quaternion_products, scaled_rotation
+
+POSITION_UNKNOWNS = ("c1", "c2", "c3")
+ROTATION_UNKNOWNS = tuple(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3))
+QUATERNION_UNKNOWNS = ("q0", "q1", "q2", "q3")
+
+
+def leg_equations(
+    problem: ForwardProblem, position: Sequence[Expression], rotation: Sequence[Sequence[Expression]]
+) -> list[Expression]:
+    """The six leg equations for a position and a rotation matrix given as polynomials."""
+    metric = [rational(g) for g in problem.metric]
+    square = dot(metric, position, position)
+    equations = []
+    for leg in problem.legs:
+        base = [rational(value) for value in leg.base]
+        platform = [rational(value) for value in leg.platform]
+        turned = matrix_vector(rotation, platform)
+        constant = dot(metric, base, base) + dot(metric, platform, platform) - rational(leg.length_squared)
+        equations.append(
+            square
+            + 2 * dot(metric, position, turned)
+            - 2 * dot(metric, position, base)
+            - 2 * dot(metric, turned, base)
+            + constant
+        )
+    return equations
+
+
+def rotation_equations(
+    rotation: Sequence[Sequence[Expression]], unit: Expression, metric: Sequence[fmpq]
+) -> list[Expression]:
+    """Quadrics whose span is the degree-2 part of the ideal of rotations, homogenised by ``unit``.
+
+    R^T G R = h^2 G, R G^-1 R^T = h^2 G^-1 and h cof(R) = G R G^-1 h: 21 equations of rank 20.
+    """
+    columns = [[rotation[i][j] for i in range(3)] for j in range(3)]
+    inverse = [1 / g for g in metric]
+    equations = []
+    for i in range(3):
+        for j in range(i, 3):
+            equations.append(dot(metric, columns[i], columns[j]) - (metric[i] * unit**2 if i == j else 0))
+            equations.append(dot(inverse, rotation[i], rotation[j]) - (inverse[i] * unit**2 if i == j else 0))
+    for j in range(3):
+        cofactors = cross(columns[(j + 1) % 3], columns[(j + 2) % 3])
+        equations += [cofactors[i] - metric[i] * inverse[j] * (unit * rotation[i][j]) for i in range(3)]
+    return equations
+
+
+@dataclass(frozen=True)
+class AFD4:
+    """Rotation matrix with a Groebner basis of SO(3).
+
+    Unknowns C and r_ij. Equations: 6 legs and the 20 quadrics of the reduced degree reverse lexicographic Groebner
+    basis of {R R^T = I, R^T R = I, R = cof R}; they do not depend on the robot. 40 solutions, one for each pose.
+    Source: Rolland 2008, section 4.1.4 (which counts 24 equations; the reduced basis has 20).
+    """
+
+    code: str = "AFD4"
+    title: str = "position and rotation matrix, Groebner basis of SO(3)"
+
+    def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
+        """The problem in the unknowns c1..c3, r11..r33."""
+        unknowns = POSITION_UNKNOWNS + ROTATION_UNKNOWNS
+        context, generators = rational_ring(unknowns)
+        position = generators[:3]
+        rotation = [list(generators[3 + 3 * i : 6 + 3 * i]) for i in range(3)]
+        metric = [rational(g) for g in problem.metric]
+        unit = context.constant(1)
+        equations = leg_equations(problem, position, rotation) + reduced(rotation_equations(rotation, unit, metric))
+        products = quaternion_products(rotation, unit, metric)
+        pose_map = PoseMap(tuple(map(tuple, products)), tuple(position))
+        return FormulatedProblem(self.code, over_integers(unknowns, equations), pose_map, fibre=1)
+
+
+@dataclass(frozen=True)
+class AFD5:
+    """Unit quaternions.
+
+    Unknowns C and q_0..q_3. Equations: 6 legs with R(q) and N(q) = 1. Each pose is met twice, as q and -q: 80
+    solutions.
+    Source: Rolland 2008, section 4.1.5.
+    """
+
+    code: str = "AFD5"
+    title: str = "position and unit quaternion"
+
+    def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
+        """The problem in the unknowns c1..c3, q0..q3."""
+        unknowns = POSITION_UNKNOWNS + QUATERNION_UNKNOWNS
+        _, generators = rational_ring(unknowns)
+        position, quaternion = generators[:3], generators[3:]
+        metric = [rational(g) for g in problem.metric]
+        products = [[left * right for right in quaternion] for left in quaternion]
+        equations = leg_equations(problem, position, scaled_rotation(products, metric))
+        equations.append(quaternion_norm(products, metric) - 1)
+        pose_map = PoseMap(tuple(map(tuple, products)), tuple(position))
+        return FormulatedProblem(self.code, over_integers(unknowns, equations), pose_map, fibre=2)
+
+
+def reduced(polynomials: Sequence[Expression]) -> list[Expression]:
+    """Reduced row echelon form of polynomials with respect to their monomials: a basis of their span."""
+    from flint import fmpq_mat
+
+    context = polynomials[0].context()
+    terms = [polynomial.to_dict() for polynomial in polynomials]
+    order = {exponents: context.from_dict({exponents: 1}) for row in terms for exponents in row}
+    columns = sorted(
+        order, key=lambda exponents: (sum(exponents), [-value for value in reversed(exponents)]), reverse=True
+    )
+    matrix = fmpq_mat(len(terms), len(columns), [row.get(column, 0) for row in terms for column in columns])
+    echelon, rank = matrix.rref()
+    table = echelon.table()
+    return [
+        context.from_dict({column: value for column, value in zip(columns, table[row], strict=True) if value})
+        for row in range(rank)
+    ]

@@ -1,0 +1,113 @@
+"""The formulation on the projective variety of rigid motions, where every leg equation is linear.
+
+In the 17 homogeneous coordinates (h : R : C : u : s), u = R^T C and s = |C|^2, rigid motions form a variety X of
+dimension 6 and degree 40 in P^16, cut out by 37 quadrics (Gallet, Nawratil and Schicho, "Bond theory for pentapods and
+hexapods", J. Geometry 106, 2015). A leg is a hyperplane:
+
+    (|A|^2 + |B|^2 - l^2) h + s - 2 A.C + 2 B.u - 2 A^T R B = 0
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from flint import fmpq, fmpq_mat
+
+from pkm_exact.formulations.base import (
+    Expression,
+    FormulatedProblem,
+    PoseMap,
+    cross,
+    dot,
+    matrix_vector,
+    over_integers,
+    rational,
+    rational_ring,
+)
+from pkm_exact.formulations.displacement import rotation_equations
+from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.geometry.rotation import quaternion_products
+
+# Solved for from left to right: the translation first, so that R and s remain where the robot allows it.
+MOTION_COORDINATES = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
+
+
+def leg_hyperplane(leg: Leg, metric: Sequence[fmpq]) -> list[fmpq]:
+    """Coefficients of a leg's linear form on ``MOTION_COORDINATES`` and, last, on h.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> origin = (Fraction(0),) * 3
+    >>> leg_hyperplane(Leg(origin, origin, Fraction(4)), [fmpq(1)] * 3)[6::10]
+    [1, -4]
+    """
+    base = [rational(value) for value in leg.base]
+    platform = [rational(value) for value in leg.platform]
+    constant = dot(metric, base, base) + dot(metric, platform, platform) - rational(leg.length_squared)
+    form = [2 * g * b for g, b in zip(metric, platform, strict=True)]
+    form += [-2 * g * a for g, a in zip(metric, base, strict=True)]
+    form.append(fmpq(1))
+    form += [-2 * metric[i] * base[i] * platform[j] for i in range(3) for j in range(3)]
+    return [*form, constant]
+
+
+def motion_quadrics(coordinates: Sequence[Expression], unit: Expression, metric: Sequence[fmpq]) -> list[Expression]:
+    """The quadrics of X at coordinates in the order of ``MOTION_COORDINATES``; 38 of rank 37.
+
+    With a Gram matrix G: G u h = R^T G C, C.C = u.u = s h, and C x (R e_j) = G R G^-1 (u x e_j).
+    """
+    turned, position, square = coordinates[0:3], coordinates[3:6], coordinates[6]
+    rotation = [coordinates[7 + 3 * i : 10 + 3 * i] for i in range(3)]
+    columns = [[rotation[i][j] for i in range(3)] for j in range(3)]
+    equations = rotation_equations(rotation, unit, metric)
+    equations += [value - unit * c for value, c in zip(matrix_vector(rotation, turned), position, strict=True)]
+    equations += [dot(metric, columns[j], position) - metric[j] * (unit * turned[j]) for j in range(3)]
+    equations += [dot(metric, vector, vector) - square * unit for vector in (position, turned)]
+    for j in range(3):
+        axis = [fmpq(int(i == j)) for i in range(3)]
+        right = [value * (1 / g) for value, g in zip(cross(turned, axis), metric, strict=True)]
+        image = [g * value for value, g in zip(matrix_vector(rotation, right), metric, strict=True)]
+        equations += [a - b for a, b in zip(cross(position, columns[j]), image, strict=True)]
+    return equations
+
+
+@dataclass(frozen=True)
+class SE3:
+    """The motion variety cut by six hyperplanes: 37 quadrics in 10 unknowns.
+
+    The six legs are solved for six of the sixteen affine coordinates (which six depends on the robot; a planar one
+    cannot give C and u), and the solution is substituted into the quadrics of X. 40 solutions on a general robot, one
+    for each pose, and every intermediate degree is as on X: no degree falls.
+    """
+
+    code: str = "SE3"
+    title: str = "linear section of the variety of rigid motions"
+
+    def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
+        """The problem in those of ``MOTION_COORDINATES`` that the legs leave free."""
+        metric = [rational(g) for g in problem.metric]
+        echelon, rank = fmpq_mat([leg_hyperplane(leg, metric) for leg in problem.legs]).rref()
+        size = len(MOTION_COORDINATES)
+        pivots = [next(j for j in range(size + 1) if echelon[row, j] != 0) for row in range(rank)]
+        free = [j for j in range(size) if j not in pivots]
+        unknowns = tuple(MOTION_COORDINATES[j] for j in free)
+        context, generators = rational_ring(unknowns)
+        unit = context.constant(1)
+        coordinates: list[Expression] = [unit] * size
+        for j, generator in zip(free, generators, strict=True):
+            coordinates[j] = generator
+        for row, pivot in enumerate(pivots):
+            value = -echelon[row, size] * unit
+            for j, generator in zip(free, generators, strict=True):
+                value -= echelon[row, j] * generator
+            if pivot < size:
+                coordinates[pivot] = value
+        equations = motion_quadrics(coordinates, unit, metric)
+        if size in pivots:
+            equations.append(unit)  # the legs force h = 0: no finite pose
+        rotation = [coordinates[7 + 3 * i : 10 + 3 * i] for i in range(3)]
+        products = quaternion_products(rotation, unit, metric)
+        pose_map = PoseMap(tuple(map(tuple, products)), tuple(coordinates[3:6]))
+        return FormulatedProblem(self.code, over_integers(unknowns, equations), pose_map, fibre=1)
