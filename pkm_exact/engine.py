@@ -1,0 +1,258 @@
+"""The exact engine: from a robot with given leg lengths to all its poses, each step in the order of the pipeline."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import islice
+from time import perf_counter
+
+from pkm_exact.algebra.elimination import Elimination, ModularImage
+from pkm_exact.algebra.groebner import UnluckyPrimeError
+from pkm_exact.algebra.lifting import lift_by_newton, lift_by_primes
+from pkm_exact.algebra.rur import ModularRepresentation
+from pkm_exact.errors import InternalContradictionError
+from pkm_exact.formulations.base import FormulatedProblem
+from pkm_exact.formulations.registry import formulation as formulation_of
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.policy import Policy
+from pkm_exact.poses.boxes import exponent_for_width, pose_boxes
+from pkm_exact.poses.completeness import MOTION_DEGREE, proved_route
+from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms
+from pkm_exact.poses.representation import PoseRepresentation, pose_representation
+from pkm_exact.poses.study_equations import Chart, StudyEquations, free_coordinates
+from pkm_exact.solution import Solution, Statistics
+from pkm_exact.verdict import Claim
+
+DEFAULT_WIDTH = Fraction(1, 10**9)
+
+
+def solve(
+    problem: ForwardProblem,
+    *,
+    formulation: str = "SE3",
+    width: Fraction = DEFAULT_WIDTH,
+    policy: Policy | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> Solution:
+    """All real poses of a robot whose leg lengths are given, each in a box, and what is proved about the list.
+
+    Parameters
+    ----------
+    problem : ForwardProblem
+        Exact geometry and squared leg lengths.
+    formulation : str
+        Code of the formulation whose Groebner basis is used.
+    width : Fraction
+        Largest width of a box, in every coordinate (unit of length, or 1 for rotations).
+    policy : Policy, optional
+        Limits and random choices.
+    progress : callable, optional
+        Gets one line when a stage starts.
+
+    Raises
+    ------
+    InputError
+        If the formulation is unknown or does not apply to the robot.
+    OutOfReachError, ReconstructionError
+        If a limit of the policy is met.
+    InternalContradictionError
+        If a step contradicts another; no answer is given.
+    """
+    run = _Run(problem, formulation, policy or Policy(), progress)
+    return run.solution(width)
+
+
+@dataclass
+class _Run:
+    """One solve: its stages, and what they cost."""
+
+    problem: ForwardProblem
+    code: str
+    policy: Policy
+    progress: Callable[[str], None] | None
+    retries: int = 0
+    seconds: dict[str, float] = field(default_factory=dict)
+    _stage: tuple[str, float] | None = None
+
+    def solution(self, width: Fraction) -> Solution:
+        self._enter("formulation")
+        formulated = formulation_of(self.code).formulate(self.problem)
+        elimination = Elimination(formulated.system, self.policy)
+        self._enter("Groebner basis")
+        image = self._confirmed_image(elimination)
+        exponent = exponent_for_width(width)
+        if image.algebra is None:
+            note = (
+                "the solutions form a set of positive dimension at two primes: the robot can move with its legs "
+                "locked, or solutions run together at infinity"
+            )
+            return self._result(elimination, image, Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note)
+        if image.dimension == 0:
+            note = "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
+            return self._result(elimination, image, Claim.NOT_PROVEN_COMPLETE, exponent, note)
+        representation = self._representation(formulated, elimination, image)
+        self._enter("completeness")
+        route = proved_route(representation, self.problem, self.policy)
+        self._enter("real roots and boxes")
+        exponent, poses = pose_boxes(representation, self.problem.metric, width)
+        self._leave()
+        count = image.algebra.dimension // formulated.fibre
+        notes = () if route else (_open_question(count, representation.univariate.degree),)
+        claim = Claim.COMPLETE if route else Claim.NOT_PROVEN_COMPLETE
+        return Solution(
+            self.problem,
+            self.code,
+            "exact",
+            claim,
+            route,
+            count,
+            representation.univariate.degree,
+            representation,
+            exponent,
+            poses,
+            notes,
+            self._statistics(elimination, image),
+        )
+
+    def _confirmed_image(self, elimination: Elimination) -> ModularImage:
+        """The image at the first prime, or, if it has no solution or infinitely many, at one of two that agree."""
+        image = elimination.image()
+        for _ in range(self.policy.attempts):
+            if image.dimension:
+                return image
+            second = elimination.image()
+            if second.dimension == image.dimension:
+                return image
+            self.retries += 1
+            image = second
+        raise InternalContradictionError("the number of solutions differs from prime to prime")
+
+    def _representation(
+        self, formulated: FormulatedProblem, elimination: Elimination, image: ModularImage
+    ) -> PoseRepresentation:
+        """The verified representation of all poses over Q."""
+        for attempt in range(self.policy.attempts):
+            self._enter("separating form")
+            algebra = image.algebra
+            poses = ModularPoses(formulated, algebra, self.problem.metric) if algebra is not None else None
+            chosen = _choose_parameters(poses, self.policy) if poses is not None else None
+            if chosen is not None:
+                lifted = self._lifted(formulated, elimination, chosen, attempt)
+                self._enter("verification")
+                if lifted is not None and lifted.is_verified(self.problem):
+                    return lifted
+            self.retries += 1
+            self._enter("Groebner basis")
+            image = self._confirmed_image(elimination)
+        raise InternalContradictionError(
+            f"no representation of the poses passed verification in {self.policy.attempts} attempts"
+        )
+
+    def _lifted(
+        self, formulated: FormulatedProblem, elimination: Elimination, chosen: _Parameters, attempt: int
+    ) -> PoseRepresentation | None:
+        equations = StudyEquations(self.problem, chosen.chart, self.policy.seed + attempt)
+        form = [chosen.form[k] for k in free_coordinates(chosen.chart)]
+        multimodular = self.policy.lifting == "multimodular" or not chosen.modular.is_simple
+        self._enter("lifting by primes" if multimodular else "p-adic lifting")
+        try:
+            if multimodular:
+                images = _further_images(formulated, elimination, chosen, self.problem.metric)
+                univariate = lift_by_primes(form, images, self.policy.lifting_bits)
+            else:
+                univariate = lift_by_newton(equations, form, chosen.modular, self.policy.lifting_bits)
+        except UnluckyPrimeError:
+            return None
+        return pose_representation(chosen.chart, univariate)
+
+    def _result(
+        self, elimination: Elimination, image: ModularImage, claim: Claim, exponent: int, note: str
+    ) -> Solution:
+        self._leave()
+        return Solution(
+            self.problem,
+            self.code,
+            "exact",
+            claim,
+            None,
+            0,
+            0,
+            None,
+            exponent,
+            (),
+            (note,),
+            self._statistics(elimination, image),
+        )
+
+    def _statistics(self, elimination: Elimination, image: ModularImage) -> Statistics:
+        return Statistics(
+            tuple(elimination.primes_used),
+            tuple(elimination.primes_unlucky),
+            self.retries,
+            len(image.basis.elements),
+            image.dimension,
+            dict(self.seconds),
+        )
+
+    def _enter(self, stage: str) -> None:
+        self._leave()
+        self._stage = (stage, perf_counter())
+        if self.progress is not None:
+            self.progress(stage)
+
+    def _leave(self) -> None:
+        if self._stage is not None:
+            stage, start = self._stage
+            self.seconds[stage] = self.seconds.get(stage, 0.0) + perf_counter() - start
+            self._stage = None
+
+
+@dataclass(frozen=True)
+class _Parameters:
+    """A chart that holds all poses, a form that separates them, and the representation modulo the first prime."""
+
+    chart: Chart
+    form: Form
+    modular: ModularRepresentation
+
+
+def _choose_parameters(poses: ModularPoses, policy: Policy) -> _Parameters | None:
+    """The first chart that misses no pose, and the first form that takes as many values as there are poses."""
+    for chart in islice(candidate_charts(policy.seed), policy.attempts):
+        coordinates = poses.coordinates(chart)
+        if coordinates is None:
+            continue
+        count = poses.distinct_poses(coordinates, policy.seed)
+        for form in islice(candidate_forms(chart, policy.seed), policy.attempts):
+            modular = poses.representation(coordinates, form, free_coordinates(chart))
+            if modular.degree == count:
+                return _Parameters(chart, form, modular)
+    return None
+
+
+def _further_images(
+    formulated: FormulatedProblem, elimination: Elimination, chosen: _Parameters, metric: tuple[int, int, int]
+) -> Iterator[ModularRepresentation]:
+    """The representation in the chosen chart and form at one prime after another."""
+    while True:
+        image = elimination.following()
+        if image.algebra is None:
+            continue
+        poses = ModularPoses(formulated, image.algebra, metric)
+        coordinates = poses.coordinates(chosen.chart)
+        if coordinates is not None:
+            yield poses.representation(coordinates, chosen.form, free_coordinates(chosen.chart))
+
+
+def _open_question(count: int, distinct: int) -> str:
+    if distinct < count:
+        return (
+            f"{count} complex solutions with multiplicity, {distinct} distinct; multiple ones are not certified as "
+            "such, and that there is no other is not proved"
+        )
+    return (
+        f"{count} of the at most {MOTION_DEGREE} solutions are finite; each one listed is certified, but that no "
+        "other is finite is not proved"
+    )

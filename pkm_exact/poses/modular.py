@@ -1,0 +1,120 @@
+"""The poses of a formulated problem modulo a prime, as elements of its quotient algebra."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from random import Random
+
+from flint import fmpq_mpoly, nmod_mat
+
+from pkm_exact.algebra.quotient import QuotientAlgebra
+from pkm_exact.algebra.rur import ModularRepresentation, distinct_values, modular_representation
+from pkm_exact.algebra.system import modular_image
+from pkm_exact.formulations.base import FormulatedProblem, integer_multiple
+from pkm_exact.geometry.study import translation_coordinates
+from pkm_exact.poses.study_equations import Chart, dependent_coordinate
+
+Form = tuple[int, ...]
+"""Coefficients of a linear form on the Study coordinates (e0, .., e3, f0, .., f3)."""
+
+
+@dataclass(frozen=True)
+class ModularPoses:
+    """Study coordinates in the quotient algebra of a formulation, modulo one prime."""
+
+    formulated: FormulatedProblem
+    algebra: QuotientAlgebra
+    metric: tuple[int, int, int]
+
+    @cached_property
+    def position(self) -> tuple[nmod_mat, ...]:
+        """The three elements C_i."""
+        return tuple(self._element(value) for value in self.formulated.pose_map.position)
+
+    @cached_property
+    def _products(self) -> tuple[tuple[nmod_mat, ...], ...]:
+        products = self.formulated.pose_map.quaternion_products
+        elements = {(k, m): self._element(products[k][m]) for k in range(4) for m in range(k, 4)}
+        return tuple(tuple(elements[min(k, m), max(k, m)] for m in range(4)) for k in range(4))
+
+    def quaternion(self, chart: Chart) -> tuple[nmod_mat, ...] | None:
+        """The four elements e_k with w.e = 1, or None if some pose has w.e = 0 modulo the prime."""
+        scaled = [_combination(chart, [row[k] for row in self._products]) for k in range(4)]
+        denominator = self.algebra.matrix(_combination(chart, scaled))
+        if denominator.rank() < self.algebra.dimension:
+            return None
+        inverse = denominator.inv()
+        return tuple(value * inverse for value in scaled)
+
+    def coordinates(self, chart: Chart) -> tuple[nmod_mat, ...] | None:
+        """(e0, .., e3, f0, .., f3) in a chart, or None if the chart misses a pose."""
+        quaternion = self.quaternion(chart)
+        if quaternion is None:
+            return None
+        products = [[value * matrix for value in quaternion] for matrix in map(self.algebra.matrix, self.position)]
+        return (*quaternion, *translation_coordinates(products, self.metric))
+
+    def distinct_poses(self, coordinates: Sequence[nmod_mat], seed: int) -> int:
+        """Number of distinct poses: the values of a random combination of all coordinates."""
+        random = Random(seed)
+        weights = [random.randrange(1, self.algebra.prime) for _ in coordinates]
+        return distinct_values(self.algebra, _combination(weights, coordinates))
+
+    def representation(
+        self, coordinates: Sequence[nmod_mat], form: Form, wanted: Sequence[int]
+    ) -> ModularRepresentation:
+        """The representation of the wanted coordinates by the values of a form."""
+        return modular_representation(
+            self.algebra, _combination(form, coordinates), [coordinates[index] for index in wanted]
+        )
+
+    def _element(self, polynomial: fmpq_mpoly) -> nmod_mat:
+        unknowns, ring = self.formulated.system.unknowns, self.formulated.system.monomials
+        prime = self.algebra.prime
+        cleared, denominator = integer_multiple(unknowns, polynomial)
+        return self.algebra.element(modular_image(cleared, ring, prime)) * pow(denominator, -1, prime)
+
+
+def candidate_charts(seed: int) -> Iterator[Chart]:
+    """Charts to try: the coordinate ones, then random ones. The last non-zero weight is 1.
+
+    Examples
+    --------
+    >>> from itertools import islice
+    >>> list(islice(candidate_charts(0), 4))
+    [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)]
+    """
+    yield from ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))
+    random = Random(seed)
+    while True:
+        yield random.randrange(-9, 10), random.randrange(-9, 10), random.randrange(-9, 10), 1
+
+
+def candidate_forms(chart: Chart, seed: int) -> Iterator[Form]:
+    """Separating forms to try: quaternion coordinates, which give the shortest eliminants, then random combinations.
+
+    The coordinate that the chart determines gets coefficient 0.
+    """
+    free = [k for k in range(4) if k != dependent_coordinate(chart)]
+    for k in reversed(free):
+        yield tuple(int(index == k) for index in range(8))
+    random = Random(seed)
+    size = 3
+    while True:
+        for indices in (free, [*free, 4, 5, 6, 7]):
+            form = [0] * 8
+            for index in indices:
+                form[index] = random.randrange(-size, size + 1)
+            if any(form):
+                yield tuple(form)
+        size += 2
+
+
+def _combination(scalars: Sequence[int], values: Sequence[nmod_mat]) -> nmod_mat:
+    total = values[0] * scalars[0]
+    for scalar, value in zip(scalars[1:], values[1:], strict=True):
+        if scalar:
+            total += value * scalar
+    return total

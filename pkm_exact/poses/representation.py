@@ -1,0 +1,85 @@
+"""The univariate representation of the poses of a robot, and its exact verification."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from flint import fmpz_poly
+
+from pkm_exact.algebra.representation import UnivariateRepresentation, are_coprime
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import STUDY_CONDITION, evaluate, leg_quadric, motion_quadrics
+from pkm_exact.poses.study_equations import Chart, dependent_coordinate
+
+
+@dataclass(frozen=True)
+class PoseRepresentation:
+    """All complex poses: (e, f) = (E(t), F(t)) / h'(t) at the roots t of h, with w.e = 1.
+
+    Attributes
+    ----------
+    chart : tuple of 4 int
+        w.
+    univariate : UnivariateRepresentation
+        On the Study coordinates (e0, e1, e2, e3, f0, f1, f2, f3) of ``geometry.study``.
+    """
+
+    chart: Chart
+    univariate: UnivariateRepresentation
+
+    @property
+    def separating_form(self) -> tuple[int, ...]:
+        """Coefficients of t on (e0, .., e3, f0, .., f3)."""
+        return self.univariate.form
+
+    @property
+    def eliminant(self) -> tuple[int, ...]:
+        """Coefficients of h, lowest degree first."""
+        return self.univariate.eliminant
+
+    @property
+    def quaternion(self) -> tuple[tuple[int, ...], ...]:
+        """Coefficients of E_0..E_3, lowest degree first."""
+        return self.univariate.numerators[:4]
+
+    @property
+    def translation(self) -> tuple[tuple[int, ...], ...]:
+        """Coefficients of F_0..F_3, lowest degree first."""
+        return self.univariate.numerators[4:]
+
+    @cached_property
+    def denominator(self) -> fmpz_poly:
+        """h'."""
+        return self.univariate.polynomial.derivative()
+
+    def is_verified(self, problem: ForwardProblem) -> bool:
+        """Whether, exactly over Q, every root of h is a pose of the robot and distinct roots are distinct poses."""
+        x = self.univariate.numerator_polynomials
+        chart_value = fmpz_poly()
+        for weight, numerator in zip(self.chart, x[:4], strict=True):
+            chart_value += weight * numerator
+        if chart_value != self.denominator:
+            return False
+        if not (self.univariate.is_squarefree and self.univariate.is_separated):
+            return False
+        products = [[left * right if m >= k else left for m, right in enumerate(x)] for k, left in enumerate(x)]
+        norm = evaluate(motion_quadrics(problem.metric)[-1], products)
+        quadrics = [STUDY_CONDITION, *(leg_quadric(leg, problem.metric) for leg in problem.legs)]
+        return are_coprime(self.univariate.primitive_polynomial, norm) and all(
+            self.univariate.vanishes(evaluate(quadric, products)) for quadric in quadrics
+        )
+
+
+def pose_representation(chart: Chart, lifted: UnivariateRepresentation) -> PoseRepresentation:
+    """All eight coordinates from the seven that were lifted: w.e = 1 gives the remaining one, whose weight is 1."""
+    dependent = dependent_coordinate(chart)
+    weights = [weight for k, weight in enumerate(chart) if k != dependent]
+    value = lifted.polynomial.derivative()
+    for weight, numerator in zip(weights, lifted.numerator_polynomials[:3], strict=True):
+        value -= weight * numerator
+    numerators = list(lifted.numerators)
+    numerators.insert(dependent, tuple(int(coefficient) for coefficient in value.coeffs()))
+    form = list(lifted.form)
+    form.insert(dependent, 0)
+    return PoseRepresentation(chart, UnivariateRepresentation(tuple(form), lifted.eliminant, tuple(numerators)))

@@ -1,0 +1,117 @@
+"""Isolating intervals of the real roots of an integer polynomial, on a dyadic grid.
+
+FLINT encloses all complex roots of a squarefree integer polynomial rigorously and tells the real ones (a real root
+comes back with imaginary part exactly 0). From the enclosures the grid cell of each root is decided exactly, so that
+the intervals depend on the polynomial alone, not on a precision.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import cast
+
+from flint import acb, arb, ctx, fmpq, fmpz, fmpz_poly
+
+from pkm_exact.errors import InternalContradictionError
+
+COARSEST_EXPONENT = 32
+"""Intervals are at most 2^-32 wide."""
+
+
+@dataclass(frozen=True)
+class RealRoot:
+    """The cell [cell, cell + 1] / 2^exponent of a real root, or the root itself if ``is_exact`` (cell / 2^exponent)."""
+
+    cell: int
+    exponent: int
+    is_exact: bool
+
+    @property
+    def lo(self) -> Fraction:
+        """Lower end."""
+        return Fraction(self.cell, 1 << self.exponent)
+
+    @property
+    def hi(self) -> Fraction:
+        """Upper end."""
+        return Fraction(self.cell + (not self.is_exact), 1 << self.exponent)
+
+
+def real_root_enclosures(polynomial: fmpz_poly, precision: int) -> list[arb]:
+    """One ball around each real root of a squarefree polynomial, increasing, with about ``precision`` accurate bits."""
+    with ctx.workprec(precision):
+        pairs = cast("list[tuple[acb, int]]", polynomial.complex_roots())
+        roots = [root.real for root, _ in pairs if root.imag == 0]
+    return sorted(roots, key=lambda ball: _midpoint(ball))
+
+
+def isolate_real_roots(polynomial: fmpz_poly) -> tuple[RealRoot, ...]:
+    """The real roots of a squarefree polynomial, increasing, in cells of the coarsest grid that separates them.
+
+    Examples
+    --------
+    >>> [(root.lo, root.hi) for root in isolate_real_roots(fmpz_poly([0, -1, 4]))]
+    [(Fraction(0, 1), Fraction(0, 1)), (Fraction(1, 4), Fraction(1, 4))]
+    """
+    precision = 256
+    exponent = COARSEST_EXPONENT
+    enclosures = real_root_enclosures(polynomial, precision)
+    while True:
+        cells = [_cell(polynomial, ball, exponent) for ball in enclosures]
+        if None in cells:
+            precision *= 2
+            enclosures = real_root_enclosures(polynomial, precision)
+            continue
+        roots = tuple(RealRoot(cell[0], exponent, cell[1]) for cell in cells if cell is not None)
+        if all(
+            left.hi < right.lo or (left.hi == right.lo and not (left.is_exact or right.is_exact))
+            for left, right in pairwise(roots)
+        ):
+            break
+        exponent += 1
+    for root in roots:
+        if not _is_isolating(polynomial, root):
+            raise InternalContradictionError("an enclosure of a real root is not confirmed by a change of sign")
+    return roots
+
+
+def _cell(polynomial: fmpz_poly, ball: arb, exponent: int) -> tuple[int, bool] | None:
+    """Cell of the root and whether it is the cell's lower end exactly; None if the ball is too wide to tell."""
+    low, high = _scaled_ends(ball, exponent)
+    first, last = low.__floor__(), high.__floor__()
+    if last - first > 1:
+        return None
+    for candidate in {first, last}:
+        if low <= candidate <= high and polynomial(fmpq(candidate, fmpz(1) << exponent)) == 0:
+            return candidate, True
+    return (first, False) if first == last else None
+
+
+def _scaled_ends(ball: arb, exponent: int) -> tuple[Fraction, Fraction]:
+    """Exact ends of a ball, times 2^exponent."""
+    middle = _midpoint(ball)
+    mantissa, power = ball.rad().man_exp()
+    radius = Fraction(int(mantissa)) * Fraction(2) ** int(power)
+    scale = 1 << exponent
+    return (middle - radius) * scale, (middle + radius) * scale
+
+
+def _midpoint(ball: arb) -> Fraction:
+    mantissa, power = ball.mid().man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(power)
+
+
+def _is_isolating(polynomial: fmpz_poly, root: RealRoot) -> bool:
+    values = [polynomial(fmpq(end.numerator, end.denominator)) for end in (root.lo, root.hi)]
+    return values[0] == 0 if root.is_exact else values[0] * values[1] < 0
+
+
+def narrow(polynomial: fmpz_poly, roots: Sequence[RealRoot], precision: int) -> list[arb]:
+    """Balls around the given isolated roots, at a higher precision."""
+    enclosures = real_root_enclosures(polynomial, precision)
+    if len(enclosures) != len(roots):
+        raise InternalContradictionError("the number of real roots changed with the precision")
+    return enclosures

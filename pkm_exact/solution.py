@@ -1,0 +1,91 @@
+"""What a solve returns: all real poses in boxes, and what is proved about them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.poses.pose import Pose
+from pkm_exact.verdict import Claim, CompletenessRoute
+
+if TYPE_CHECKING:
+    from pkm_exact.poses.representation import PoseRepresentation
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """How a solve went; nothing here enters a certificate.
+
+    Attributes
+    ----------
+    primes : tuple of int
+        Primes at which the system was eliminated.
+    unlucky_primes : tuple of int
+        Primes at which the elimination took another course and that were dropped.
+    retries : int
+        Random choices that failed and were made again.
+    basis_size : int
+        Elements of the Groebner basis.
+    quotient_dimension : int or None
+        Solutions of the formulation with multiplicity, modulo the first prime; None if infinite.
+    seconds : dict of str to float
+        Time of each stage.
+    """
+
+    primes: tuple[int, ...] = ()
+    unlucky_primes: tuple[int, ...] = ()
+    retries: int = 0
+    basis_size: int = 0
+    quotient_dimension: int | None = None
+    seconds: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """All poses of a robot with given leg lengths, as far as proved.
+
+    Attributes
+    ----------
+    problem : ForwardProblem
+    formulation : str
+        Code of the formulation whose Groebner basis was used.
+    method : str
+        "exact".
+    claim : Claim
+        What is proved about the list of poses.
+    completeness_route : CompletenessRoute or None
+        The argument, if the claim is completeness.
+    complex_solutions : int
+        Finite complex poses with multiplicity. A count modulo a prime unless the claim is completeness.
+    distinct_solutions : int
+        Distinct complex poses in the representation, each verified over Q.
+    representation : PoseRepresentation or None
+        The univariate representation of all of them.
+    box_exponent : int
+        Boxes lie on the grid of spacing 2^-box_exponent.
+    poses : tuple of Pose
+        The real poses, increasing in the parameter.
+    notes : tuple of str
+        What else the user should know.
+    statistics : Statistics
+    """
+
+    problem: ForwardProblem
+    formulation: str
+    method: str
+    claim: Claim
+    completeness_route: CompletenessRoute | None
+    complex_solutions: int
+    distinct_solutions: int
+    representation: PoseRepresentation | None
+    box_exponent: int
+    poses: tuple[Pose, ...]
+    notes: tuple[str, ...] = ()
+    statistics: Statistics = field(default_factory=Statistics, repr=False, compare=False)
+
+    def __str__(self) -> str:
+        return (
+            f"{self.complex_solutions} complex solutions, {len(self.poses)} real poses; "
+            f"{self.claim.value.replace('-', ' ')}"
+        )
