@@ -1,0 +1,195 @@
+"""The commands ``solve`` and ``check``. Everything heavy is imported inside a command, so that ``--help`` is quick."""
+
+from __future__ import annotations
+
+import sys
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import click
+
+import pkm_exact
+from pkm_exact.cli.main import ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.formulations.registry import formulation_codes
+from pkm_exact.wording import printable, shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.problem import ForwardProblem
+    from pkm_exact.geometry.robot import Configuration, Robot
+
+MAX_CERTIFICATE_BYTES: Final = 64 << 20
+SMALLEST_WIDTH: Final = Fraction(1, 2**4096)
+
+
+def _width(context: click.Context, _option: click.Parameter, value: str) -> Fraction:
+    """The number that --width denotes."""
+    width = _number(context, value, "--width")
+    if not SMALLEST_WIDTH <= width <= 1:
+        raise click.UsageError(f"--width: {shown(value)} is out of range, give a number from 2^-4096 to 1.", context)
+    return width
+
+
+def _lengths(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[Fraction, ...] | None:
+    """The six numbers that --lengths denotes."""
+    if value is None:
+        return None
+    words = value.split(",")
+    if len(words) != 6:
+        raise click.UsageError(f"--lengths: {len(words)} given, six are needed between commas.", context)
+    return tuple(_number(context, word.strip(), f"--lengths, number {i}") for i, word in enumerate(words, 1))
+
+
+def _number(context: click.Context, text: str, where: str) -> Fraction:
+    from pkm_exact.geometry.rational import NumberText, parse_positive
+
+    try:
+        return parse_positive(text if "/" in text else NumberText(text), where)
+    except InputError as error:
+        raise click.UsageError(str(error), context) from None
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(pkm_exact.__version__, message="%(prog)s %(version)s")
+def certify_poses() -> None:
+    """Find every pose of a parallel robot exactly, and certify it.
+
+    Exit codes: 0 done and complete, or accepted; 1 a certificate was rejected; 2 bad input or usage; 3 done, but the
+    claim is weaker than complete; 4 no answer.
+    """
+
+
+@certify_poses.command(short_help="All real poses of a robot, and a certificate.")
+@click.argument("model", type=click.Path())
+@click.option("--configuration", metavar="NAME", help="Configuration of the model file.  [default: the first one]")
+@click.option(
+    "--lengths", callback=_lengths, metavar="L1,..,L6", help="Leg lengths instead, exact: 1250 or 12.5 or 25/2."
+)
+@click.option(
+    "--formulation",
+    type=click.Choice(formulation_codes()),
+    default=formulation_codes()[0],
+    show_default=True,
+    help="System of equations to solve.",
+)
+@click.option(
+    "--width",
+    callback=_width,
+    metavar="W",
+    default="1e-9",
+    show_default=True,
+    help="Greatest width of a box, exact: 1e-9 or 1/1000.",
+)
+@click.option("-o", "--output", type=click.Path(), metavar="CERT.json", help="Write the certificate to this file.")
+@click.option(
+    "--format",
+    "layout",
+    type=click.Choice(["table", "json", "csv"]),
+    default="table",
+    show_default=True,
+    help="What to print: decimals, or exact bounds as json or csv.",
+)
+@click.option("-v", "--verbose", is_flag=True, help="Say more: method, box widths, stages on a terminal.")
+def solve(
+    model: str,
+    configuration: str | None,
+    lengths: tuple[Fraction, ...] | None,
+    formulation: str,
+    width: Fraction,
+    output: str | None,
+    layout: str,
+    verbose: bool,
+) -> int:
+    """Find all real poses of the robot in the file MODEL for one configuration, or for given leg lengths.
+
+    Prints the poses and, with -o, writes a certificate that `certify-poses check` replays.
+    """
+    if configuration is not None and lengths is not None:
+        raise click.UsageError("--configuration and --lengths exclude each other.")
+    from pkm_exact.geometry.reader import read_robot
+
+    robot = read_robot(model)
+    chosen, problem = _problem(robot, model, configuration, lengths)
+    if output is not None:
+        _require_writable(Path(output))
+
+    from pkm_exact.cli.progress import Progress
+    from pkm_exact.cli.report import report
+    from pkm_exact.engine import solve as find_poses
+    from pkm_exact.verdict import Claim
+
+    with Progress(verbose=verbose) as progress:
+        try:
+            solution = find_poses(problem, formulation=formulation, width=width, progress=progress)
+        except InputError as error:
+            raise InputError(f"{model}: {error}") from None
+    name = chosen.name if chosen else None
+    if output is not None:
+        from pkm_exact.certify.build import certificate, write_certificate
+
+        try:
+            write_certificate(Path(output), certificate(robot, name, solution))
+        except OSError as error:
+            raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
+    report(robot, name, solution, layout, verbose=verbose)
+    return ExitCode.DONE if solution.claim is Claim.COMPLETE else ExitCode.WEAKER_CLAIM
+
+
+def _problem(
+    robot: Robot, model: str, configuration: str | None, lengths: tuple[Fraction, ...] | None
+) -> tuple[Configuration | None, ForwardProblem]:
+    if lengths is not None:
+        return None, robot.problem([length * length for length in lengths])
+    try:
+        chosen = robot.configuration(configuration)
+    except InputError as error:
+        raise InputError(f"{model}: {error}") from None
+    return chosen, robot.problem(chosen.lengths_squared)
+
+
+def _require_writable(path: Path) -> None:
+    """Find out before the work, not after it, that a file cannot be written."""
+    import os
+
+    if path.is_dir():
+        raise InputError(f"{path}: is a directory; give -o the path of a file")
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: the folder {path.parent} does not exist; create it or give -o another path")
+    if not os.access(path.parent, os.W_OK):
+        raise InputError(f"{path}: the folder {path.parent} is not writable; give -o another path")
+
+
+@certify_poses.command(short_help="Replay certificates.")
+@click.argument("certificates", nargs=-1, required=True, type=click.Path(), metavar="CERT.json...")
+def check(certificates: tuple[str, ...]) -> int:
+    """Replay certificates with a program that shares nothing with the solver.
+
+    Prints one line per claim. Exit code: 0 all accepted; 1 at least one was rejected; otherwise 2, at least one could
+    not be read or is not a certificate.
+    """
+    codes = [_check(Path(name)) for name in certificates]
+    if ExitCode.REJECTED in codes:
+        return ExitCode.REJECTED
+    return max(codes)
+
+
+def _check(path: Path) -> ExitCode:
+    from pkm_exact.certify.check import check_bytes
+
+    name = printable(str(path))
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(MAX_CERTIFICATE_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        click.echo(f"certify-poses: error: {name}: cannot be read ({reason}); give the path of a certificate", err=True)
+        return ExitCode.BAD_INPUT
+    verdict = check_bytes(data)
+    for line in verdict.lines:
+        sys.stdout.write(f"{name}: {printable(line)}\n")
+    sys.stdout.write(f"{name}: {verdict.status}\n")
+    sys.stdout.flush()
+    if verdict.status == "accepted":
+        return ExitCode.DONE
+    return ExitCode.REJECTED if verdict.status == "rejected" else ExitCode.BAD_INPUT

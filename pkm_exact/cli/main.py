@@ -1,0 +1,116 @@
+"""Entry point of ``certify-poses``: exit codes, and errors as one sentence on stderr.
+
+Exit codes: 0 done, and the claim is "complete" (or every certificate was accepted); 1 a certificate was rejected;
+2 input or usage that cannot be used; 3 done, but the claim is weaker than complete; 4 no answer, the engine gave up or
+contradicted itself; 130 interrupted; 141 the reader of the output went away.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from enum import IntEnum
+
+import click
+
+from pkm_exact.errors import InputError, PkmExactError
+from pkm_exact.wording import printable
+
+PROGRAM = "certify-poses"
+
+
+class ExitCode(IntEnum):
+    """What the process tells its caller."""
+
+    DONE = 0
+    REJECTED = 1
+    BAD_INPUT = 2
+    WEAKER_CLAIM = 3
+    NO_ANSWER = 4
+    INTERRUPTED = 130
+    BROKEN_PIPE = 141
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run ``certify-poses`` and return its exit code.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        The words after the command's name; those of the process by default.
+
+    Examples
+    --------
+    >>> main(["--version"])
+    certify-poses 0.1.0
+    0
+    """
+    _accept_any_character()
+    try:
+        code = _run(arguments)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _discard_output()
+        return ExitCode.BROKEN_PIPE
+    except (KeyboardInterrupt, click.Abort):
+        return ExitCode.INTERRUPTED
+    except OSError as error:
+        _discard_output()
+        return _complain(f"the output cannot be written ({error.strerror}); free the disk or write elsewhere")
+    return code
+
+
+def _run(arguments: Sequence[str] | None) -> int:
+    from pkm_exact.cli.commands import certify_poses
+
+    try:
+        # click's own main() would turn a broken pipe into exit code 1, which here means a rejected certificate.
+        with certify_poses.make_context(PROGRAM, list(sys.argv[1:] if arguments is None else arguments)) as context:
+            return int(certify_poses.invoke(context) or ExitCode.DONE)
+    except click.exceptions.Exit as end:
+        return end.exit_code
+    except click.UsageError as error:
+        if isinstance(error, click.exceptions.NoArgsIsHelpError):
+            click.echo(error.format_message(), err=True)
+            return ExitCode.BAD_INPUT
+        where = error.ctx.command_path if error.ctx else PROGRAM
+        return _complain(f"{_sentence(error.format_message())}; see {where} --help")
+    except click.ClickException as error:
+        return _complain(_sentence(error.format_message()))
+    except InputError as error:
+        return _complain(str(error))
+    except PkmExactError as error:
+        return _complain(f"no answer: {error}", ExitCode.NO_ANSWER)
+    except MemoryError:
+        return _complain("no answer: the memory is exhausted", ExitCode.NO_ANSWER)
+
+
+def _complain(sentence: str, code: ExitCode = ExitCode.BAD_INPUT) -> ExitCode:
+    click.echo(f"{PROGRAM}: error: {printable(sentence)}", err=True)
+    return code
+
+
+def _sentence(message: str) -> str:
+    text = " ".join(message.split()).rstrip(".")
+    return text[:1].lower() + text[1:]
+
+
+def _accept_any_character() -> None:
+    """Names in a model file may have characters that the terminal's encoding lacks: print them as escapes."""
+    reconfigure = getattr(sys.stdout, "reconfigure", None)
+    if reconfigure is not None:
+        reconfigure(errors="backslashreplace")
+
+
+def _discard_output() -> None:
+    """Let the interpreter's last flush go nowhere instead of raising once more."""
+    try:
+        descriptor = sys.stdout.fileno()
+    except (OSError, ValueError):
+        return
+    os.dup2(os.open(os.devnull, os.O_WRONLY), descriptor)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,101 @@
+"""A solution as a person or a program wants it: a headline and a table, one JSON object, or CSV rows."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from pkm_exact.verdict import Claim
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.poses.pose import Interval, Pose
+    from pkm_exact.solution import Solution
+
+_MEANING = {
+    Claim.COMPLETE: "complete: it is proved that there is no other",
+    Claim.NOT_PROVEN_COMPLETE: "not proven complete: each pose is certified, but others are not excluded",
+    Claim.POSITIVE_DIMENSIONAL_DETECTED: (
+        "infinitely many solutions detected, not proved: the robot may move with locked legs"
+    ),
+    Claim.POSITIVE_DIMENSIONAL_PROVED: "infinitely many solutions, proved: the robot moves with locked legs",
+    Claim.INCONSISTENT: "inconsistent: no pose has these leg lengths, not even a complex one",
+}
+_COUNTED = (Claim.COMPLETE, Claim.NOT_PROVEN_COMPLETE)
+
+
+def headline(solution: Solution) -> str:
+    """One sentence that says how many solutions were found and what is claimed of them."""
+    meaning = _MEANING[solution.claim]
+    if solution.claim not in _COUNTED:
+        return meaning
+    distinct, total = solution.distinct_solutions, solution.complex_solutions
+    several = "" if distinct == total else f" ({distinct} distinct)"
+    count = f"{_plural(total, 'complex solution')}{several}, {_plural(len(solution.poses), 'real pose')}"
+    route = f" ({solution.completeness_route})" if solution.completeness_route else ""
+    return f"{count}; {meaning}{route}"
+
+
+def _plural(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def report(robot: Robot, configuration: str | None, solution: Solution, layout: str, *, verbose: bool) -> None:
+    """Print a solution to stdout as ``table``, ``json`` or ``csv``."""
+    if layout == "json":
+        sys.stdout.write(json.dumps(as_object(robot, configuration, solution), indent=1) + "\n")
+    elif layout == "csv":
+        csv.writer(sys.stdout, lineterminator="\n").writerows(as_rows(solution))
+    else:
+        from pkm_exact.cli.table import print_table
+
+        print_table(robot, configuration, solution, headline(solution), verbose=verbose)
+
+
+def as_object(robot: Robot, configuration: str | None, solution: Solution) -> dict[str, Any]:
+    """The solution as a JSON object; every bound is an exact rational as a string."""
+    return {
+        "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
+        "configuration": {
+            "name": configuration,
+            "lengths_squared": [str(leg.length_squared) for leg in solution.problem.legs],
+        },
+        "formulation": solution.formulation,
+        "method": solution.method,
+        "claim": str(solution.claim),
+        "completeness_route": str(solution.completeness_route) if solution.completeness_route else None,
+        "complex_solutions": solution.complex_solutions,
+        "distinct_solutions": solution.distinct_solutions,
+        "real_poses": len(solution.poses),
+        "poses": [_pose(pose) for pose in solution.poses],
+        "notes": list(solution.notes),
+    }
+
+
+def _pose(pose: Pose) -> dict[str, Any]:
+    return {
+        "parameter": _bounds(pose.parameter),
+        "position": [_bounds(c) for c in pose.position],
+        "rotation": [[_bounds(entry) for entry in row] for row in pose.rotation],
+        "quaternion": [_bounds(q) for q in pose.quaternion],
+        "multiplicity": pose.multiplicity,
+    }
+
+
+def _bounds(interval: Interval) -> list[str]:
+    return [str(interval.lo), str(interval.hi)]
+
+
+def as_rows(solution: Solution) -> Iterator[list[str]]:
+    """A header and one row per pose: its number, the claim about the whole list, multiplicity, exact bounds."""
+    names = ["t", "x", "y", "z"]
+    names += [f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
+    names += [f"q{k}" for k in range(4)]
+    yield ["pose", "claim", "multiplicity", *(f"{name}_{end}" for name in names for end in ("lo", "hi"))]
+    for number, pose in enumerate(solution.poses, 1):
+        entries = [pose.parameter, *pose.position, *(entry for row in pose.rotation for entry in row), *pose.quaternion]
+        bounds = [str(end) for entry in entries for end in (entry.lo, entry.hi)]
+        yield [str(number), str(solution.claim), str(pose.multiplicity), *bounds]

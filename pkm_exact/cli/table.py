@@ -1,0 +1,112 @@
+"""Poses as a table of decimals, with as many digits as the boxes guarantee."""
+
+from __future__ import annotations
+
+import sys
+from decimal import Decimal
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.poses.pose import Interval, Pose
+    from pkm_exact.solution import Solution
+
+_DIGITS_OF_EXACT = 15
+_HEADER = ("", "x", "y", "z", "q0", "q1", "q2", "q3")
+
+
+def decimal(interval: Interval) -> str:
+    """The midpoint, rounded so that the last digit is right to within one unit for every value in the interval.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from pkm_exact.poses.pose import Interval
+    >>> decimal(Interval(Fraction(1, 3), Fraction(1, 3) + Fraction(1, 10**5)))
+    '0.33334'
+    >>> decimal(Interval(Fraction(-3, 8), Fraction(-3, 8)))
+    '-0.375000000000000'
+    """
+    digits = 0
+    if interval.width == 0:
+        digits = _DIGITS_OF_EXACT
+    else:
+        while interval.width * 10 ** (digits + 1) <= 1:
+            digits += 1
+    scaled = round(interval.midpoint * 10**digits)
+    sign = "-" if scaled < 0 else ""
+    whole, rest = divmod(abs(scaled), 10**digits)
+    return f"{sign}{whole}.{rest:0{digits}d}" if digits else f"{sign}{whole}"
+
+
+def print_table(robot: Robot, configuration: str | None, solution: Solution, headline: str, *, verbose: bool) -> None:
+    """Print robot, headline, poses and notes to stdout."""
+    actuators = f"configuration {configuration}" if configuration else "given leg lengths"
+    lines = [f"{robot.name} ({robot.kind}), {actuators}, formulation {solution.formulation}", headline]
+    if verbose:
+        lines += list(_details(robot, solution))
+    lines += [f"note: {note}" for note in solution.notes]
+    sys.stdout.write("\n".join(lines) + "\n")
+    if not solution.poses:
+        return
+    rows = [_row(number, pose) for number, pose in enumerate(solution.poses, 1)]
+    sys.stdout.write(
+        f"\nposition [{robot.unit}], unit quaternion (scalar first), right to one unit of the last digit\n"
+    )
+    if sys.stdout.isatty():
+        _print_rich(rows)
+    else:
+        sys.stdout.write(plain(rows))
+
+
+def _details(robot: Robot, solution: Solution) -> list[str]:
+    lengths = ", ".join(str(leg.length_squared) for leg in solution.problem.legs)
+    widths = [c.width for pose in solution.poses for c in (*pose.position, *pose.quaternion)]
+    details = [
+        f"source: {robot.source}",
+        f"squared leg lengths: {lengths}",
+        f"method: {solution.method}; claim: {solution.claim}; route: {solution.completeness_route or 'none'}",
+    ]
+    if widths:
+        widest = max(widths)
+        details.append(f"widest box: {Decimal(widest.numerator) / Decimal(widest.denominator):.2e}")
+    facts = solution.statistics
+    if facts.primes:
+        details.append(
+            f"Groebner basis: {facts.basis_size} elements, quotient of dimension {facts.quotient_dimension}; "
+            f"primes: {len(facts.primes)}, unlucky: {len(facts.unlucky_primes)}; choices made again: {facts.retries}"
+        )
+    return details
+
+
+def _row(number: int, pose: Pose) -> tuple[str, ...]:
+    multiple = "" if pose.multiplicity == 1 else f" (x{pose.multiplicity})"
+    return f"{number}{multiple}", *(decimal(c) for c in (*pose.position, *pose.quaternion))
+
+
+def plain(rows: list[tuple[str, ...]]) -> str:
+    """The rows under the header, right-aligned.
+
+    >>> print(plain([("1", "0.5", "-12", "0", "1", "0", "0", "0")]), end="")
+         x    y  z  q0  q1  q2  q3
+    1  0.5  -12  0   1   0   0   0
+    """
+    table = [_HEADER, *rows]
+    widths = [max(len(row[i]) for row in table) for i in range(len(_HEADER))]
+    lines = ("  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in table)
+    return "".join(f"{line.rstrip()}\n" for line in lines)
+
+
+def _print_rich(rows: list[tuple[str, ...]]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for name in _HEADER:
+        table.add_column(name, justify="right", no_wrap=True, style="dim" if not name else None)
+    for row in rows:
+        table.add_row(*row)
+    needed = max(len(line) for line in plain(rows).splitlines())
+    console = Console(file=sys.stdout, highlight=False)
+    console.width = max(console.width, needed)
+    console.print(table)

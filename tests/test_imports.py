@@ -1,0 +1,58 @@
+"""What importing the package and starting the command cost."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import pkm_exact
+
+ROOT = Path(__file__).parent.parent
+HEAVY = ("sympy", "matplotlib", "flint", "numpy", "mpmath", "rich")
+
+
+def _loaded(code: str) -> set[str]:
+    script = f"{code}\nimport sys; print(' '.join(m for m in {HEAVY!r} if m in sys.modules))"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, cwd=ROOT)
+    return set(done.stdout.split("\n")[-2].split())
+
+
+def test_importing_the_package_loads_nothing_heavy() -> None:
+    assert _loaded("import pkm_exact; pkm_exact.__version__; dir(pkm_exact)") == set()
+
+
+@pytest.mark.parametrize("words", [["--help"], ["solve", "--help"], ["check", "--help"], ["--version"], ["solve"]])
+def test_the_command_starts_without_anything_heavy(words: list[str]) -> None:
+    assert _loaded(f"from pkm_exact.cli.main import main; main({words!r})") == set()
+
+
+def test_reading_a_model_loads_nothing_heavy() -> None:
+    assert _loaded("import pkm_exact; pkm_exact.read_robot('models/rolland-6-6.toml')") == set()
+
+
+def test_help_takes_little_processor_time() -> None:
+    code = (
+        "import resource, subprocess, sys\n"
+        "command = [sys.executable, '-m', 'pkm_exact.cli.main', '--help']\n"
+        "subprocess.run(command, stdout=subprocess.DEVNULL, check=True)\n"
+        "used = resource.getrusage(resource.RUSAGE_CHILDREN)\n"
+        "print(used.ru_utime + used.ru_stime)"
+    )
+    pytest.importorskip("resource")
+    times = [
+        float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT).stdout)
+        for _ in range(3)
+    ]
+    assert min(times) < 0.3
+
+
+@pytest.mark.parametrize("name", pkm_exact.__all__)
+def test_every_public_name_is_there(name: str) -> None:
+    assert getattr(pkm_exact, name) is not None
+    assert name in dir(pkm_exact)
+
+
+def test_an_unknown_name_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
+        pkm_exact.nonsense  # noqa: B018
