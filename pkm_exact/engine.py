@@ -9,17 +9,19 @@ from itertools import islice
 from time import perf_counter
 
 from pkm_exact.algebra.elimination import Elimination, ModularImage
-from pkm_exact.algebra.groebner import UnluckyPrimeError
+from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.lifting import lift_by_newton, lift_by_primes
 from pkm_exact.algebra.rur import ModularRepresentation
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.base import FormulatedProblem
 from pkm_exact.formulations.registry import formulation as formulation_of
+from pkm_exact.formulations.registry import formulation_codes
+from pkm_exact.formulations.turned import Turn, candidate_turns, formulate_turned
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import exponent_for_width, pose_boxes
 from pkm_exact.poses.completeness import MOTION_DEGREE, proved_route
-from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms
+from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms, modular_poses
 from pkm_exact.poses.representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.study_equations import Chart, StudyEquations, free_coordinates
 from pkm_exact.solution import Solution, Statistics
@@ -77,44 +79,65 @@ class _Run:
     _stage: tuple[str, float] | None = None
 
     def solution(self, width: Fraction) -> Solution:
-        self._enter("formulation")
-        formulated = formulation_of(self.code).formulate(self.problem)
-        elimination = Elimination(formulated.system, self.policy)
-        self._enter("Groebner basis")
-        image = self._confirmed_image(elimination)
+        start = self._started()
+        elimination, image = start.elimination, start.image
         exponent = exponent_for_width(width)
-        if image.algebra is None:
+        if start.poses is None:
             note = (
                 "the solutions form a set of positive dimension at two primes: the robot can move with its legs "
                 "locked, or solutions run together at infinity"
             )
             return self._result(elimination, image, Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note)
-        if image.dimension == 0:
+        if start.poses.count == 0:
             note = "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
             return self._result(elimination, image, Claim.NOT_PROVEN_COMPLETE, exponent, note)
-        representation = self._representation(formulated, elimination, image)
+        representation = self._representation(start)
         self._enter("completeness")
         route = proved_route(representation, self.problem, self.policy)
         self._enter("real roots and boxes")
         exponent, poses = pose_boxes(representation, self.problem.metric, width)
         self._leave()
-        count = image.algebra.dimension // formulated.fibre
-        notes = () if route else (_open_question(count, representation.univariate.degree),)
-        claim = Claim.COMPLETE if route else Claim.NOT_PROVEN_COMPLETE
+        degree = representation.univariate.degree
         return Solution(
-            self.problem,
-            self.code,
-            "exact",
-            claim,
-            route,
-            count,
-            representation.univariate.degree,
-            representation,
-            exponent,
-            poses,
-            notes,
-            self._statistics(elimination, image),
+            problem=self.problem,
+            formulation=self.code,
+            method="exact",
+            claim=Claim.COMPLETE if route else Claim.NOT_PROVEN_COMPLETE,
+            completeness_route=route,
+            complex_solutions=start.poses.count,
+            distinct_solutions=degree,
+            representation=representation,
+            box_exponent=exponent,
+            poses=poses,
+            notes=start.notes if route else (*start.notes, _open_question(start.poses.count, degree)),
+            statistics=self._statistics(elimination, image),
         )
+
+    def _started(self) -> _Start:
+        """The poses modulo a prime, in a platform frame in which the formulation has coordinates for all of them."""
+        formulation = formulation_of(self.code)
+        expected: int | None = None
+        for attempt, turn in enumerate(islice(candidate_turns(self.policy.seed), self.policy.attempts)):
+            self._enter("formulation")
+            formulated = formulate_turned(formulation, self.problem, turn)
+            self._enter("Groebner basis")
+            elimination = Elimination(formulated.branches[0], self.policy)
+            image = self._confirmed_image(elimination)
+            poses = modular_poses(formulated, image.algebra, self.problem.metric)
+            if formulated.is_chart and attempt == 0:
+                expected = self._reference_count()
+            count = None if poses is None else poses.count
+            if not formulated.is_chart or count == expected:
+                return _Start(formulated, elimination, image, poses, _turn_notes(turn, attempt))
+            self.retries += 1
+        raise OutOfReachError(
+            f"{self.code} misses poses in every frame of the platform that was tried: they have no finite coordinates"
+        )
+
+    def _reference_count(self) -> int | None:
+        """Number of poses by the formulation that misses none, to see whether a chart does; None if infinite."""
+        formulated = formulation_of(formulation_codes()[0]).formulate(self.problem)
+        return self._confirmed_image(Elimination(formulated.system, self.policy)).dimension
 
     def _confirmed_image(self, elimination: Elimination) -> ModularImage:
         """The image at the first prime, or, if it has no solution or infinitely many, at one of two that agree."""
@@ -129,37 +152,33 @@ class _Run:
             image = second
         raise InternalContradictionError("the number of solutions differs from prime to prime")
 
-    def _representation(
-        self, formulated: FormulatedProblem, elimination: Elimination, image: ModularImage
-    ) -> PoseRepresentation:
+    def _representation(self, start: _Start) -> PoseRepresentation:
         """The verified representation of all poses over Q."""
+        poses = start.poses
         for attempt in range(self.policy.attempts):
             self._enter("separating form")
-            algebra = image.algebra
-            poses = ModularPoses(formulated, algebra, self.problem.metric) if algebra is not None else None
-            chosen = _choose_parameters(poses, self.policy) if poses is not None else None
+            chosen = None if poses is None else _choose_parameters(poses, self.policy)
             if chosen is not None:
-                lifted = self._lifted(formulated, elimination, chosen, attempt)
+                lifted = self._lifted(start, chosen, attempt)
                 self._enter("verification")
                 if lifted is not None and lifted.is_verified(self.problem):
                     return lifted
             self.retries += 1
             self._enter("Groebner basis")
-            image = self._confirmed_image(elimination)
+            image = self._confirmed_image(start.elimination)
+            poses = modular_poses(start.formulated, image.algebra, self.problem.metric)
         raise InternalContradictionError(
             f"no representation of the poses passed verification in {self.policy.attempts} attempts"
         )
 
-    def _lifted(
-        self, formulated: FormulatedProblem, elimination: Elimination, chosen: _Parameters, attempt: int
-    ) -> PoseRepresentation | None:
+    def _lifted(self, start: _Start, chosen: _Parameters, attempt: int) -> PoseRepresentation | None:
         equations = StudyEquations(self.problem, chosen.chart, self.policy.seed + attempt)
         form = [chosen.form[k] for k in free_coordinates(chosen.chart)]
         multimodular = self.policy.lifting == "multimodular" or not chosen.modular.is_simple
         self._enter("lifting by primes" if multimodular else "p-adic lifting")
         try:
             if multimodular:
-                images = _further_images(formulated, elimination, chosen, self.problem.metric)
+                images = _further_images(start, chosen, self.problem.metric)
                 univariate = lift_by_primes(form, images, self.policy.lifting_bits)
             else:
                 univariate = lift_by_newton(equations, form, chosen.modular, self.policy.lifting_bits)
@@ -172,18 +191,18 @@ class _Run:
     ) -> Solution:
         self._leave()
         return Solution(
-            self.problem,
-            self.code,
-            "exact",
-            claim,
-            None,
-            0,
-            0,
-            None,
-            exponent,
-            (),
-            (note,),
-            self._statistics(elimination, image),
+            problem=self.problem,
+            formulation=self.code,
+            method="exact",
+            claim=claim,
+            completeness_route=None,
+            complex_solutions=0,
+            distinct_solutions=0,
+            representation=None,
+            box_exponent=exponent,
+            poses=(),
+            notes=(note,),
+            statistics=self._statistics(elimination, image),
         )
 
     def _statistics(self, elimination: Elimination, image: ModularImage) -> Statistics:
@@ -210,6 +229,17 @@ class _Run:
 
 
 @dataclass(frozen=True)
+class _Start:
+    """A formulated problem, its elimination, and its poses modulo the first prime (None if infinitely many)."""
+
+    formulated: FormulatedProblem
+    elimination: Elimination
+    image: ModularImage
+    poses: ModularPoses | None
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class _Parameters:
     """A chart that holds all poses, a form that separates them, and the representation modulo the first prime."""
 
@@ -233,17 +263,25 @@ def _choose_parameters(poses: ModularPoses, policy: Policy) -> _Parameters | Non
 
 
 def _further_images(
-    formulated: FormulatedProblem, elimination: Elimination, chosen: _Parameters, metric: tuple[int, int, int]
+    start: _Start, chosen: _Parameters, metric: tuple[int, int, int]
 ) -> Iterator[ModularRepresentation]:
     """The representation in the chosen chart and form at one prime after another."""
     while True:
-        image = elimination.following()
-        if image.algebra is None:
-            continue
-        poses = ModularPoses(formulated, image.algebra, metric)
-        coordinates = poses.coordinates(chosen.chart)
-        if coordinates is not None:
+        poses = modular_poses(start.formulated, start.elimination.following().algebra, metric)
+        coordinates = None if poses is None else poses.coordinates(chosen.chart)
+        if poses is not None and coordinates is not None:
             yield poses.representation(coordinates, chosen.form, free_coordinates(chosen.chart))
+
+
+def _turn_notes(turn: Turn, attempt: int) -> tuple[str, ...]:
+    if attempt == 0:
+        return ()
+    words = ", ".join(map(str, turn))
+    note = (
+        "in the given frame of the platform some pose has no finite coordinates in this formulation; it was solved in "
+        f"the frame turned by the quaternion ({words}), and the poses were turned back"
+    )
+    return (note,)
 
 
 def _open_question(count: int, distinct: int) -> str:

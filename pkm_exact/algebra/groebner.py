@@ -129,7 +129,7 @@ def apply(trace: Trace, polynomials: list[ModularPolynomial], ring: MonomialRing
     if tuple(polynomial[0][0] for polynomial in known) != trace.start:
         raise UnluckyPrimeError(f"the generators have other leading monomials modulo {prime}")
     for step in trace.steps:
-        reduced, pivots = _echelon(_matrix(step.rows, known, step.columns, prime))
+        reduced, pivots = row_echelon(_matrix(step.rows, known, step.columns, prime))
         if tuple(pivots) != step.pivots:
             raise UnluckyPrimeError(f"a pivot is lost modulo {prime}")
         known.extend(_read_row(reduced, row, step.columns, step.pivots[row]) for row in step.new)
@@ -151,7 +151,8 @@ def _matrix(rows: Iterable[Row], known: list[ModularPolynomial], columns: tuple[
     return nmod_mat(count, width, entries, prime)
 
 
-def _echelon(matrix: nmod_mat) -> tuple[nmod_mat, list[int]]:
+def row_echelon(matrix: nmod_mat) -> tuple[nmod_mat, list[int]]:
+    """Reduced row echelon form and the columns of its pivots."""
     reduced, rank = matrix.rref()
     pivots = []
     column = 0
@@ -180,13 +181,13 @@ def _interreduced(polynomials: list[ModularPolynomial], prime: int) -> list[Modu
     if not columns:
         return []
     rows = [(index, 0) for index in range(len(polynomials))]
-    reduced, pivots = _echelon(_matrix(rows, polynomials, columns, prime))
+    reduced, pivots = row_echelon(_matrix(rows, polynomials, columns, prime))
     return [_read_row(reduced, row, columns, pivot) for row, pivot in enumerate(pivots)]
 
 
 def _spanning_rows(matrix: nmod_mat) -> list[int]:
     """Indices of rows that form a basis of the row space."""
-    return _echelon(matrix.transpose())[1]
+    return row_echelon(matrix.transpose())[1]
 
 
 @dataclass(frozen=True)
@@ -240,7 +241,7 @@ class _Elimination:
                 halves[(index, top - self.known[index][0][0])] = None
         rows, columns = self._with_reducers(list(halves))
         matrix = _matrix(rows, self.known, columns, self.prime)
-        reduced, pivots = _echelon(matrix)
+        reduced, pivots = row_echelon(matrix)
         leading = {self.known[index][0][0] + multiplier for index, multiplier in rows}
         new = [row for row, pivot in enumerate(pivots) if columns[pivot] not in leading]
         if record and new:

@@ -12,7 +12,7 @@ from functools import cached_property
 
 from flint import nmod, nmod_mat
 
-from pkm_exact.algebra.groebner import GroebnerBasis, OutOfReachError
+from pkm_exact.algebra.groebner import GroebnerBasis, OutOfReachError, row_echelon
 from pkm_exact.algebra.monomials import MonomialRing
 from pkm_exact.algebra.system import ModularPolynomial
 
@@ -91,6 +91,29 @@ class QuotientAlgebra:
             unknown, quotient = self._paths[monomial]
             rows.append(rows[quotient] * self.unknowns[unknown])
         return _stack(rows, self.prime)
+
+    def quotient_by(self, element: nmod_mat) -> QuotientAlgebra:
+        """The algebra modulo one more relation: the solutions at which the element vanishes."""
+        size = self.dimension
+        # Largest monomials first, so that what remains is the normal set of the larger ideal.
+        reverse = nmod_mat(size, size, [int(i + j == size - 1) for i in range(size) for j in range(size)], self.prime)
+        echelon, pivots = row_echelon(self.matrix(element) * reverse)
+        leading = {size - 1 - pivot: row for row, pivot in enumerate(pivots)}
+        kept = [index for index in range(size) if index not in leading]
+        projection = []
+        for index in range(size):
+            if index in leading:
+                projection += [-int(echelon[leading[index], size - 1 - other]) for other in kept]
+            else:
+                projection += [int(index == other) for other in kept]
+        project = nmod_mat(size, len(kept), projection, self.prime)
+        select = nmod_mat(len(kept), size, [int(i == j) for i in kept for j in range(size)], self.prime)
+        return QuotientAlgebra(
+            self.prime,
+            self.ring,
+            tuple(self.normal_set[index] for index in kept),
+            tuple(select * matrix * project for matrix in self.unknowns),
+        )
 
     def _monomial_values(self, monomials: Sequence[int]) -> dict[int, nmod_mat]:
         values = {0: self.one}

@@ -11,6 +11,7 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mpoly
 
 from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring, primitive
+from pkm_exact.geometry.problem import ForwardProblem
 
 Expression = fmpq_mpoly
 """A polynomial over Q in the unknowns of a formulation."""
@@ -41,16 +42,31 @@ class FormulatedProblem:
     code : str
         Code of the formulation.
     system : PolynomialSystem
-        Primitive polynomials over Z.
+        The formulation's own equations: primitive polynomials over Z.
     pose_map : PoseMap
+        In the unknowns of the first branch.
     fibre : int
-        Number of solutions over each pose (2 for quaternions, which come as q and -q).
+        Number of solutions of the first branch over each pose, conditions met (2 for quaternions: q and -q).
+    branches : tuple of PolynomialSystem
+        Systems whose solutions together are those of ``system`` that are finite poses or mirror images: the system
+        itself, or localised, or split by chirality. The first holds every pose, the others none.
+    conditions : tuple of fmpq_mpoly
+        Polynomials in the unknowns of the first branch that vanish at the poses but not at its other solutions.
+    mirrors : tuple of ForwardProblem
+        Robots with mirrored joints whose poses are the solutions that are no poses of the given robot: those of the
+        other branches, or those that do not meet the conditions.
+    is_chart : bool
+        Whether some poses may have no finite coordinates here (half turns, gimbal lock).
     """
 
     code: str
     system: PolynomialSystem
     pose_map: PoseMap
     fibre: int
+    branches: tuple[PolynomialSystem, ...]
+    conditions: tuple[Expression, ...] = ()
+    mirrors: tuple[ForwardProblem, ...] = ()
+    is_chart: bool = False
 
 
 def rational_ring(unknowns: Sequence[str]) -> tuple[fmpq_mpoly_ctx, tuple[Expression, ...]]:

@@ -9,7 +9,7 @@ they lack, and l^2 for l)
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from flint import fmpq
 
@@ -75,6 +75,51 @@ def rotation_equations(
 
 
 @dataclass(frozen=True)
+class AFD3:
+    """Rotation matrix with its six quadrics.
+
+    Unknowns C and r_ij. Equations: 6 legs and R G^-1 R^T = G^-1. Half of the 80 solutions are reflections, det R = -1;
+    the determinant filter drops them. (For a planar platform a reflection moves the joints as a rotation does, but
+    it is no pose of the frame.)
+    Source: Rolland 2008, section 4.1.3, equations (13) to (20).
+    """
+
+    code: str = "AFD3"
+    title: str = "position and rotation matrix, orthogonality"
+
+    def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
+        """The problem in the unknowns c1..c3, r11..r33."""
+        unknowns = POSITION_UNKNOWNS + ROTATION_UNKNOWNS
+        context, generators = rational_ring(unknowns)
+        position = generators[:3]
+        rotation = [list(generators[3 + 3 * i : 6 + 3 * i]) for i in range(3)]
+        metric = [rational(g) for g in problem.metric]
+        inverse = [1 / g for g in metric]
+        equations = leg_equations(problem, position, rotation)
+        for i in range(3):
+            equations += [dot(inverse, rotation[i], rotation[j]) - (inverse[i] if i == j else 0) for j in range(i, 3)]
+        system = over_integers(unknowns, equations)
+        determinant = sum((a * b for a, b in zip(rotation[0], cross(rotation[1], rotation[2]), strict=True)), -1)
+        products = quaternion_products(rotation, context.constant(1), metric)
+        pose_map = PoseMap(tuple(map(tuple, products)), tuple(position))
+        return FormulatedProblem(
+            self.code,
+            system,
+            pose_map,
+            fibre=1,
+            branches=(system,),
+            conditions=(determinant,),
+            mirrors=(reflected(problem),),
+        )
+
+
+def reflected(problem: ForwardProblem) -> ForwardProblem:
+    """The robot with mirrored platform joints: R diag(1, 1, -1) is a rotation if det R = -1."""
+    legs = (replace(leg, platform=(leg.platform[0], leg.platform[1], -leg.platform[2])) for leg in problem.legs)
+    return replace(problem, legs=tuple(legs))
+
+
+@dataclass(frozen=True)
 class AFD4:
     """Rotation matrix with a Groebner basis of SO(3).
 
@@ -97,7 +142,8 @@ class AFD4:
         equations = leg_equations(problem, position, rotation) + reduced(rotation_equations(rotation, unit, metric))
         products = quaternion_products(rotation, unit, metric)
         pose_map = PoseMap(tuple(map(tuple, products)), tuple(position))
-        return FormulatedProblem(self.code, over_integers(unknowns, equations), pose_map, fibre=1)
+        system = over_integers(unknowns, equations)
+        return FormulatedProblem(self.code, system, pose_map, fibre=1, branches=(system,))
 
 
 @dataclass(frozen=True)
@@ -122,7 +168,8 @@ class AFD5:
         equations = leg_equations(problem, position, scaled_rotation(products, metric))
         equations.append(quaternion_norm(products, metric) - 1)
         pose_map = PoseMap(tuple(map(tuple, products)), tuple(position))
-        return FormulatedProblem(self.code, over_integers(unknowns, equations), pose_map, fibre=2)
+        system = over_integers(unknowns, equations)
+        return FormulatedProblem(self.code, system, pose_map, fibre=2, branches=(system,))
 
 
 def reduced(polynomials: Sequence[Expression]) -> list[Expression]:

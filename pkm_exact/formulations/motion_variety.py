@@ -110,4 +110,5 @@ class SE3:
         rotation = [coordinates[7 + 3 * i : 10 + 3 * i] for i in range(3)]
         products = quaternion_products(rotation, unit, metric)
         pose_map = PoseMap(tuple(map(tuple, products)), tuple(coordinates[3:6]))
-        return FormulatedProblem(self.code, over_integers(unknowns, equations), pose_map, fibre=1)
+        system = over_integers(unknowns, equations)
+        return FormulatedProblem(self.code, system, pose_map, fibre=1, branches=(system,))

@@ -1,4 +1,9 @@
-"""Position-based formulations: the unknowns are the positions of three platform joints."""
+"""Position-based formulations: the unknowns are the positions P_1, P_2, P_3 of three platform joints.
+
+With v1 = P_2 - P_1, v2 = P_3 - P_1 and v3 = G^-1 (v1 x v2), every joint stands at P_1 + a v1 + b v2 + c v3; a, b, c are
+its coordinates in the frame u1 = B_2 - B_1, u2 = B_3 - B_1, u3 = G^-1 (u1 x u2), which is not normalised, so that they
+are rational (Rolland 2008, section 3.2, normalises it). Any three joints that are not collinear will do.
+"""
 
 from __future__ import annotations
 
@@ -6,88 +11,117 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq, fmpq_mpoly_ctx
 
-from pkm_exact.errors import InputError
 from pkm_exact.formulations.base import (
     Expression,
     FormulatedProblem,
-    PoseMap,
     cross,
     dot,
     over_integers,
     rational,
     rational_ring,
 )
+from pkm_exact.formulations.platform import (
+    PlatformFrame,
+    Triple,
+    edge_square,
+    edge_vectors,
+    platform_frame,
+    pose_from_points,
+)
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.rotation import quaternion_products
 
 POINT_UNKNOWNS = tuple(f"{axis}{point}" for point in (1, 2, 3) for axis in "xyz")
 
 
+def _points() -> tuple[fmpq_mpoly_ctx, list[list[Expression]]]:
+    context, generators = rational_ring(POINT_UNKNOWNS)
+    return context, [list(generators[3 * i : 3 * i + 3]) for i in range(3)]
+
+
+def _leg_equations(
+    problem: ForwardProblem, frame: PlatformFrame, points: Sequence[Sequence[Expression]]
+) -> list[Expression]:
+    """|P_1 + a v1 + b v2 + c v3 - A|^2 - l^2 for every leg."""
+    metric = [rational(g) for g in problem.metric]
+    v1, v2, v3 = edge_vectors(points, metric)
+    equations = []
+    for leg, (a, b, c) in zip(problem.legs, frame.coordinates, strict=True):
+        offset = [points[0][i] + a * v1[i] + b * v2[i] + c * v3[i] - rational(leg.base[i]) for i in range(3)]
+        equations.append(dot(metric, offset, offset) - rational(leg.length_squared))
+    return equations
+
+
+def _distance(
+    problem: ForwardProblem, frame: PlatformFrame, points: Sequence[Sequence[Expression]], i: int, j: int
+) -> Expression:
+    """|P_i - P_j|^2 - |B_i - B_j|^2 for two points of the frame."""
+    metric = [rational(g) for g in problem.metric]
+    edge = [a - b for a, b in zip(points[i], points[j], strict=True)]
+    difference: Expression = dot(metric, edge, edge) - edge_square(problem, frame.legs[i], frame.legs[j])
+    return difference
+
+
 @dataclass(frozen=True)
-class PlatformFrame:
-    """Affine frame of the platform on three of its joints.
+class AFP1:
+    """Three points with distances.
+
+    Equations: 6 legs (of degree 4 where c is not 0: the source calls all nine quadratic) and the 3 distances between
+    the three joints. 40 solutions, one for each pose.
+    Source: Rolland 2008, section 4.2.1, equations (28) to (30).
 
     Attributes
     ----------
-    legs : tuple of 3 int
-        The legs, counted from 0, whose platform joints B_i, B_j, B_k span the frame.
-    axes : 3 x 3 tuple of fmpq
-        u1 = B_j - B_i, u2 = B_k - B_i, u3 = G^-1 (u1 x u2): rational, not normalised.
-    coordinates : 6 x 3 tuple of fmpq
-        (a, b, c) of every joint: B - B_i = a u1 + b u2 + c u3.
+    triple : tuple of 3 int, optional
+        The legs of the three joints, from 0; default the first three that are not collinear.
     """
 
-    legs: tuple[int, int, int]
-    axes: tuple[tuple[fmpq, ...], ...]
-    coordinates: tuple[tuple[fmpq, ...], ...]
+    triple: Triple | None = None
+    code: str = "AFP1"
+    title: str = "positions of three platform joints, distances"
+
+    def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
+        """The problem in the unknowns x1, y1, z1, ..., z3."""
+        context, points = _points()
+        frame = platform_frame(problem, self.triple)
+        equations = _leg_equations(problem, frame, points)
+        equations += [_distance(problem, frame, points, i, j) for i, j in combinations(range(3), 2)]
+        system = over_integers(POINT_UNKNOWNS, equations)
+        pose_map = pose_from_points(problem, frame, points, context.constant(1))
+        return FormulatedProblem(self.code, system, pose_map, fibre=1, branches=(system,))
 
 
-def platform_frame(problem: ForwardProblem) -> PlatformFrame:
-    """The affine frame on the first three platform joints that are not collinear.
+@dataclass(frozen=True)
+class AFP2:
+    """Three points with two distances and a scalar product.
 
-    Raises
-    ------
-    InputError
-        If all platform joints lie on one line.
+    Equations: 6 legs, |v1|^2, |v2|^2 and v1.v2. They generate the same ideal as those of AFP1.
+    Source: Rolland 2008, section 4.2.2, equation (31), whose F_9 has a vector product where the scalar product is
+    meant.
+
+    Attributes
+    ----------
+    triple : tuple of 3 int, optional
+        As for AFP1.
     """
-    metric = [rational(g) for g in problem.metric]
-    joints = [[rational(value) for value in leg.platform] for leg in problem.legs]
-    for legs in combinations(range(len(joints)), 3):
-        origin, first, second = (joints[index] for index in legs)
-        u1 = [b - a for a, b in zip(origin, first, strict=True)]
-        u2 = [b - a for a, b in zip(origin, second, strict=True)]
-        u3 = [value / g for value, g in zip(cross(u1, u2), metric, strict=True)]
-        if any(u3):
-            break
-    else:
-        raise InputError(
-            "platform.joints: all platform joints lie on one line, but a formulation by three points "
-            "needs three that do not; use --formulation SE3"
-        )
-    matrix = fmpq_mat([[u1[i], u2[i], u3[i]] for i in range(3)])
-    offsets = fmpq_mat([[joint[i] - origin[i] for joint in joints] for i in range(3)])
-    coordinates = matrix.solve(offsets)
-    table = tuple(tuple(coordinates[i, j] for i in range(3)) for j in range(len(joints)))
-    return PlatformFrame((legs[0], legs[1], legs[2]), (tuple(u1), tuple(u2), tuple(u3)), table)
 
+    triple: Triple | None = None
+    code: str = "AFP2"
+    title: str = "positions of three platform joints, distances and angle"
 
-def pose_from_points(
-    problem: ForwardProblem, frame: PlatformFrame, points: Sequence[Sequence[Expression]], unit: Expression
-) -> PoseMap:
-    """The pose from the positions of the frame's three joints: R = (v1 v2 v3) (u1 u2 u3)^-1, C = P - R B."""
-    metric = [rational(g) for g in problem.metric]
-    v1 = [b - a for a, b in zip(points[0], points[1], strict=True)]
-    v2 = [b - a for a, b in zip(points[0], points[2], strict=True)]
-    v3 = [(1 / g) * value for value, g in zip(cross(v1, v2), metric, strict=True)]
-    inverse = fmpq_mat([[axis[i] for axis in frame.axes] for i in range(3)]).inv()
-    rotation = [
-        [v1[i] * inverse[0, j] + v2[i] * inverse[1, j] + v3[i] * inverse[2, j] for j in range(3)] for i in range(3)
-    ]
-    joint = [rational(value) for value in problem.legs[frame.legs[0]].platform]
-    position = [points[0][i] - sum((rotation[i][j] * joint[j] for j in range(3)), 0 * unit) for i in range(3)]
-    return PoseMap(tuple(map(tuple, quaternion_products(rotation, unit, metric))), tuple(position))
+    def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
+        """The problem in the unknowns x1, y1, z1, ..., z3."""
+        context, points = _points()
+        frame = platform_frame(problem, self.triple)
+        metric = [rational(g) for g in problem.metric]
+        equations = _leg_equations(problem, frame, points)
+        equations += [_distance(problem, frame, points, 0, j) for j in (1, 2)]
+        v1, v2, _ = edge_vectors(points, metric)
+        equations.append(dot(metric, v1, v2) - dot(metric, frame.axes[0], frame.axes[1]))
+        system = over_integers(POINT_UNKNOWNS, equations)
+        pose_map = pose_from_points(problem, frame, points, context.constant(1))
+        return FormulatedProblem(self.code, system, pose_map, fibre=1, branches=(system,))
 
 
 @dataclass(frozen=True)
@@ -102,6 +136,7 @@ class AFP3:
     Source: Rolland 2008, section 4.2.3, equations (32) to (36); with u3 not normalised, so that a, b, c are rational.
     """
 
+    triple: Triple | None = None
     code: str = "AFP3"
     title: str = "positions of three platform joints, recombined"
 
@@ -111,7 +146,7 @@ class AFP3:
         unit = context.constant(1)
         metric = [rational(g) for g in problem.metric]
         points = [list(generators[3 * i : 3 * i + 3]) for i in range(3)]
-        frame = platform_frame(problem)
+        frame = platform_frame(problem, self.triple)
         bases = [[rational(value) for value in problem.legs[index].base] for index in frame.legs]
         squares = [rational(problem.legs[index].length_squared) for index in frame.legs]
         legs = [
@@ -123,7 +158,7 @@ class AFP3:
         for i in range(3):
             linear[i][i] = dot(metric, points[i], points[i]) - legs[i]
         for i, j in combinations(range(3), 2):
-            edge = _edge_square(problem, frame, i, j)
+            edge = edge_square(problem, frame.legs[i], frame.legs[j])
             linear[i][j] = linear[j][i] = (linear[i][i] + linear[j][j] - edge) * fmpq(1, 2)
         recombined = [dot(metric, points[i], points[j]) - linear[i][j] for i, j in combinations(range(3), 2)]
         others = [
@@ -132,15 +167,8 @@ class AFP3:
             if index not in frame.legs
         ]
         system = over_integers(POINT_UNKNOWNS, legs + recombined + others)
-        return FormulatedProblem(self.code, system, pose_from_points(problem, frame, points, unit), fibre=1)
-
-
-def _edge_square(problem: ForwardProblem, frame: PlatformFrame, i: int, j: int) -> fmpq:
-    metric = [rational(g) for g in problem.metric]
-    left, right = (problem.legs[frame.legs[index]].platform for index in (i, j))
-    edge = [rational(a - b) for a, b in zip(left, right, strict=True)]
-    square: fmpq = dot(metric, edge, edge)
-    return square
+        pose_map = pose_from_points(problem, frame, points, unit)
+        return FormulatedProblem(self.code, system, pose_map, fibre=1, branches=(system,))
 
 
 def _reduced_leg(

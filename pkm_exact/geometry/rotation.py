@@ -76,3 +76,23 @@ def quaternion_products(rotation: Sequence[Sequence[Any]], one: Any, metric: Seq
         pair = rotation[i][j] * inverse[j] + rotation[j][i] * inverse[i]
         products[i + 1][j + 1] = products[j + 1][i + 1] = pair
     return products
+
+
+def composition_matrix(right: Sequence[int], metric: Sequence[int]) -> list[list[int]]:
+    """The 4 x 4 matrix that takes quaternion coordinates of R to those of R Q, up to scale, for Q given by ``right``.
+
+    Examples
+    --------
+    >>> composition_matrix((2, 1, 0, 0), (1, 1, 1))
+    [[2, -1, 0, 0], [1, 2, 0, 0], [0, 0, 2, 1], [0, 0, -1, 2]]
+    """
+    volume = metric[0] * metric[1] * metric[2]
+    b = right
+    matrix = [[volume * b[0], *(-metric[i] * b[i + 1] for i in range(3))], [0] * 4, [0] * 4, [0] * 4]
+    for i, j, k in CYCLIC:
+        # volume / g_i = g_j g_k
+        matrix[i + 1][0] = volume * b[i + 1]
+        matrix[i + 1][i + 1] = volume * b[0]
+        matrix[i + 1][j + 1] = metric[j] * metric[k] * b[k + 1]
+        matrix[i + 1][k + 1] = -metric[j] * metric[k] * b[j + 1]
+    return matrix

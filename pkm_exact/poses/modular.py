@@ -22,11 +22,25 @@ Form = tuple[int, ...]
 
 @dataclass(frozen=True)
 class ModularPoses:
-    """Study coordinates in the quotient algebra of a formulation, modulo one prime."""
+    """Study coordinates in the quotient algebra of a formulation, modulo one prime.
+
+    Attributes
+    ----------
+    formulated : FormulatedProblem
+    algebra : QuotientAlgebra
+        Of the first branch, with the conditions joined: every solution is a pose.
+    metric : tuple of 3 int
+        Gram diagonal.
+    """
 
     formulated: FormulatedProblem
     algebra: QuotientAlgebra
     metric: tuple[int, int, int]
+
+    @property
+    def count(self) -> int:
+        """Number of poses with multiplicity."""
+        return self.algebra.dimension // self.formulated.fibre
 
     @cached_property
     def position(self) -> tuple[nmod_mat, ...]:
@@ -71,10 +85,25 @@ class ModularPoses:
         )
 
     def _element(self, polynomial: fmpq_mpoly) -> nmod_mat:
-        unknowns, ring = self.formulated.system.unknowns, self.formulated.system.monomials
-        prime = self.algebra.prime
-        cleared, denominator = integer_multiple(unknowns, polynomial)
-        return self.algebra.element(modular_image(cleared, ring, prime)) * pow(denominator, -1, prime)
+        return _element(self.formulated, self.algebra, polynomial)
+
+
+def modular_poses(
+    formulated: FormulatedProblem, algebra: QuotientAlgebra | None, metric: tuple[int, int, int]
+) -> ModularPoses | None:
+    """The poses among the solutions of the first branch; None if there are infinitely many solutions."""
+    if algebra is None:
+        return None
+    for condition in formulated.conditions:
+        algebra = algebra.quotient_by(_element(formulated, algebra, condition))
+    return ModularPoses(formulated, algebra, metric)
+
+
+def _element(formulated: FormulatedProblem, algebra: QuotientAlgebra, polynomial: fmpq_mpoly) -> nmod_mat:
+    branch = formulated.branches[0]
+    cleared, denominator = integer_multiple(branch.unknowns, polynomial)
+    image = modular_image(cleared, branch.monomials, algebra.prime)
+    return algebra.element(image) * pow(denominator, -1, algebra.prime)
 
 
 def candidate_charts(seed: int) -> Iterator[Chart]:
