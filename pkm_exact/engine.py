@@ -20,7 +20,7 @@ from pkm_exact.formulations.turned import Turn, candidate_turns, formulate_turne
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import exponent_for_width, pose_boxes
-from pkm_exact.poses.completeness import MOTION_DEGREE, proved_route
+from pkm_exact.poses.completeness import MOTION_DEGREE, CompletenessProof, prove_complete, prove_inconsistent
 from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms, modular_poses
 from pkm_exact.poses.representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.study_equations import Chart, StudyEquations, free_coordinates
@@ -89,11 +89,16 @@ class _Run:
             )
             return self._result(elimination, image, Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note)
         if start.poses.count == 0:
+            self._enter("completeness")
+            proof = prove_inconsistent(self.problem, self.policy)
+            if proof is not None:
+                note = "no pose, real or complex, has these leg lengths"
+                return self._result(elimination, image, Claim.INCONSISTENT, exponent, note, proof)
             note = "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
             return self._result(elimination, image, Claim.NOT_PROVEN_COMPLETE, exponent, note)
         representation = self._representation(start)
         self._enter("completeness")
-        route = proved_route(representation, self.problem, self.policy)
+        proof = prove_complete(representation, self.problem, self.policy)
         self._enter("real roots and boxes")
         exponent, poses = pose_boxes(representation, self.problem.metric, width)
         self._leave()
@@ -102,14 +107,14 @@ class _Run:
             problem=self.problem,
             formulation=self.code,
             method="exact",
-            claim=Claim.COMPLETE if route else Claim.NOT_PROVEN_COMPLETE,
-            completeness_route=route,
+            claim=Claim.COMPLETE if proof else Claim.NOT_PROVEN_COMPLETE,
+            completeness=proof,
             complex_solutions=start.poses.count,
             distinct_solutions=degree,
             representation=representation,
             box_exponent=exponent,
             poses=poses,
-            notes=start.notes if route else (*start.notes, _open_question(start.poses.count, degree)),
+            notes=start.notes if proof else (*start.notes, _open_question(start.poses.count, degree)),
             statistics=self._statistics(elimination, image),
         )
 
@@ -187,7 +192,13 @@ class _Run:
         return pose_representation(chosen.chart, univariate)
 
     def _result(
-        self, elimination: Elimination, image: ModularImage, claim: Claim, exponent: int, note: str
+        self,
+        elimination: Elimination,
+        image: ModularImage,
+        claim: Claim,
+        exponent: int,
+        note: str,
+        proof: CompletenessProof | None = None,
     ) -> Solution:
         self._leave()
         return Solution(
@@ -195,7 +206,7 @@ class _Run:
             formulation=self.code,
             method="exact",
             claim=claim,
-            completeness_route=None,
+            completeness=proof,
             complex_solutions=0,
             distinct_solutions=0,
             representation=None,

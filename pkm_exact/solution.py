@@ -10,6 +10,7 @@ from pkm_exact.poses.pose import Pose
 from pkm_exact.verdict import Claim, CompletenessRoute
 
 if TYPE_CHECKING:
+    from pkm_exact.poses.completeness import CompletenessProof
     from pkm_exact.poses.representation import PoseRepresentation
 
 
@@ -54,8 +55,8 @@ class Solution:
         "exact".
     claim : Claim
         What is proved about the list of poses.
-    completeness_route : CompletenessRoute or None
-        The argument, if the claim is completeness.
+    completeness : CompletenessProof or None
+        The proof, if the claim is completeness or that there is no pose.
     complex_solutions : int
         Finite complex poses with multiplicity. A count modulo a prime unless the claim is completeness.
     distinct_solutions : int
@@ -75,7 +76,7 @@ class Solution:
     formulation: str
     method: str
     claim: Claim
-    completeness_route: CompletenessRoute | None
+    completeness: CompletenessProof | None
     complex_solutions: int
     distinct_solutions: int
     representation: PoseRepresentation | None
@@ -83,6 +84,11 @@ class Solution:
     poses: tuple[Pose, ...]
     notes: tuple[str, ...] = ()
     statistics: Statistics = field(default_factory=Statistics, repr=False, compare=False)
+
+    @property
+    def completeness_route(self) -> CompletenessRoute | None:
+        """The argument by which the list was proved complete, if it was."""
+        return None if self.completeness is None else self.completeness.route
 
     def __str__(self) -> str:
         return (

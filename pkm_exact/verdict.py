@@ -26,6 +26,11 @@ class CompletenessRoute(StrEnum):
     ``REFINED_BEZOUT``: the variety of rigid motions has degree 40 in P^16, so the irreducible components of
     its section by six hyperplanes have degrees that sum to at most 40 (Fulton, Intersection Theory, 12.3);
     40 distinct isolated solutions leave room for no other.
+
+    ``EXACT_ELIMINATION``: an elimination over Q shows that the ideal of the poses contains polynomials whose leading
+    monomials leave only as many others as there are distinct solutions listed (or as many, counted with the
+    multiplicities that the trace form over Q shows); there cannot be more.
     """
 
     REFINED_BEZOUT = "refined-bezout"
+    EXACT_ELIMINATION = "exact-elimination"

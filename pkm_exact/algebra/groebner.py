@@ -222,10 +222,20 @@ class _Elimination:
             if degree > degree_limit:
                 raise OutOfReachError(f"a critical pair of degree {degree} exceeds the limit {degree_limit}")
             steps.append(self._reduce([pair for pair in self.pairs if pair.degree == degree], record))
-        basis = sorted(self.active, key=lambda index: self.known[index][0][0])
+        basis = sorted(self._minimal(), key=lambda index: self.known[index][0][0])
         start = tuple(generator[0][0] for generator in self.generators)
         trace = Trace(start, tuple(step for step in steps if step.new), tuple(basis)) if record else None
         return GroebnerBasis(self.prime, self.ring, tuple(self.known[index] for index in basis), trace)
+
+    def _minimal(self) -> list[int]:
+        """Indices of the basis elements whose leading monomial no other one divides."""
+        return [
+            index
+            for index in self.active
+            if not any(
+                other != index and _divides(self.exponents[other], self.exponents[index]) for other in self.active
+            )
+        ]
 
     def _append(self, polynomial: ModularPolynomial) -> None:
         self.known.append(polynomial)

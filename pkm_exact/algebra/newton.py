@@ -129,7 +129,7 @@ def _step(
     corrections = factors.solve([_quotient(value, modulus, ring) for value in equations.values(wide, old)])
     # The form's value at the corrected point is T + shift; like the correction, the shift is a multiple of the old
     # modulus. Lifting the coefficients of the point has itself moved the form by such a multiple.
-    carry = _quotient(combination(form, old) - wide.convert((0, 1)), modulus, ring)
+    carry = _quotient(wide.reduce(combination(form, old) - wide.convert((0, 1))), modulus, ring)
     shift = carry - combination(form, corrections)
     new = []
     for coordinate, correction in zip(point, corrections, strict=True):

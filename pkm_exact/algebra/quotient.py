@@ -146,10 +146,33 @@ def normal_set(basis: GroebnerBasis, limit: int) -> tuple[int, ...]:
     OutOfReachError
         If there are more than ``limit``.
     """
-    ring = basis.ring
-    if basis.is_unit_ideal:
+    found = standard_monomials(basis.ring, basis.leading_monomials, limit)
+    if found is None:
+        raise OutOfReachError("the staircase is infinite")
+    return found
+
+
+def standard_monomials(ring: MonomialRing, leading_monomials: Sequence[int], limit: int) -> tuple[int, ...] | None:
+    """Monomials that none of the given ones divides, increasing; None if there are infinitely many.
+
+    Raises
+    ------
+    OutOfReachError
+        If there are finitely many, but more than ``limit``.
+
+    Examples
+    --------
+    >>> ring = MonomialRing(2)
+    >>> found = standard_monomials(ring, [ring.pack((2, 0)), ring.pack((0, 2)), ring.pack((1, 1))], 10)
+    >>> [ring.unpack(monomial) for monomial in found]
+    [(0, 0), (0, 1), (1, 0)]
+    """
+    leading = [ring.unpack(monomial) for monomial in leading_monomials]
+    if any(not any(exponents) for exponents in leading):
         return ()
-    leading = [ring.unpack(monomial) for monomial in basis.leading_monomials]
+    pure = {exponents.index(max(exponents)) for exponents in leading if sum(map(bool, exponents)) == 1}
+    if len(pure) < ring.size:
+        return None
     found = [0]
     layer = [(0,) * ring.size]
     while layer:

@@ -44,9 +44,22 @@ def common_fraction(residues: Sequence[int], modulus: int, denominator: int = 1)
         if factor == 0:
             continue
         found = _numerators(residues, modulus, denominator * factor)
-        if found is not None:
+        if found is not None and _is_convincing(scaled, found, modulus, factor):
             return found, denominator * factor
     return None
+
+
+def _is_convincing(scaled: Sequence[int], numerators: Sequence[int], modulus: int, factor: int) -> bool:
+    """Whether a factor and numerators are too short together to fit residues that have nothing in common.
+
+    Residues that were small without the factor say nothing about it.
+    """
+    bound = modulus >> MARGIN_BITS
+    spare = MARGIN_BITS + factor.bit_length()
+    for residue, numerator in zip(scaled, numerators, strict=True):
+        if abs(_symmetric(residue, modulus)) >= bound:
+            spare += numerator.bit_length() - modulus.bit_length()
+    return spare < 0
 
 
 def _numerators(residues: Sequence[int], modulus: int, denominator: int) -> list[int] | None:

@@ -31,8 +31,8 @@ class AFP4:
     Distances do not tell a joint from its mirror image in the plane of the three. With
     w_k = P_k - P_1 - a_k v1 - b_k v2 the equations give w_k.v1 = w_k.v2 = 0 and |w_k|^2 = c_k^2 |v3|^2, and |v3|^2 is a
     constant other than 0, so that w_k = +-c_k v3. The solutions are therefore the union over the signs of those with
-    the three equations w_k = +-c_k v3 joined, and this splitting is what is solved: 8 branches of 40 solutions each on a
-    general robot, 320 in all. Only the branch of all plus signs is the rigid platform. Joints in the plane (c_k = 0)
+    the three equations w_k = +-c_k v3 joined, and this splitting is what is solved: 8 branches of 40 solutions each on
+    a general robot, 320 in all. Only the branch of all plus signs is the rigid platform. Joints in the plane (c_k = 0)
     split nothing: there the mirror images coincide, and a branch counts once what the 18 quadrics count double.
     Source: Rolland 2008, section 4.2.4, equations (37) and (38).
 

@@ -1,20 +1,29 @@
 """Proofs that a verified list of poses is all there is.
 
-Rigid motions form a projective variety of dimension 6 and degree 40 in P^16 on which every leg is a hyperplane
-(Gallet, Nawratil and Schicho 2015). By the refined theorem of Bezout (Fulton, Intersection Theory, 12.3) the
+Refined Bezout. Rigid motions form a projective variety of dimension 6 and degree 40 in P^16 on which every leg is a
+hyperplane (Gallet, Nawratil and Schicho 2015). By the refined theorem of Bezout (Fulton, Intersection Theory, 12.3) the
 irreducible components of the section by six hyperplanes have degrees that sum to at most 40. Forty distinct poses, each
 isolated because the Jacobian of the legs is regular there, are forty components: nothing else can be left, neither
 another pose nor a self-motion.
+
+Exact elimination. Robots with symmetries have fewer finite solutions, the rest at infinity. An elimination over Q in
+the affine coordinates of the section yields members of the ideal of the poses, and the monomials that none of their
+leading monomials divide span its quotient algebra. If these are as many as the poses listed, there is no other.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import islice
 
 from flint import nmod_poly
 
+from pkm_exact.algebra.elimination import Elimination
+from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.newton import is_regular
 from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.quotient import standard_monomials
+from pkm_exact.formulations.motion_variety import SE3
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.representation import PoseRepresentation
@@ -25,12 +34,59 @@ MOTION_DEGREE = 40
 """Degree of the variety of rigid motions in P^16."""
 
 
-def proved_route(
+@dataclass(frozen=True)
+class CompletenessProof:
+    """How a list of poses was proved complete, with what is needed to replay it.
+
+    Attributes
+    ----------
+    route : CompletenessRoute
+    elimination : tuple of tuple of (int, tuple of int)
+        For exact elimination: the rows of every matrix, each an element's index and the exponents that multiply it
+        (see ``algebra.exact_basis``), on the section of the variety of rigid motions as ``SE3`` writes it.
+    """
+
+    route: CompletenessRoute
+    elimination: tuple[tuple[tuple[int, tuple[int, ...]], ...], ...] = ()
+
+
+def prove_complete(
     representation: PoseRepresentation, problem: ForwardProblem, policy: Policy
-) -> CompletenessRoute | None:
-    """The argument that proves a verified representation complete, or None if none of those known here applies."""
-    full = len(problem.legs) == 6 and representation.univariate.degree == MOTION_DEGREE
-    return CompletenessRoute.REFINED_BEZOUT if full and are_isolated(representation, problem, policy) else None
+) -> CompletenessProof | None:
+    """A proof that a verified representation is complete, or None if none of those known here applies."""
+    degree = representation.univariate.degree
+    if len(problem.legs) == 6 and degree == MOTION_DEGREE and are_isolated(representation, problem, policy):
+        return CompletenessProof(CompletenessRoute.REFINED_BEZOUT)
+    basis = eliminate_exactly(problem, policy)
+    if basis is not None and solution_bound(basis, policy) == degree:
+        return _elimination_proof(basis)
+    return None
+
+
+def prove_inconsistent(problem: ForwardProblem, policy: Policy) -> CompletenessProof | None:
+    """A proof that no complex pose exists, by an elimination over Q that ends in a constant; None if it does not."""
+    basis = eliminate_exactly(problem, policy)
+    return _elimination_proof(basis) if basis is not None and solution_bound(basis, policy) == 0 else None
+
+
+def eliminate_exactly(problem: ForwardProblem, policy: Policy) -> ExactBasis | None:
+    """The elimination over Q of the poses' ideal, along a trace modulo a prime; None if that is not finite there."""
+    system = SE3().formulate(problem).system
+    image = Elimination(system, policy).image(record=True)
+    if image.algebra is None or image.basis.trace is None:
+        return None
+    return exact_basis(system, image.basis.trace)
+
+
+def solution_bound(basis: ExactBasis, policy: Policy) -> int | None:
+    """An upper bound for the number of solutions with multiplicity, or None if the staircase is infinite."""
+    found = standard_monomials(basis.ring, basis.leading_monomials, policy.dimension_limit)
+    return None if found is None else len(found)
+
+
+def _elimination_proof(basis: ExactBasis) -> CompletenessProof:
+    steps = tuple(tuple((index, basis.ring.unpack(monomial)) for index, monomial in step) for step in basis.steps)
+    return CompletenessProof(CompletenessRoute.EXACT_ELIMINATION, steps)
 
 
 def are_isolated(representation: PoseRepresentation, problem: ForwardProblem, policy: Policy) -> bool:

@@ -1,0 +1,102 @@
+"""Elimination over Q along a trace learned modulo a prime: polynomials that lie in the ideal, without any doubt.
+
+The rows of each matrix are multiples of polynomials already known to lie in the ideal, and the reduced row echelon form
+is computed over Q. Whatever trace is followed, the results are members of the ideal over Q; the trace only makes the
+matrices small. Monomials that no leading monomial divides then span the quotient algebra: their number bounds the
+number of solutions, multiplicities counted, from above.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import gcd
+
+from flint import fmpz_mat
+
+from pkm_exact.algebra.groebner import Row, Trace
+from pkm_exact.algebra.monomials import MonomialRing
+from pkm_exact.algebra.system import PolynomialSystem
+
+ExactPolynomial = tuple[tuple[int, int], ...]
+"""Packed monomials in decreasing order, each with its integer coefficient; the coefficients are coprime."""
+
+
+@dataclass(frozen=True)
+class ExactBasis:
+    """Members of an ideal over Q.
+
+    Attributes
+    ----------
+    ring : MonomialRing
+    elements : tuple of ExactPolynomial
+    steps : tuple of tuple of Row
+        The rows of each matrix: index of an element, and the packed monomial that multiplies it. The elements with the
+        first indices are the echelon form of the generators; each matrix appends the rows of its echelon form whose
+        leading monomial no earlier element's divides.
+    """
+
+    ring: MonomialRing
+    elements: tuple[ExactPolynomial, ...]
+    steps: tuple[tuple[Row, ...], ...]
+
+    @property
+    def leading_monomials(self) -> tuple[int, ...]:
+        """Leading monomials, in the order of the elements."""
+        return tuple(element[0][0] for element in self.elements)
+
+
+def exact_basis(system: PolynomialSystem, trace: Trace) -> ExactBasis:
+    """The elimination of ``trace`` over Q."""
+    ring = system.monomials
+    generators = [
+        tuple((ring.pack(tuple(map(int, exponents))), int(value)) for exponents, value in polynomial.to_dict().items())
+        for polynomial in system.polynomials
+    ]
+    elements = echelon_form(generators)
+    steps = []
+    for step in trace.steps:
+        rows = [multiple(elements[index], monomial) for index, monomial in step.rows]
+        known = [ring.unpack(element[0][0]) for element in elements]
+        elements += [row for row in echelon_form(rows) if not any_divides(known, ring.unpack(row[0][0]))]
+        steps.append(step.rows)
+    return ExactBasis(ring, tuple(elements), tuple(steps))
+
+
+def any_divides(divisors: Sequence[tuple[int, ...]], exponents: tuple[int, ...]) -> bool:
+    """Whether one of the monomials divides the last one, all given by exponents."""
+    return any(all(a <= b for a, b in zip(divisor, exponents, strict=True)) for divisor in divisors)
+
+
+def multiple(polynomial: ExactPolynomial, monomial: int) -> ExactPolynomial:
+    """The polynomial times a packed monomial."""
+    return tuple((key + monomial, value) for key, value in polynomial)
+
+
+def echelon_form(polynomials: Sequence[ExactPolynomial]) -> list[ExactPolynomial]:
+    """The reduced row echelon form over Q, each row cleared to coprime integers, largest leading monomial first.
+
+    Examples
+    --------
+    >>> echelon_form([((2, 1), (1, 1)), ((2, 1), (0, 3))])
+    [((2, 1), (0, 3)), ((1, 1), (0, -3))]
+    """
+    columns = sorted({monomial for polynomial in polynomials for monomial, _ in polynomial}, reverse=True)
+    position = {monomial: index for index, monomial in enumerate(columns)}
+    table = [[0] * len(columns) for _ in polynomials]
+    for row, polynomial in zip(table, polynomials, strict=True):
+        for monomial, value in polynomial:
+            row[position[monomial]] = value
+    if not columns:
+        return []
+    echelon, _, rank = fmpz_mat(table).rref()
+    rows = []
+    for index in range(rank):
+        entries = [int(echelon[index, column]) for column in range(len(columns))]
+        content = gcd(*entries)
+        lead = next(value for value in entries if value)
+        content = content if lead > 0 else -content
+        rows.append(
+            tuple((monomial, value // content) for monomial, value in zip(columns, entries, strict=True) if value)
+        )
+    return rows
