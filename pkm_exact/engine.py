@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import islice
 from time import perf_counter
@@ -11,6 +11,7 @@ from time import perf_counter
 from pkm_exact.algebra.elimination import Elimination, ModularImage
 from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.lifting import lift_by_newton, lift_by_primes
+from pkm_exact.algebra.representation import union
 from pkm_exact.algebra.rur import ModularRepresentation
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.base import FormulatedProblem
@@ -20,10 +21,19 @@ from pkm_exact.formulations.turned import Turn, candidate_turns, formulate_turne
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import exponent_for_width, pose_boxes
-from pkm_exact.poses.completeness import MOTION_DEGREE, CompletenessProof, prove_complete, prove_inconsistent
+from pkm_exact.poses.completeness import (
+    MOTION_DEGREE,
+    CompletenessProof,
+    are_isolated,
+    multiplicities,
+    prove_complete,
+    prove_inconsistent,
+)
 from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms, modular_poses
+from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.study_equations import Chart, StudyEquations, free_coordinates
+from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.verdict import Claim
 
@@ -101,6 +111,7 @@ class _Run:
         proof = prove_complete(representation, self.problem, self.policy)
         self._enter("real roots and boxes")
         exponent, poses = pose_boxes(representation, self.problem.metric, width)
+        poses = self._with_multiplicities(poses, representation, proof)
         self._leave()
         degree = representation.univariate.degree
         return Solution(
@@ -109,13 +120,26 @@ class _Run:
             method="exact",
             claim=Claim.COMPLETE if proof else Claim.NOT_PROVEN_COMPLETE,
             completeness=proof,
-            complex_solutions=start.poses.count,
+            complex_solutions=proof.total if proof else start.poses.count,
             distinct_solutions=degree,
             representation=representation,
             box_exponent=exponent,
             poses=poses,
             notes=start.notes if proof else (*start.notes, _open_question(start.poses.count, degree)),
             statistics=self._statistics(elimination, image),
+        )
+
+    def _with_multiplicities(
+        self, poses: tuple[Pose, ...], representation: PoseRepresentation, proof: CompletenessProof | None
+    ) -> tuple[Pose, ...]:
+        """The poses with the multiplicities that are proved; without a proof of completeness, none but simple ones."""
+        if proof is None:
+            simple = are_isolated(representation, self.problem, self.policy)
+            return poses if simple else tuple(replace(pose, multiplicity=None) for pose in poses)
+        found = multiplicities(representation, self.problem, proof.total, self.policy)
+        return tuple(
+            replace(pose, multiplicity=next(m for factor, m in found if has_root(factor, pose.parameter)))
+            for pose in poses
         )
 
     def _started(self) -> _Start:
@@ -179,14 +203,21 @@ class _Run:
     def _lifted(self, start: _Start, chosen: _Parameters, attempt: int) -> PoseRepresentation | None:
         equations = StudyEquations(self.problem, chosen.chart, self.policy.seed + attempt)
         form = [chosen.form[k] for k in free_coordinates(chosen.chart)]
-        multimodular = self.policy.lifting == "multimodular" or not chosen.modular.is_simple
-        self._enter("lifting by primes" if multimodular else "p-adic lifting")
         try:
-            if multimodular:
+            if self.policy.lifting == "multimodular":
+                self._enter("lifting by primes")
                 images = _further_images(start, chosen, self.problem.metric)
-                univariate = lift_by_primes(form, images, self.policy.lifting_bits)
-            else:
-                univariate = lift_by_newton(equations, form, chosen.modular, self.policy.lifting_bits)
+                return pose_representation(chosen.chart, lift_by_primes(form, images, self.policy.lifting_bits))
+            parts = []
+            for multiplicity, modular in chosen.modular.parts(start.formulated.fibre).items():
+                if multiplicity == 1:
+                    self._enter("p-adic lifting")
+                    parts.append(lift_by_newton(equations, form, modular, self.policy.lifting_bits))
+                else:
+                    self._enter("lifting by primes")
+                    images = _parts(_further_images(start, chosen, self.problem.metric), multiplicity, start)
+                    parts.append(lift_by_primes(form, images, self.policy.lifting_bits))
+            univariate = union(parts)
         except UnluckyPrimeError:
             return None
         return pose_representation(chosen.chart, univariate)
@@ -282,6 +313,16 @@ def _further_images(
         coordinates = None if poses is None else poses.coordinates(chosen.chart)
         if poses is not None and coordinates is not None:
             yield poses.representation(coordinates, chosen.form, free_coordinates(chosen.chart))
+
+
+def _parts(
+    images: Iterator[ModularRepresentation], multiplicity: int, start: _Start
+) -> Iterator[ModularRepresentation]:
+    """Of every image the solutions of one multiplicity; primes at which there are none are left out."""
+    for image in images:
+        part = image.parts(start.formulated.fibre).get(multiplicity)
+        if part is not None:
+            yield part
 
 
 def _turn_notes(turn: Turn, attempt: int) -> tuple[str, ...]:

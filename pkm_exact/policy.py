@@ -32,6 +32,6 @@ class Policy:
     seed: int = 20081125
     lifting: str = "newton"
     attempts: int = 12
-    lifting_bits: int = 1 << 20
+    lifting_bits: int = 1 << 17
     degree_limit: int = 40
     dimension_limit: int = 2000

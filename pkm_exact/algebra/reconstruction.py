@@ -33,44 +33,39 @@ def common_fraction(residues: Sequence[int], modulus: int, denominator: int = 1)
     >>> common_fraction([pow(6, -1, modulus), 5 * pow(4, -1, modulus) % modulus], modulus)
     ([2, 15], 12)
     """
-    found = _numerators(residues, modulus, denominator)
-    if found is not None:
-        return found, denominator
-    scaled = [residue * denominator % modulus for residue in residues]
-    large = [value for value in scaled if abs(_symmetric(value, modulus)) >= modulus >> MARGIN_BITS]
-    sample = large[:: max(1, len(large) // LATTICE_RESIDUES)][:LATTICE_RESIDUES]
+    while True:
+        numerators = _numerators(residues, modulus, denominator)
+        if numerators is not None:
+            return numerators, denominator
+        scaled = (residue * denominator % modulus for residue in residues)
+        large = [value for value in scaled if not _is_small(_symmetric(value, modulus), modulus)]
+        factor = _missing_factor(large[:: max(1, len(large) // LATTICE_RESIDUES)][:LATTICE_RESIDUES], modulus)
+        if factor <= 1:
+            return None
+        denominator *= factor  # the sample may lack a factor that the other residues need: look again
+        if not _is_small(denominator, modulus):
+            return None
+
+
+def _is_small(value: int, modulus: int) -> bool:
+    return abs(value) < modulus >> MARGIN_BITS
+
+
+def _missing_factor(sample: Sequence[int], modulus: int) -> int:
+    """A common denominator of the sample, or 0 if the modulus is too small to show one."""
     for weight_bits in (modulus.bit_length() // 2, 0):
         factor = _common_denominator(sample, modulus, 1 << weight_bits)
-        if factor == 0:
-            continue
-        found = _numerators(residues, modulus, denominator * factor)
-        if found is not None and _is_convincing(scaled, found, modulus, factor):
-            return found, denominator * factor
-    return None
-
-
-def _is_convincing(scaled: Sequence[int], numerators: Sequence[int], modulus: int, factor: int) -> bool:
-    """Whether a factor and numerators are too short together to fit residues that have nothing in common.
-
-    Residues that were small without the factor say nothing about it.
-    """
-    bound = modulus >> MARGIN_BITS
-    spare = MARGIN_BITS + factor.bit_length()
-    for residue, numerator in zip(scaled, numerators, strict=True):
-        if abs(_symmetric(residue, modulus)) >= bound:
-            spare += numerator.bit_length() - modulus.bit_length()
-    return spare < 0
+        if factor and all(_is_small(_symmetric(value * factor, modulus), modulus) for value in sample):
+            return factor
+    return 0
 
 
 def _numerators(residues: Sequence[int], modulus: int, denominator: int) -> list[int] | None:
     """The residues times the denominator, if all are small."""
-    bound = modulus >> MARGIN_BITS
-    if denominator >= bound:
-        return None
     numerators = []
     for residue in residues:
         value = _symmetric(residue * denominator, modulus)
-        if abs(value) >= bound:
+        if not _is_small(value, modulus):
             return None
         numerators.append(value)
     return numerators

@@ -112,6 +112,24 @@ def from_common_fractions(
     )
 
 
+def union(parts: Sequence[UnivariateRepresentation]) -> UnivariateRepresentation:
+    """The representation of all the solutions of several, which have no value of the common form in common.
+
+    With h the product of the h_k, the numerators are sum_k n_k prod_{j != k} h_j.
+    """
+    combined = parts[0]
+    for part in parts[1:]:
+        left, right = combined.polynomial, part.polynomial
+        numerators = [
+            a * right + b * left
+            for a, b in zip(combined.numerator_polynomials, part.numerator_polynomials, strict=True)
+        ]
+        lists = [[int(value) for value in numerator.coeffs()] for numerator in numerators]
+        h = [int(value) for value in (left * right).coeffs()]
+        combined = from_common_fractions(combined.form, h, 1, lists, 1)
+    return combined
+
+
 def _trimmed(values: Sequence[int]) -> tuple[int, ...]:
     size = len(values)
     while size and not values[size - 1]:

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 from flint import fmpz_mod_ctx, fmpz_mod_poly, fmpz_mod_poly_ctx
+
+
+@lru_cache(maxsize=8)
+def _polynomials_modulo(modulus: int) -> fmpz_mod_poly_ctx:
+    """Kept, because FLINT tests the modulus for primality each time that a context is made."""
+    return fmpz_mod_poly_ctx(fmpz_mod_ctx(modulus))
 
 
 @dataclass(frozen=True)
@@ -22,7 +28,7 @@ class ResidueRing:
     @cached_property
     def polynomials(self) -> fmpz_mod_poly_ctx:
         """The polynomial ring over the integers modulo ``modulus``."""
-        return fmpz_mod_poly_ctx(fmpz_mod_ctx(self.modulus))
+        return _polynomials_modulo(self.modulus)
 
     @cached_property
     def relation(self) -> fmpz_mod_poly:

@@ -48,6 +48,23 @@ class ModularRepresentation:
         scale = self.denominator.leading_coefficient() / derivative.leading_coefficient()
         return bool(self.denominator == derivative * scale)
 
+    def parts(self, fibre: int = 1) -> dict[int, ModularRepresentation]:
+        """The solutions of each multiplicity by themselves, multiplicities in multiples of ``fibre``."""
+        derivative = self.eliminant.derivative()
+        multiplicity = self.denominator * derivative.xgcd(self.eliminant)[1] % self.eliminant
+        found: dict[int, ModularRepresentation] = {}
+        rest, count = self.eliminant, 1
+        while rest.degree() > 0:
+            part = rest.gcd(multiplicity - count * fibre)
+            if part.degree() > 0:
+                part = part / part.leading_coefficient()
+                rest = rest // part
+                slope = part.derivative()
+                numerators = tuple(coordinate * slope % part for coordinate in self.shape())
+                found[count] = ModularRepresentation(part, slope, numerators)
+            count += 1
+        return found
+
     def shape(self) -> tuple[nmod_poly, ...]:
         """The coordinates as polynomials in T modulo h: g_x / g_1."""
         inverse = self.denominator.xgcd(self.eliminant)[1]

@@ -8,7 +8,9 @@ another pose nor a self-motion.
 
 Exact elimination. Robots with symmetries have fewer finite solutions, the rest at infinity. An elimination over Q in
 the affine coordinates of the section yields members of the ideal of the poses, and the monomials that none of their
-leading monomials divide span its quotient algebra. If these are as many as the poses listed, there is no other.
+leading monomials divide span its quotient algebra. If these are as many as the poses listed, there is no other. If
+they are more, the trace form over Q counts the distinct ones (``algebra.exact_quotient``): as many as listed, and again
+there is no other. A pose with a regular Jacobian is simple; if the others are conjugate, they share what is left.
 """
 
 from __future__ import annotations
@@ -16,10 +18,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import islice
 
-from flint import nmod_poly
+from flint import fmpz_poly, nmod_poly
 
 from pkm_exact.algebra.elimination import Elimination
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
+from pkm_exact.algebra.exact_quotient import exact_quotient
 from pkm_exact.algebra.newton import is_regular
 from pkm_exact.algebra.primes import primes_below
 from pkm_exact.algebra.quotient import standard_monomials
@@ -41,12 +44,15 @@ class CompletenessProof:
     Attributes
     ----------
     route : CompletenessRoute
+    total : int
+        Number of complex poses with multiplicity.
     elimination : tuple of tuple of (int, tuple of int)
         For exact elimination: the rows of every matrix, each an element's index and the exponents that multiply it
         (see ``algebra.exact_basis``), on the section of the variety of rigid motions as ``SE3`` writes it.
     """
 
     route: CompletenessRoute
+    total: int
     elimination: tuple[tuple[tuple[int, tuple[int, ...]], ...], ...] = ()
 
 
@@ -56,17 +62,45 @@ def prove_complete(
     """A proof that a verified representation is complete, or None if none of those known here applies."""
     degree = representation.univariate.degree
     if len(problem.legs) == 6 and degree == MOTION_DEGREE and are_isolated(representation, problem, policy):
-        return CompletenessProof(CompletenessRoute.REFINED_BEZOUT)
+        return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)
     basis = eliminate_exactly(problem, policy)
-    if basis is not None and solution_bound(basis, policy) == degree:
-        return _elimination_proof(basis)
+    bound = None if basis is None else solution_bound(basis, policy)
+    if basis is None or bound is None:
+        return None
+    if bound == degree:
+        return _elimination_proof(basis, bound)
+    quotient = exact_quotient(basis, policy.dimension_limit)
+    if quotient is not None and quotient.commutes and quotient.distinct_solutions == degree:
+        return _elimination_proof(basis, bound)
     return None
+
+
+def multiplicities(
+    representation: PoseRepresentation, problem: ForwardProblem, total: int, policy: Policy
+) -> tuple[tuple[fmpz_poly, int | None], ...]:
+    """Irreducible factors of h with the multiplicity of their roots as poses; None where it is not determined.
+
+    Parameters
+    ----------
+    representation : PoseRepresentation
+        Verified and proved complete.
+    total : int
+        Number of solutions with multiplicity.
+    """
+    h = representation.univariate.primitive_polynomial
+    if total == h.degree():
+        return ((h, 1),)
+    factors = [factor for factor, _ in h.factor()[1]]
+    singular = [factor for factor in factors if not are_isolated(representation, problem, policy, factor)]
+    left = total - sum(int(factor.degree()) for factor in factors if factor not in singular)
+    shared = left // int(singular[0].degree()) if len(singular) == 1 else None
+    return tuple((factor, shared if factor in singular else 1) for factor in factors)
 
 
 def prove_inconsistent(problem: ForwardProblem, policy: Policy) -> CompletenessProof | None:
     """A proof that no complex pose exists, by an elimination over Q that ends in a constant; None if it does not."""
     basis = eliminate_exactly(problem, policy)
-    return _elimination_proof(basis) if basis is not None and solution_bound(basis, policy) == 0 else None
+    return _elimination_proof(basis, 0) if basis is not None and solution_bound(basis, policy) == 0 else None
 
 
 def eliminate_exactly(problem: ForwardProblem, policy: Policy) -> ExactBasis | None:
@@ -84,21 +118,25 @@ def solution_bound(basis: ExactBasis, policy: Policy) -> int | None:
     return None if found is None else len(found)
 
 
-def _elimination_proof(basis: ExactBasis) -> CompletenessProof:
+def _elimination_proof(basis: ExactBasis, total: int) -> CompletenessProof:
     steps = tuple(tuple((index, basis.ring.unpack(monomial)) for index, monomial in step) for step in basis.steps)
-    return CompletenessProof(CompletenessRoute.EXACT_ELIMINATION, steps)
+    return CompletenessProof(CompletenessRoute.EXACT_ELIMINATION, total, steps)
 
 
-def are_isolated(representation: PoseRepresentation, problem: ForwardProblem, policy: Policy) -> bool:
+def are_isolated(
+    representation: PoseRepresentation, problem: ForwardProblem, policy: Policy, factor: fmpz_poly | None = None
+) -> bool:
     """Whether the Jacobian of the legs is proved regular at every pose, by its image modulo some prime.
 
-    "No" means that no proof was found at the primes tried.
+    "No" means that no proof was found at the primes tried. With a ``factor`` of h only its roots are looked at.
     """
     h = representation.univariate.polynomial
+    looked_at = h if factor is None else factor
     usable = (prime for prime in primes_below(policy.prime_bits) if int(h.leading_coefficient()) % prime)
     for attempt, prime in enumerate(islice(usable, policy.attempts)):
-        eliminant = nmod_poly([int(value) % prime for value in h.coeffs()], prime)
-        divisor, inverse, _ = eliminant.derivative().xgcd(eliminant)
+        eliminant = nmod_poly([int(value) % prime for value in looked_at.coeffs()], prime)
+        slope = nmod_poly([int(value) % prime for value in h.derivative().coeffs()], prime)
+        divisor, inverse, _ = slope.xgcd(eliminant)
         if divisor.degree() != 0:
             continue
         equations = StudyEquations(problem, representation.chart, policy.seed + attempt)

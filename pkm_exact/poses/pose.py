@@ -3,37 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
 
+from pkm_exact.roots.interval import Interval
 
-@dataclass(frozen=True)
-class Interval:
-    """A closed interval with rational ends; ``lo == hi`` means that the value is known exactly."""
-
-    lo: Fraction
-    hi: Fraction
-
-    def __post_init__(self) -> None:
-        if self.lo > self.hi:
-            raise ValueError(f"interval ends out of order: {self.lo} > {self.hi}")
-
-    @property
-    def width(self) -> Fraction:
-        """Difference of the ends."""
-        return self.hi - self.lo
-
-    @property
-    def midpoint(self) -> Fraction:
-        """Mean of the ends."""
-        return (self.lo + self.hi) / 2
-
-    def contains(self, value: Fraction) -> bool:
-        """Whether ``value`` lies in the closed interval."""
-        return self.lo <= value <= self.hi
-
-    def overlaps(self, other: Interval) -> bool:
-        """Whether the two closed intervals have a point in common."""
-        return self.lo <= other.hi and other.lo <= self.hi
+__all__ = ["Interval", "Pose"]
 
 
 @dataclass(frozen=True)
@@ -50,12 +23,13 @@ class Pose:
         Rotation matrix R: a platform point B stands at C + R B.
     quaternion : tuple of 4 Interval
         Unit quaternion (q0, q1, q2, q3) of R, scalar first; the sign is that of the chart (w . q > 0).
-    multiplicity : int
-        Multiplicity of the solution; 1 for a simple one.
+    multiplicity : int or None
+        Multiplicity of the solution: 1 for a simple one; above 1 the legs' Jacobian is singular there. None where it is
+        not proved.
     """
 
     parameter: Interval
     position: tuple[Interval, Interval, Interval]
     rotation: tuple[tuple[Interval, ...], ...]
     quaternion: tuple[Interval, Interval, Interval, Interval]
-    multiplicity: int = 1
+    multiplicity: int | None = 1

@@ -16,6 +16,7 @@ from typing import cast
 from flint import acb, arb, ctx, fmpq, fmpz, fmpz_poly
 
 from pkm_exact.errors import InternalContradictionError
+from pkm_exact.roots.interval import Interval
 
 COARSEST_EXPONENT = 32
 """Intervals are at most 2^-32 wide."""
@@ -115,3 +116,15 @@ def narrow(polynomial: fmpz_poly, roots: Sequence[RealRoot], precision: int) -> 
     if len(enclosures) != len(roots):
         raise InternalContradictionError("the number of real roots changed with the precision")
     return enclosures
+
+
+def has_root(polynomial: fmpz_poly, interval: Interval) -> bool:
+    """Whether a squarefree polynomial has a root in a closed interval that is known to hold at most one.
+
+    Examples
+    --------
+    >>> has_root(fmpz_poly([-2, 0, 1]), Interval(Fraction(1), Fraction(2)))
+    True
+    """
+    low, high = (polynomial(fmpq(end.numerator, end.denominator)) for end in (interval.lo, interval.hi))
+    return bool(low == 0 or high == 0 or low * high < 0)
