@@ -13,7 +13,7 @@ from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.lifting import lift_by_newton, lift_by_primes
 from pkm_exact.algebra.representation import union
 from pkm_exact.algebra.rur import ModularRepresentation
-from pkm_exact.errors import InternalContradictionError
+from pkm_exact.errors import InputError, InternalContradictionError
 from pkm_exact.formulations.base import FormulatedProblem
 from pkm_exact.formulations.registry import formulation as formulation_of
 from pkm_exact.formulations.registry import formulation_codes
@@ -29,6 +29,7 @@ from pkm_exact.poses.completeness import (
     prove_complete,
     prove_inconsistent,
 )
+from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms, modular_poses
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.representation import PoseRepresentation, pose_representation
@@ -112,6 +113,9 @@ class _Run:
         self._enter("real roots and boxes")
         exponent, poses = pose_boxes(representation, self.problem.metric, width)
         poses = self._with_multiplicities(poses, representation, proof)
+        self._enter("Jacobians")
+        jacobians = pose_jacobians(representation, self.problem, [pose.multiplicity for pose in poses])
+        poses = tuple(replace(pose, jacobian=found) for pose, found in zip(poses, jacobians, strict=True))
         self._leave()
         degree = representation.univariate.degree
         return Solution(
@@ -145,6 +149,10 @@ class _Run:
     def _started(self) -> _Start:
         """The poses modulo a prime, in a platform frame in which the formulation has coordinates for all of them."""
         formulation = formulation_of(self.code)
+        if self.problem.planar and self.code != formulation_codes()[0]:
+            raise InputError(
+                f"formulation: {self.code} is for spatial robots, but this one is planar; use {formulation_codes()[0]}"
+            )
         expected: int | None = None
         for attempt, turn in enumerate(islice(candidate_turns(self.policy.seed), self.policy.attempts)):
             self._enter("formulation")
@@ -186,7 +194,7 @@ class _Run:
         poses = start.poses
         for attempt in range(self.policy.attempts):
             self._enter("separating form")
-            chosen = None if poses is None else _choose_parameters(poses, self.policy)
+            chosen = None if poses is None else _choose_parameters(poses, self.problem, self.policy)
             if chosen is not None:
                 lifted = self._lifted(start, chosen, attempt)
                 self._enter("verification")
@@ -202,12 +210,14 @@ class _Run:
 
     def _lifted(self, start: _Start, chosen: _Parameters, attempt: int) -> PoseRepresentation | None:
         equations = StudyEquations(self.problem, chosen.chart, self.policy.seed + attempt)
-        form = [chosen.form[k] for k in free_coordinates(chosen.chart)]
+        form = [chosen.form[k] for k in equations.free]
         try:
             if self.policy.lifting == "multimodular":
                 self._enter("lifting by primes")
-                images = _further_images(start, chosen, self.problem.metric)
-                return pose_representation(chosen.chart, lift_by_primes(form, images, self.policy.lifting_bits))
+                images = _further_images(start, chosen, self.problem)
+                return pose_representation(
+                    chosen.chart, self.problem, lift_by_primes(form, images, self.policy.lifting_bits)
+                )
             parts = []
             for multiplicity, modular in chosen.modular.parts(start.formulated.fibre).items():
                 if multiplicity == 1:
@@ -215,12 +225,12 @@ class _Run:
                     parts.append(lift_by_newton(equations, form, modular, self.policy.lifting_bits))
                 else:
                     self._enter("lifting by primes")
-                    images = _parts(_further_images(start, chosen, self.problem.metric), multiplicity, start)
+                    images = _parts(_further_images(start, chosen, self.problem), multiplicity, start)
                     parts.append(lift_by_primes(form, images, self.policy.lifting_bits))
             univariate = union(parts)
         except UnluckyPrimeError:
             return None
-        return pose_representation(chosen.chart, univariate)
+        return pose_representation(chosen.chart, self.problem, univariate)
 
     def _result(
         self,
@@ -290,7 +300,7 @@ class _Parameters:
     modular: ModularRepresentation
 
 
-def _choose_parameters(poses: ModularPoses, policy: Policy) -> _Parameters | None:
+def _choose_parameters(poses: ModularPoses, problem: ForwardProblem, policy: Policy) -> _Parameters | None:
     """The first chart that misses no pose, and the first form that takes as many values as there are poses."""
     for chart in islice(candidate_charts(policy.seed), policy.attempts):
         coordinates = poses.coordinates(chart)
@@ -298,21 +308,19 @@ def _choose_parameters(poses: ModularPoses, policy: Policy) -> _Parameters | Non
             continue
         count = poses.distinct_poses(coordinates, policy.seed)
         for form in islice(candidate_forms(chart, policy.seed), policy.attempts):
-            modular = poses.representation(coordinates, form, free_coordinates(chart))
+            modular = poses.representation(coordinates, form, free_coordinates(chart, problem))
             if modular.degree == count:
                 return _Parameters(chart, form, modular)
     return None
 
 
-def _further_images(
-    start: _Start, chosen: _Parameters, metric: tuple[int, int, int]
-) -> Iterator[ModularRepresentation]:
+def _further_images(start: _Start, chosen: _Parameters, problem: ForwardProblem) -> Iterator[ModularRepresentation]:
     """The representation in the chosen chart and form at one prime after another."""
     while True:
-        poses = modular_poses(start.formulated, start.elimination.following().algebra, metric)
+        poses = modular_poses(start.formulated, start.elimination.following().algebra, problem.metric)
         coordinates = None if poses is None else poses.coordinates(chosen.chart)
         if poses is not None and coordinates is not None:
-            yield poses.representation(coordinates, chosen.form, free_coordinates(chosen.chart))
+            yield poses.representation(coordinates, chosen.form, free_coordinates(chosen.chart, problem))
 
 
 def _parts(

@@ -73,6 +73,21 @@ def motion_quadrics(coordinates: Sequence[Expression], unit: Expression, metric:
     return equations
 
 
+def planar_hyperplanes() -> list[list[fmpq]]:
+    """The linear forms that keep a platform in the plane of the first two axes: C3 = u3 = 0 and R about the third.
+
+    Examples
+    --------
+    >>> len(planar_hyperplanes())
+    7
+    """
+    forms = []
+    for name, constant in (("u3", 0), ("c3", 0), ("r13", 0), ("r23", 0), ("r31", 0), ("r32", 0), ("r33", -1)):
+        form = [fmpq(int(coordinate == name)) for coordinate in MOTION_COORDINATES]
+        forms.append([*form, fmpq(constant)])
+    return forms
+
+
 @dataclass(frozen=True)
 class SE3:
     """The motion variety cut by six hyperplanes: 37 quadrics in 10 unknowns.
@@ -88,7 +103,9 @@ class SE3:
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in those of ``MOTION_COORDINATES`` that the legs leave free."""
         metric = [rational(g) for g in problem.metric]
-        echelon, rank = fmpq_mat([leg_hyperplane(leg, metric) for leg in problem.legs]).rref()
+        hyperplanes = [leg_hyperplane(leg, metric) for leg in problem.legs]
+        hyperplanes += planar_hyperplanes() if problem.planar else []
+        echelon, rank = fmpq_mat(hyperplanes).rref()
         size = len(MOTION_COORDINATES)
         pivots = [next(j for j in range(size + 1) if echelon[row, j] != 0) for row in range(rank)]
         free = [j for j in range(size) if j not in pivots]

@@ -40,10 +40,14 @@ class ForwardProblem:
     Attributes
     ----------
     legs : tuple of Leg
-        Six legs.
+        Six legs; three if the robot is planar.
     metric : tuple of 3 int
         Gram diagonal of both frames, positive integers.
+    planar : bool
+        Whether the platform moves in the plane of the first two axes only: C3 = 0 and R turns about the third axis.
+        All third coordinates of joints are then 0.
     """
 
     legs: tuple[Leg, ...]
     metric: tuple[int, int, int] = (1, 1, 1)
+    planar: bool = False

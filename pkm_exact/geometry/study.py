@@ -24,11 +24,14 @@ from itertools import permutations
 from math import lcm
 from typing import Any
 
-from pkm_exact.geometry.problem import Leg
+from pkm_exact.geometry.problem import ForwardProblem, Leg
 from pkm_exact.geometry.rotation import CYCLIC
 
 Quadric = dict[tuple[int, int], int]
 """Coefficients of the products x_k x_l, k <= l, of the eight coordinates x = (e, f)."""
+
+PLANAR_SUPPORT = (0, 3, 5, 6)
+"""The Study coordinates e0, e3, f1, f2 of planar motions; the others are 0, and Study's condition holds by itself."""
 
 STUDY_CONDITION: Quadric = {(0, 4): 1, (1, 5): 1, (2, 6): 1, (3, 7): 1}
 
@@ -103,6 +106,20 @@ def leg_quadric(leg: Leg, metric: Sequence[int]) -> Quadric:
         for key, value in form.items():
             quadric[key] = quadric.get(key, 0) + coefficient * value
     return {key: value for key, value in quadric.items() if value}
+
+
+def support(problem: ForwardProblem) -> tuple[int, ...]:
+    """Indices of the Study coordinates that are not 0 for every pose of the problem."""
+    return PLANAR_SUPPORT if problem.planar else tuple(range(8))
+
+
+def pose_quadrics(problem: ForwardProblem) -> list[Quadric]:
+    """Quadratic forms in (e, f) that vanish at the poses, and with the support at nothing else with N(e) not 0."""
+    legs = [leg_quadric(leg, problem.metric) for leg in problem.legs]
+    if not problem.planar:
+        return [STUDY_CONDITION, *legs]
+    kept = [{key: value for key, value in quadric.items() if set(key) <= set(PLANAR_SUPPORT)} for quadric in legs]
+    return [quadric for quadric in kept if quadric]
 
 
 def evaluate(quadric: Quadric, products: Sequence[Sequence[Any]]) -> Any:

@@ -30,7 +30,7 @@ from pkm_exact.formulations.motion_variety import SE3
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.representation import PoseRepresentation
-from pkm_exact.poses.study_equations import StudyEquations, free_coordinates
+from pkm_exact.poses.study_equations import StudyEquations
 from pkm_exact.verdict import CompletenessRoute
 
 MOTION_DEGREE = 40
@@ -61,7 +61,12 @@ def prove_complete(
 ) -> CompletenessProof | None:
     """A proof that a verified representation is complete, or None if none of those known here applies."""
     degree = representation.univariate.degree
-    if len(problem.legs) == 6 and degree == MOTION_DEGREE and are_isolated(representation, problem, policy):
+    if (
+        len(problem.legs) == 6
+        and not problem.planar
+        and degree == MOTION_DEGREE
+        and are_isolated(representation, problem, policy)
+    ):
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)
     basis = eliminate_exactly(problem, policy)
     bound = None if basis is None else solution_bound(basis, policy)
@@ -140,7 +145,7 @@ def are_isolated(
         if divisor.degree() != 0:
             continue
         equations = StudyEquations(problem, representation.chart, policy.seed + attempt)
-        numerators = [representation.univariate.numerators[k] for k in free_coordinates(representation.chart)]
+        numerators = [representation.univariate.numerators[k] for k in equations.free]
         point = [
             nmod_poly([value % prime for value in numerator], prime) * inverse % eliminant for numerator in numerators
         ]

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from pkm_exact.roots.interval import Interval
+
+if TYPE_CHECKING:
+    from pkm_exact.poses.jacobian import LegJacobian
 
 __all__ = ["Interval", "Pose"]
 
@@ -26,6 +30,8 @@ class Pose:
     multiplicity : int or None
         Multiplicity of the solution: 1 for a simple one; above 1 the legs' Jacobian is singular there. None where it is
         not proved.
+    jacobian : LegJacobian or None
+        What is certified of the leg Jacobian there.
     """
 
     parameter: Interval
@@ -33,3 +39,4 @@ class Pose:
     rotation: tuple[tuple[Interval, ...], ...]
     quaternion: tuple[Interval, Interval, Interval, Interval]
     multiplicity: int | None = 1
+    jacobian: LegJacobian | None = None

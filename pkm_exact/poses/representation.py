@@ -9,8 +9,8 @@ from flint import fmpz_poly
 
 from pkm_exact.algebra.representation import UnivariateRepresentation, are_coprime
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import STUDY_CONDITION, evaluate, leg_quadric, motion_quadrics
-from pkm_exact.poses.study_equations import Chart, dependent_coordinate
+from pkm_exact.geometry.study import evaluate, motion_quadrics, pose_quadrics, support
+from pkm_exact.poses.study_equations import Chart, dependent_coordinate, free_coordinates
 
 
 @dataclass(frozen=True)
@@ -65,21 +65,23 @@ class PoseRepresentation:
             return False
         products = [[left * right if m >= k else left for m, right in enumerate(x)] for k, left in enumerate(x)]
         norm = evaluate(motion_quadrics(problem.metric)[-1], products)
-        quadrics = [STUDY_CONDITION, *(leg_quadric(leg, problem.metric) for leg in problem.legs)]
+        if any(numerator for k, numerator in enumerate(x) if k not in support(problem)):
+            return False
         return are_coprime(self.univariate.primitive_polynomial, norm) and all(
-            self.univariate.vanishes(evaluate(quadric, products)) for quadric in quadrics
+            self.univariate.vanishes(evaluate(quadric, products)) for quadric in pose_quadrics(problem)
         )
 
 
-def pose_representation(chart: Chart, lifted: UnivariateRepresentation) -> PoseRepresentation:
-    """All eight coordinates from the seven that were lifted: w.e = 1 gives the remaining one, whose weight is 1."""
-    dependent = dependent_coordinate(chart)
-    weights = [weight for k, weight in enumerate(chart) if k != dependent]
+def pose_representation(chart: Chart, problem: ForwardProblem, lifted: UnivariateRepresentation) -> PoseRepresentation:
+    """All eight coordinates from those that were lifted: w.e = 1 gives the dependent one, whose weight is 1."""
+    dependent, free = dependent_coordinate(chart), free_coordinates(chart, problem)
+    form, numerators = [0] * 8, [fmpz_poly()] * 8
+    for k, coefficient, numerator in zip(free, lifted.form, lifted.numerator_polynomials, strict=True):
+        form[k], numerators[k] = coefficient, numerator
     value = lifted.polynomial.derivative()
-    for weight, numerator in zip(weights, lifted.numerator_polynomials[:3], strict=True):
-        value -= weight * numerator
-    numerators = list(lifted.numerators)
-    numerators.insert(dependent, tuple(int(coefficient) for coefficient in value.coeffs()))
-    form = list(lifted.form)
-    form.insert(dependent, 0)
-    return PoseRepresentation(chart, UnivariateRepresentation(tuple(form), lifted.eliminant, tuple(numerators)))
+    for k in range(4):
+        if k != dependent:
+            value -= chart[k] * numerators[k]
+    numerators[dependent] = value
+    lists = tuple(tuple(int(coefficient) for coefficient in numerator.coeffs()) for numerator in numerators)
+    return PoseRepresentation(chart, UnivariateRepresentation(tuple(form), lifted.eliminant, lists))

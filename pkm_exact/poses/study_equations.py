@@ -11,7 +11,7 @@ from flint import fmpz_mod_poly
 
 from pkm_exact.algebra.residue_ring import ResidueRing, combination
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import STUDY_CONDITION, Quadric, evaluate, leg_quadric
+from pkm_exact.geometry.study import Quadric, evaluate, pose_quadrics, support
 
 Chart = tuple[int, int, int, int]
 """Weights w: coordinates are scaled so that w.e = 1. The last non-zero weight is 1; its coordinate is not free."""
@@ -28,19 +28,20 @@ def dependent_coordinate(chart: Chart) -> int:
     return max(k for k in range(4) if chart[k])
 
 
-def free_coordinates(chart: Chart) -> tuple[int, ...]:
-    """Indices of the other seven of the eight coordinates (e, f)."""
-    return tuple(k for k in range(8) if k != dependent_coordinate(chart))
+def free_coordinates(chart: Chart, problem: ForwardProblem) -> tuple[int, ...]:
+    """Indices of the other coordinates (e, f) that are not 0 for every pose: seven, or three for a planar robot."""
+    return tuple(k for k in support(problem) if k != dependent_coordinate(chart))
 
 
 @dataclass(frozen=True)
 class StudyEquations:
-    """Seven random combinations of the six leg quadrics and Study's condition.
+    """Random combinations of the leg quadrics and Study's condition, as many as there are free coordinates.
 
     Attributes
     ----------
     problem : ForwardProblem
     chart : tuple of 4 int
+        Its dependent coordinate must not be 0 for every pose.
     seed : int
         Seed of the combinations, which make all leading minors of the Jacobian units.
     """
@@ -49,13 +50,18 @@ class StudyEquations:
     chart: Chart
     seed: int
 
+    @property
+    def free(self) -> tuple[int, ...]:
+        """Indices of the free coordinates."""
+        return free_coordinates(self.chart, self.problem)
+
     @cached_property
     def quadrics(self) -> tuple[Quadric, ...]:
         """The combined quadratic forms."""
-        forms = [STUDY_CONDITION, *(leg_quadric(leg, self.problem.metric) for leg in self.problem.legs)]
+        forms = pose_quadrics(self.problem)
         random = Random(self.seed)
         combined = []
-        for _ in range(7):
+        for _ in self.free:
             weights = [random.randrange(1, 1 << 16) for _ in forms]
             total: Quadric = {}
             for weight, form in zip(weights, forms, strict=True):
@@ -78,18 +84,16 @@ class StudyEquations:
         for quadric in self.quadrics:
             gradient = [_derivative(quadric, k, x) for k in range(8)]
             rows.append(
-                [
-                    gradient[k] - gradient[dependent] * self.chart[k] if k < 4 else gradient[k]
-                    for k in free_coordinates(self.chart)
-                ]
+                [gradient[k] - gradient[dependent] * self.chart[k] if k < 4 else gradient[k] for k in self.free]
             )
         return rows
 
     def _coordinates(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
-        dependent = dependent_coordinate(self.chart)
-        weights = [self.chart[k] for k in free_coordinates(self.chart) if k < 4]
-        coordinates = list(point)
-        coordinates.insert(dependent, ring.one - combination(weights, point[:3]))
+        coordinates = [ring.one * 0] * 8
+        for k, value in zip(self.free, point, strict=True):
+            coordinates[k] = value
+        weights = [0 if k == dependent_coordinate(self.chart) else self.chart[k] for k in range(4)]
+        coordinates[dependent_coordinate(self.chart)] = ring.one - combination(weights, coordinates[:4])
         return coordinates
 
 

@@ -1,0 +1,171 @@
+"""The leg Jacobian at a certified pose: sign of its determinant, rank, singular values, all by rigorous enclosures.
+
+Row i is (n_i, (R B_i) x n_i / L) with n_i the unit vector of the leg C + R B_i - A_i in ordinary coordinates and L a
+length that makes rotations comparable to translations: the root mean square distance of the platform joints from their
+centroid, rounded to a rational. The row is the derivative of the leg's length along a velocity of the platform and L
+times its angular velocity. Its rank drops exactly where the pose is singular (a multiple solution).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isqrt
+
+from flint import acb_mat, arb, arb_mat, ctx
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.rotation import CYCLIC
+from pkm_exact.poses.boxes import ordinary_coordinates
+from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.roots.interval import Interval
+from pkm_exact.roots.isolation import real_root_enclosures
+
+LEAST_PRECISION = 192
+"""Bits in which Jacobians are enclosed first."""
+GREATEST_PRECISION = 1 << 13
+"""Bits after which an undecided Jacobian stays undecided; only poses not proved simple get there."""
+OUTPUT_BITS = 40
+"""Significant bits of the intervals returned."""
+
+
+@dataclass(frozen=True)
+class LegJacobian:
+    """What is certified of the Jacobian at a pose.
+
+    Attributes
+    ----------
+    det_sign : int or None
+        Sign of the determinant, 0 if it is 0 exactly, None if undecided: assembly modes of different sign are separated
+        by singularities.
+    rank : int or None
+        None if the enclosures leave it open (only possible at a pose not proved simple).
+    sigma_min : Interval
+        Smallest singular value.
+    condition : Interval or None
+        Largest singular value by the smallest; None where the smallest is not proved positive.
+    length : Fraction
+        The scaling length L, in the robot's unit.
+    """
+
+    det_sign: int | None
+    rank: int | None
+    sigma_min: Interval
+    condition: Interval | None
+    length: Fraction
+
+
+def characteristic_length(problem: ForwardProblem) -> Fraction:
+    """Root mean square distance of the platform joints from their centroid, to 16 significant bits; 1 if it is 0.
+
+    Examples
+    --------
+    >>> from pkm_exact.geometry.problem import Leg
+    >>> zero, two = (Fraction(0),) * 3, (Fraction(2), Fraction(0), Fraction(0))
+    >>> legs = tuple(Leg(zero, joint, Fraction(1)) for joint in (zero, two) * 3)
+    >>> characteristic_length(ForwardProblem(legs))
+    Fraction(1, 1)
+    """
+    count = len(problem.legs)
+    square = Fraction(0)
+    for axis, g in enumerate(problem.metric):
+        values = [leg.platform[axis] for leg in problem.legs]
+        mean = sum(values, Fraction(0)) / count
+        square += g * sum(((value - mean) ** 2 for value in values), Fraction(0)) / count
+    if square == 0:
+        return Fraction(1)
+    shift = 16 - (square.numerator.bit_length() - square.denominator.bit_length()) // 2
+    scale = Fraction(2) ** shift
+    scaled = square * scale * scale
+    return Fraction(isqrt(scaled.numerator // scaled.denominator)) / scale
+
+
+def pose_jacobians(
+    representation: PoseRepresentation, problem: ForwardProblem, multiplicities: Sequence[int | None]
+) -> list[LegJacobian]:
+    """The Jacobians at the real poses, in the order of the roots of h; the precision rises until each is decided.
+
+    Parameters
+    ----------
+    multiplicities : sequence of int or None
+        Proved multiplicities of the poses: 1 means a regular Jacobian, more a singular one.
+    """
+    found: list[LegJacobian | None] = [None] * len(multiplicities)
+    precision = LEAST_PRECISION
+    while None in found:
+        roots = real_root_enclosures(representation.univariate.primitive_polynomial, precision)
+        with ctx.workprec(precision):
+            for index, (root, multiplicity) in enumerate(zip(roots, multiplicities, strict=True)):
+                if found[index] is None:
+                    values = ordinary_coordinates(representation, problem.metric, root)
+                    last = precision >= GREATEST_PRECISION
+                    found[index] = _leg_jacobian(problem, values[:3], values[3:12], multiplicity, last)
+        precision *= 2
+    return [jacobian for jacobian in found if jacobian is not None]
+
+
+def _leg_jacobian(
+    problem: ForwardProblem, position: Sequence[arb], rotation: Sequence[arb], multiplicity: int | None, last: bool
+) -> LegJacobian | None:
+    """The Jacobian at an enclosed pose; None if the enclosures are too wide, unless this is the last try."""
+    length = characteristic_length(problem)
+    matrix = _matrix(problem, position, [rotation[0:3], rotation[3:6], rotation[6:9]], length)
+    values = _singular_values(matrix)
+    if multiplicity is not None and multiplicity > 1:
+        if values[1] > 0:
+            return LegJacobian(0, matrix.ncols() - 1, Interval(Fraction(0), Fraction(0)), None, length)
+        return LegJacobian(0, None, Interval(Fraction(0), Fraction(0)), None, length) if last else None
+    determinant, smallest = matrix.det(), _outward(values[0])
+    if values[0] > 0 and (determinant > 0 or determinant < 0) and 2 * smallest.lo >= smallest.hi:
+        return LegJacobian(
+            1 if determinant > 0 else -1, matrix.ncols(), smallest, _outward(values[-1] / values[0]), length
+        )
+    return LegJacobian(None, None, smallest, None, length) if last else None
+
+
+def _matrix(
+    problem: ForwardProblem, position: Sequence[arb], rotation: Sequence[Sequence[arb]], length: Fraction
+) -> arb_mat:
+    axes = [arb(g).sqrt() for g in problem.metric]
+    scale = arb(length.numerator) / length.denominator
+    rows = []
+    for leg in problem.legs:
+        base = [axis * value.numerator / value.denominator for axis, value in zip(axes, leg.base, strict=True)]
+        joint = [axis * value.numerator / value.denominator for axis, value in zip(axes, leg.platform, strict=True)]
+        arm = [sum((r * b for r, b in zip(row, joint, strict=True)), arb(0)) for row in rotation]
+        line = [c + b - a for c, b, a in zip(position, arm, base, strict=True)]
+        norm = sum((value * value for value in line), arb(0)).sqrt()
+        unit = [value / norm for value in line]
+        if problem.planar:
+            rows.append([unit[0], unit[1], (arm[0] * unit[1] - arm[1] * unit[0]) / scale])
+            continue
+        rows.append([*unit, *((arm[j] * unit[k] - arm[k] * unit[j]) / scale for _, j, k in CYCLIC)])
+    return arb_mat(rows)
+
+
+def _singular_values(matrix: arb_mat) -> list[arb]:
+    """Enclosures of the singular values, increasing by midpoint: roots of the eigenvalues of J^T J."""
+    symmetric = matrix.transpose() * matrix
+    eigenvalues = acb_mat(symmetric).eig(multiple=True)
+    real = [value.real.nonnegative_part() for value in eigenvalues]
+    return [value.sqrt() for value in sorted(real, key=lambda ball: _ends(ball)[0])]
+
+
+def _outward(value: arb) -> Interval:
+    """A dyadic interval around an enclosure of a number that is not negative."""
+    low, high = _ends(value)
+    if high <= 0:
+        return Interval(Fraction(0), Fraction(0))
+    shift = OUTPUT_BITS - (high.numerator.bit_length() - high.denominator.bit_length())
+    scale = Fraction(2) ** shift
+    return Interval(max(Fraction(0), (low * scale).__floor__() / scale), -((-high * scale).__floor__() / scale))
+
+
+def _ends(value: arb) -> tuple[Fraction, Fraction]:
+    """Exact ends of an enclosure."""
+    middle, radius = (
+        Fraction(int(mantissa)) * Fraction(2) ** int(power)
+        for mantissa, power in (value.mid().man_exp(), value.rad().man_exp())
+    )
+    return middle - radius, middle + radius
