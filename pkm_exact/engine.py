@@ -33,6 +33,13 @@ from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms, modular_poses
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.representation import PoseRepresentation, pose_representation
+from pkm_exact.poses.self_motion import (
+    SelfMotion,
+    TranslationalMotion,
+    extended_problems,
+    leg_rank,
+    translational_motion,
+)
 from pkm_exact.poses.study_equations import Chart, StudyEquations, free_coordinates
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
@@ -94,11 +101,17 @@ class _Run:
         elimination, image = start.elimination, start.image
         exponent = exponent_for_width(width)
         if start.poses is None:
-            note = (
-                "the solutions form a set of positive dimension at two primes: the robot can move with its legs "
-                "locked, or solutions run together at infinity"
-            )
-            return self._result(elimination, image, Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note)
+            self._enter("self-motion")
+            motion = self._self_motion()
+            if motion is None:
+                note = (
+                    "the solutions form a set of positive dimension at two primes: the robot can move with its legs "
+                    "locked, or solutions run together at infinity"
+                )
+                return self._result(elimination, image, Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note)
+            note = _motion_note(motion)
+            result = self._result(elimination, image, Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, note)
+            return replace(result, self_motion=motion)
         if start.poses.count == 0:
             self._enter("completeness")
             proof = prove_inconsistent(self.problem, self.policy)
@@ -132,6 +145,22 @@ class _Run:
             notes=start.notes if proof else (*start.notes, _open_question(start.poses.count, degree)),
             statistics=self._statistics(elimination, image),
         )
+
+    def _self_motion(self) -> SelfMotion | TranslationalMotion | None:
+        """A proof of a self-motion, or None if none of those known here applies."""
+        translation = translational_motion(self.problem)
+        if translation is not None:
+            return translation
+        missing = len(self.problem.legs) - leg_rank(self.problem)
+        if missing == 0 or self.problem.planar:
+            return None
+        for extended in islice(extended_problems(self.problem, missing, self.policy.seed), self.policy.attempts):
+            run = _Run(extended, formulation_codes()[0], self.policy, None)
+            start = run._started()
+            if start.poses is not None and start.poses.count > 0:
+                representation = run._representation(start)
+                return SelfMotion(missing, extended.legs[len(self.problem.legs) :], representation)
+        return None
 
     def _with_multiplicities(
         self, poses: tuple[Pose, ...], representation: PoseRepresentation, proof: CompletenessProof | None
@@ -342,6 +371,18 @@ def _turn_notes(turn: Turn, attempt: int) -> tuple[str, ...]:
         f"the frame turned by the quaternion ({words}), and the poses were turned back"
     )
     return (note,)
+
+
+def _motion_note(motion: SelfMotion | TranslationalMotion) -> str:
+    if isinstance(motion, TranslationalMotion):
+        return (
+            "self-motion: base and platform are congruent and the legs equal, so that the platform moves on a sphere "
+            "without turning"
+        )
+    return (
+        f"architecture singularity: the legs give only {6 - motion.dimension} independent conditions on rigid motions, "
+        f"and the robot moves with its legs locked, in dimension {motion.dimension} at least"
+    )
 
 
 def _open_question(count: int, distinct: int) -> str:

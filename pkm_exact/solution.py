@@ -12,6 +12,7 @@ from pkm_exact.verdict import Claim, CompletenessRoute
 if TYPE_CHECKING:
     from pkm_exact.poses.completeness import CompletenessProof
     from pkm_exact.poses.representation import PoseRepresentation
+    from pkm_exact.poses.self_motion import SelfMotion, TranslationalMotion
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,8 @@ class Solution:
         The real poses, increasing in the parameter.
     notes : tuple of str
         What else the user should know.
+    self_motion : SelfMotion or TranslationalMotion or None
+        The proof, if the claim is that the poses form a set of positive dimension.
     statistics : Statistics
     """
 
@@ -83,6 +86,7 @@ class Solution:
     box_exponent: int
     poses: tuple[Pose, ...]
     notes: tuple[str, ...] = ()
+    self_motion: SelfMotion | TranslationalMotion | None = None
     statistics: Statistics = field(default_factory=Statistics, repr=False, compare=False)
 
     @property
