@@ -48,7 +48,7 @@ STEPS_PER_FACTORISATION = 4
 def precision_schedule(limit: int) -> Iterator[tuple[int, int]]:
     """Exponents of p to reach, each with the precision of the factorisation that serves the step.
 
-    All but the first are even: FLINT asks of every modulus whether it is prime, and sees at once that a square is not.
+    The large ones are even: FLINT asks of every modulus whether it is prime, and sees at once that a square is not.
 
     Examples
     --------

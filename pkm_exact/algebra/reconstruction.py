@@ -55,9 +55,16 @@ def _missing_factor(sample: Sequence[int], modulus: int) -> int:
     """A common denominator of the sample, or 0 if the modulus is too small to show one."""
     for weight_bits in (modulus.bit_length() // 2, 0):
         factor = _common_denominator(sample, modulus, 1 << weight_bits)
-        if factor and all(_is_small(_symmetric(value * factor, modulus), modulus) for value in sample):
+        numerators = _numerators(sample, modulus, factor) if factor else None
+        if numerators is not None and _is_convincing(factor, numerators, modulus):
             return factor
     return 0
+
+
+def _is_convincing(factor: int, numerators: Sequence[int], modulus: int) -> bool:
+    """Whether a denominator and numerators are together too short to fit residues that have nothing in common."""
+    spare = sum(modulus.bit_length() - numerator.bit_length() for numerator in numerators)
+    return factor.bit_length() + MARGIN_BITS < spare
 
 
 def _numerators(residues: Sequence[int], modulus: int, denominator: int) -> list[int] | None:
