@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from itertools import islice
 from time import perf_counter
 
@@ -46,6 +47,8 @@ from pkm_exact.solution import Solution, Statistics
 from pkm_exact.verdict import Claim
 
 DEFAULT_WIDTH = Fraction(1, 10**9)
+SELF_MOTION_ATTEMPTS = 2
+"""Lists of further legs tried on a robot with dependent legs; if its poses are all at infinity, none has a solution."""
 
 
 def solve(
@@ -97,29 +100,28 @@ class _Run:
     _stage: tuple[str, float] | None = None
 
     def solution(self, width: Fraction) -> Solution:
-        start = self._started()
-        elimination, image = start.elimination, start.image
         exponent = exponent_for_width(width)
-        if start.poses is None:
-            self._enter("self-motion")
-            motion = self._self_motion()
-            if motion is None:
-                note = (
-                    "the solutions form a set of positive dimension at two primes: the robot can move with its legs "
-                    "locked, or solutions run together at infinity"
-                )
-                return self._result(elimination, image, Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note)
-            note = _motion_note(motion)
-            result = self._result(elimination, image, Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, note)
+        self._enter("self-motion")
+        motion = self._self_motion()
+        if motion is not None:
+            result = self._result(Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, _motion_note(motion))
             return replace(result, self_motion=motion)
+        start = self._started()
+        statistics = partial(self._statistics, start.elimination, start.image)
+        if start.poses is None:
+            note = (
+                "the solutions form a set of positive dimension at two primes: the robot can move with its legs "
+                "locked, or solutions run together at infinity"
+            )
+            return replace(self._result(Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note), statistics=statistics())
         if start.poses.count == 0:
             self._enter("completeness")
             proof = prove_inconsistent(self.problem, self.policy)
             if proof is not None:
                 note = "no pose, real or complex, has these leg lengths"
-                return self._result(elimination, image, Claim.INCONSISTENT, exponent, note, proof)
+                return replace(self._result(Claim.INCONSISTENT, exponent, note, proof), statistics=statistics())
             note = "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
-            return self._result(elimination, image, Claim.NOT_PROVEN_COMPLETE, exponent, note)
+            return replace(self._result(Claim.NOT_PROVEN_COMPLETE, exponent, note), statistics=statistics())
         representation = self._representation(start)
         self._enter("completeness")
         proof = prove_complete(representation, self.problem, self.policy)
@@ -143,7 +145,7 @@ class _Run:
             box_exponent=exponent,
             poses=poses,
             notes=start.notes if proof else (*start.notes, _open_question(start.poses.count, degree)),
-            statistics=self._statistics(elimination, image),
+            statistics=statistics(),
         )
 
     def _self_motion(self) -> SelfMotion | TranslationalMotion | None:
@@ -154,7 +156,7 @@ class _Run:
         missing = len(self.problem.legs) - leg_rank(self.problem)
         if missing == 0 or self.problem.planar:
             return None
-        for extended in islice(extended_problems(self.problem, missing, self.policy.seed), self.policy.attempts):
+        for extended in islice(extended_problems(self.problem, missing, self.policy.seed), SELF_MOTION_ATTEMPTS):
             run = _Run(extended, formulation_codes()[0], self.policy, None)
             start = run._started()
             if start.poses is not None and start.poses.count > 0:
@@ -261,15 +263,8 @@ class _Run:
             return None
         return pose_representation(chosen.chart, self.problem, univariate)
 
-    def _result(
-        self,
-        elimination: Elimination,
-        image: ModularImage,
-        claim: Claim,
-        exponent: int,
-        note: str,
-        proof: CompletenessProof | None = None,
-    ) -> Solution:
+    def _result(self, claim: Claim, exponent: int, note: str, proof: CompletenessProof | None = None) -> Solution:
+        """A solution without a representation of poses."""
         self._leave()
         return Solution(
             problem=self.problem,
@@ -283,7 +278,6 @@ class _Run:
             box_exponent=exponent,
             poses=(),
             notes=(note,),
-            statistics=self._statistics(elimination, image),
         )
 
     def _statistics(self, elimination: Elimination, image: ModularImage) -> Statistics:

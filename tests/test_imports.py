@@ -22,7 +22,10 @@ def test_importing_the_package_loads_nothing_heavy() -> None:
     assert _loaded("import pkm_exact; pkm_exact.__version__; dir(pkm_exact)") == set()
 
 
-@pytest.mark.parametrize("words", [["--help"], ["solve", "--help"], ["check", "--help"], ["--version"], ["solve"]])
+COMMANDS = ("solve", "check", "formulations", "export", "legs")
+
+
+@pytest.mark.parametrize("words", [["--help"], ["--version"], ["solve"], *([name, "--help"] for name in COMMANDS)])
 def test_the_command_starts_without_anything_heavy(words: list[str]) -> None:
     assert _loaded(f"from pkm_exact.cli.main import main; main({words!r})") == set()
 

@@ -5,49 +5,20 @@ from __future__ import annotations
 import sys
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import click
 
 import pkm_exact
+from pkm_exact.cli import arguments
+from pkm_exact.cli.formulation_commands import export, formulations
+from pkm_exact.cli.legs import legs
 from pkm_exact.cli.main import ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
-from pkm_exact.wording import printable, shown
-
-if TYPE_CHECKING:
-    from pkm_exact.geometry.problem import ForwardProblem
-    from pkm_exact.geometry.robot import Configuration, Robot
+from pkm_exact.wording import printable
 
 MAX_CERTIFICATE_BYTES: Final = 64 << 20
-SMALLEST_WIDTH: Final = Fraction(1, 2**4096)
-
-
-def _width(context: click.Context, _option: click.Parameter, value: str) -> Fraction:
-    """The number that --width denotes."""
-    width = _number(context, value, "--width")
-    if not SMALLEST_WIDTH <= width <= 1:
-        raise click.UsageError(f"--width: {shown(value)} is out of range, give a number from 2^-4096 to 1.", context)
-    return width
-
-
-def _lengths(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[Fraction, ...] | None:
-    """The six numbers that --lengths denotes."""
-    if value is None:
-        return None
-    words = value.split(",")
-    if len(words) != 6:
-        raise click.UsageError(f"--lengths: {len(words)} given, six are needed between commas.", context)
-    return tuple(_number(context, word.strip(), f"--lengths, number {i}") for i, word in enumerate(words, 1))
-
-
-def _number(context: click.Context, text: str, where: str) -> Fraction:
-    from pkm_exact.geometry.rational import NumberText, parse_positive
-
-    try:
-        return parse_positive(text if "/" in text else NumberText(text), where)
-    except InputError as error:
-        raise click.UsageError(str(error), context) from None
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -60,22 +31,31 @@ def certify_poses() -> None:
     """
 
 
+certify_poses.add_command(formulations)
+certify_poses.add_command(export)
+certify_poses.add_command(legs)
+
+
 @certify_poses.command(short_help="All real poses of a robot, and a certificate.")
 @click.argument("model", type=click.Path())
 @click.option("--configuration", metavar="NAME", help="Configuration of the model file.  [default: the first one]")
 @click.option(
-    "--lengths", callback=_lengths, metavar="L1,..,L6", help="Leg lengths instead, exact: 1250 or 12.5 or 25/2."
+    "--lengths",
+    callback=arguments.lengths,
+    metavar="L1,..,L6",
+    help="Leg lengths instead, exact: 1250 or 12.5 or 25/2.",
 )
 @click.option(
     "--formulation",
-    type=click.Choice(formulation_codes()),
+    callback=arguments.code,
+    metavar="CODE",
     default=formulation_codes()[0],
     show_default=True,
-    help="System of equations to solve.",
+    help=f"System of equations to solve: {', '.join(formulation_codes())}, or with an option: AFD1:zxz, AFP1:124.",
 )
 @click.option(
     "--width",
-    callback=_width,
+    callback=arguments.width,
     metavar="W",
     default="1e-9",
     show_default=True,
@@ -110,9 +90,9 @@ def solve(
     from pkm_exact.geometry.reader import read_robot
 
     robot = read_robot(model)
-    chosen, problem = _problem(robot, model, configuration, lengths)
+    chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     if output is not None:
-        _require_writable(Path(output))
+        arguments.require_writable(Path(output), "-o")
 
     from pkm_exact.cli.progress import Progress
     from pkm_exact.cli.report import report
@@ -134,30 +114,6 @@ def solve(
             raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
     report(robot, name, solution, layout, verbose=verbose)
     return ExitCode.DONE if solution.claim is Claim.COMPLETE else ExitCode.WEAKER_CLAIM
-
-
-def _problem(
-    robot: Robot, model: str, configuration: str | None, lengths: tuple[Fraction, ...] | None
-) -> tuple[Configuration | None, ForwardProblem]:
-    if lengths is not None:
-        return None, robot.problem([length * length for length in lengths])
-    try:
-        chosen = robot.configuration(configuration)
-    except InputError as error:
-        raise InputError(f"{model}: {error}") from None
-    return chosen, robot.problem(chosen.lengths_squared)
-
-
-def _require_writable(path: Path) -> None:
-    """Find out before the work, not after it, that a file cannot be written."""
-    import os
-
-    if path.is_dir():
-        raise InputError(f"{path}: is a directory; give -o the path of a file")
-    if not path.parent.is_dir():
-        raise InputError(f"{path}: the folder {path.parent} does not exist; create it or give -o another path")
-    if not os.access(path.parent, os.W_OK):
-        raise InputError(f"{path}: the folder {path.parent} is not writable; give -o another path")
 
 
 @certify_poses.command(short_help="Replay certificates.")

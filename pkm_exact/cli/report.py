@@ -12,6 +12,7 @@ from pkm_exact.verdict import Claim
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
+    from pkm_exact.poses.jacobian import LegJacobian
     from pkm_exact.poses.pose import Interval, Pose
     from pkm_exact.solution import Solution
 
@@ -59,10 +60,7 @@ def as_object(robot: Robot, configuration: str | None, solution: Solution) -> di
     """The solution as a JSON object; every bound is an exact rational as a string."""
     return {
         "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
-        "configuration": {
-            "name": configuration,
-            "lengths_squared": [str(leg.length_squared) for leg in solution.problem.legs],
-        },
+        "configuration": _configuration(robot, configuration, solution),
         "formulation": solution.formulation,
         "method": solution.method,
         "claim": str(solution.claim),
@@ -75,6 +73,19 @@ def as_object(robot: Robot, configuration: str | None, solution: Solution) -> di
     }
 
 
+def _configuration(robot: Robot, name: str | None, solution: Solution) -> dict[str, Any]:
+    """Name and squared lengths; for cranks and slides also the joint values and where they put the rods' lower ends."""
+    entry: dict[str, Any] = {
+        "name": name,
+        "lengths_squared": [str(leg.length_squared) for leg in solution.problem.legs],
+    }
+    if robot.chains:
+        values = robot.configuration(name).joint_values
+        entry["joint_values"] = [list(map(str, v)) if isinstance(v, tuple) else str(v) for v in values]
+        entry["knees"] = [list(map(str, leg.base)) for leg in solution.problem.legs]
+    return entry
+
+
 def _pose(pose: Pose) -> dict[str, Any]:
     return {
         "parameter": _bounds(pose.parameter),
@@ -82,6 +93,19 @@ def _pose(pose: Pose) -> dict[str, Any]:
         "rotation": [[_bounds(entry) for entry in row] for row in pose.rotation],
         "quaternion": [_bounds(q) for q in pose.quaternion],
         "multiplicity": pose.multiplicity,
+        "jacobian": _jacobian(pose.jacobian),
+    }
+
+
+def _jacobian(jacobian: LegJacobian | None) -> dict[str, Any] | None:
+    if jacobian is None:
+        return None
+    return {
+        "det_sign": jacobian.det_sign,
+        "rank": jacobian.rank,
+        "sigma_min": _bounds(jacobian.sigma_min),
+        "condition": None if jacobian.condition is None else _bounds(jacobian.condition),
+        "length": str(jacobian.length),
     }
 
 

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from pkm_exact.solution import Solution
 
 _DIGITS_OF_EXACT = 15
-_HEADER = ("", "x", "y", "z", "q0", "q1", "q2", "q3")
+_HEADER = ("", "x", "y", "z", "q0", "q1", "q2", "q3", "det J", "cond J")
 
 
 def decimal(interval: Interval) -> str:
@@ -80,16 +80,27 @@ def _details(robot: Robot, solution: Solution) -> list[str]:
 
 
 def _row(number: int, pose: Pose) -> tuple[str, ...]:
-    multiple = "" if pose.multiplicity == 1 else f" (x{pose.multiplicity})"
-    return f"{number}{multiple}", *(decimal(c) for c in (*pose.position, *pose.quaternion))
+    multiple = "" if pose.multiplicity == 1 else f" (x{pose.multiplicity or '?'})"
+    coordinates = (decimal(c) for c in (*pose.position, *pose.quaternion))
+    return f"{number}{multiple}", *coordinates, *_jacobian(pose)
+
+
+def _jacobian(pose: Pose) -> tuple[str, str]:
+    """Sign of the determinant of the leg Jacobian, and its condition number."""
+    if pose.jacobian is None or pose.jacobian.det_sign is None:
+        return "?", "?"
+    if pose.jacobian.condition is None:
+        return "0", "singular"
+    condition = pose.jacobian.condition.midpoint
+    return "+" if pose.jacobian.det_sign > 0 else "-", f"{Decimal(condition.numerator) / condition.denominator:.4g}"
 
 
 def plain(rows: list[tuple[str, ...]]) -> str:
     """The rows under the header, right-aligned.
 
-    >>> print(plain([("1", "0.5", "-12", "0", "1", "0", "0", "0")]), end="")
-         x    y  z  q0  q1  q2  q3
-    1  0.5  -12  0   1   0   0   0
+    >>> print(plain([("1", "0.5", "-12", "0", "1", "0", "0", "0", "+", "3.5")]), end="")
+         x    y  z  q0  q1  q2  q3  det J  cond J
+    1  0.5  -12  0   1   0   0   0      +     3.5
     """
     table = [_HEADER, *rows]
     widths = [max(len(row[i]) for row in table) for i in range(len(_HEADER))]

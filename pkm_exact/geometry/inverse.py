@@ -37,6 +37,18 @@ def rotation_of(quaternion: Quaternion, metric: Metric = UNIT_METRIC) -> Matrix:
     return first, second, third
 
 
+def dot(left: Vector, right: Vector, metric: Metric = UNIT_METRIC) -> Fraction:
+    """The product of two vectors in the metric: the sum of metric[i] left[i] right[i].
+
+    Examples
+    --------
+    >>> one = (Fraction(1),) * 3
+    >>> dot(one, one, (1, 3, 1))
+    Fraction(5, 1)
+    """
+    return sum((g * x * y for g, x, y in zip(metric, left, right, strict=True)), Fraction(0))
+
+
 def distance_squared(
     base_joint: Vector, platform_joint: Vector, position: Vector, rotation: Matrix, metric: Metric = UNIT_METRIC
 ) -> Fraction:

@@ -10,23 +10,17 @@ import os
 import re
 import tomllib
 from dataclasses import replace
-from fractions import Fraction
 from pathlib import Path
 from typing import Any, Final
 
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.inverse import distance_squared, rotation_of
-from pkm_exact.geometry.kinds import Joints
-from pkm_exact.geometry.rational import (
-    MAX_COMPUTED_DIGITS,
-    MAX_DIGITS,
-    NumberText,
-    bounded,
-    parse_positive,
-    parse_rational,
-    parse_vector,
-)
-from pkm_exact.geometry.robot import LEGS, Configuration, Robot, parse_joints, parse_metric
+from pkm_exact.geometry.chain_reader import CHAIN_TABLES, read_chains, read_joints
+from pkm_exact.geometry.configurations import read_configuration
+from pkm_exact.geometry.fields import known_keys, label, required
+from pkm_exact.geometry.inverse import UNIT_METRIC
+from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
+from pkm_exact.geometry.robot import Robot, parse_metric
 from pkm_exact.wording import printable, shown
 
 __all__ = ["parse_rational", "read_robot", "robot_from_toml"]
@@ -38,8 +32,18 @@ MAX_BYTES: Final = 1 << 16
 _MAX_RUN: Final = 640  # digits in a row; below every limit that Python can be set to
 _MAX_DOTS: Final = 200  # dots in a line; the parser's time grows steeply with the parts of a dotted key
 _MAX_TEXT: Final = 2000
-_TOP: Final = ("schema", "name", "kind", "unit", "source", "metric", "base", "platform", "configurations")
-_CONFIGURATION: Final = ("name", "lengths", "lengths_squared", "pose")
+_TOP: Final = (
+    "schema",
+    "name",
+    "kind",
+    "unit",
+    "source",
+    "metric",
+    "base",
+    "platform",
+    *CHAIN_TABLES,
+    "configurations",
+)
 
 
 def read_robot(path: str | os.PathLike[str]) -> Robot:
@@ -60,25 +64,30 @@ def read_robot(path: str | os.PathLike[str]) -> Robot:
 def robot_from_toml(text: str) -> Robot:
     """The robot that the text of a model file describes."""
     table = _parse(text)
-    _known_keys(table, _TOP, "")
-    schema = _required(table, "schema", "")
+    known_keys(table, _TOP, "")
+    schema = required(table, "schema", "")
     if isinstance(schema, bool) or schema != SCHEMA:
         raise InputError(f"schema: {shown(schema)} is unknown; write schema = {SCHEMA}")
     geometry: dict[str, Any] = {
-        "name": _label(table, "name", ""),
-        "kind": _label(table, "kind", ""),
-        "unit": _label(table, "unit", ""),
-        "source": _label(table, "source", "", limit=_MAX_TEXT),
-        "base_joints": _joint_table(table, "base"),
-        "platform_joints": _joint_table(table, "platform"),
+        "name": label(table, "name", ""),
+        "kind": label(table, "kind", ""),
+        "unit": label(table, "unit", ""),
+        "source": label(table, "source", "", limit=_MAX_TEXT),
     }
-    if "metric" in table:
-        geometry["metric"] = parse_metric(table["metric"])
+    if geometry["kind"] not in KINDS:
+        raise InputError(f"kind: {shown(geometry['kind'])} is unknown; use one of: {', '.join(KINDS)}")
+    metric = parse_metric(table["metric"]) if "metric" in table else UNIT_METRIC
+    geometry |= {
+        "metric": metric,
+        "base_joints": read_joints(table, "base", metric),
+        "platform_joints": read_joints(table, "platform", metric),
+        "chains": read_chains(table, geometry["kind"]),
+    }
     rows = table.get("configurations", [])
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise InputError(f"configurations: {shown(rows)} is not a list of tables; write [[configurations]] above each")
     robot = Robot(**geometry)
-    configurations = tuple(_configuration(row, f"configurations[{i}]", robot) for i, row in enumerate(rows, 1))
+    configurations = tuple(read_configuration(row, f"configurations[{i}]", robot) for i, row in enumerate(rows, 1))
     return replace(robot, configurations=configurations)
 
 
@@ -122,80 +131,3 @@ def _parse(text: str) -> dict[str, Any]:
         raise InputError("brackets are nested too deeply; a model file needs at most three levels") from None
     except ValueError as error:
         raise InputError(f"not valid TOML: {printable(str(error))[:200]}; correct the file") from None
-
-
-def _known_keys(table: dict[str, Any], known: tuple[str, ...], prefix: str) -> None:
-    for key in table:
-        if key not in known:
-            raise InputError(
-                f"{prefix or 'top level'}: unknown key {shown(key)}; the known keys are: {', '.join(known)}"
-            )
-
-
-def _required(table: dict[str, Any], key: str, prefix: str) -> Any:
-    if key not in table:
-        raise InputError(f"{prefix}{key}: is missing; add it (see the model format in the documentation)")
-    return table[key]
-
-
-def _label(table: dict[str, Any], key: str, prefix: str, *, limit: int = 200) -> str:
-    value = _required(table, key, prefix)
-    if isinstance(value, NumberText) or not isinstance(value, str):
-        raise InputError(f'{prefix}{key}: {shown(value)} is not text; write it in quotes, such as {key} = "..."')
-    if not value.strip() or not value.isprintable() or len(value) > limit:
-        raise InputError(f"{prefix}{key}: {shown(value)} is not a label; write 1 to {limit} printable characters")
-    return value
-
-
-def _joint_table(table: dict[str, Any], key: str) -> Joints:
-    value = _required(table, key, "")
-    if not isinstance(value, dict):
-        raise InputError(f"{key}: {shown(value)} is not a table; write [{key}] and joints = [...] below it")
-    _known_keys(value, ("joints",), key)
-    rows = _list(_required(value, "joints", f"{key}."), f"{key}.joints", LEGS)
-    return parse_joints(rows, f"{key}.joints")
-
-
-def _list(value: object, where: str, length: int) -> list[Any]:
-    if not isinstance(value, list):
-        raise InputError(f"{where}: {shown(value)} is not a list; give a list of {length}")
-    return value
-
-
-def _configuration(row: dict[str, Any], where: str, robot: Robot) -> Configuration:
-    _known_keys(row, _CONFIGURATION, where)
-    name = _label(row, "name", f"{where}.")
-    given = [key for key in _CONFIGURATION[1:] if key in row]
-    if len(given) != 1:
-        found = " and ".join(given) or "none of them"
-        raise InputError(f"{where} ({shown(name)}): {found} given; give exactly one of lengths, lengths_squared, pose")
-    key = given[0]
-    field = f"{where}.{key}"
-    if key == "pose":
-        return Configuration(name, _lengths_squared_at(row[key], field, robot))
-    values = _list(row[key], field, LEGS)
-    if len(values) != LEGS:
-        raise InputError(f"{field}: {len(values)} values; give {LEGS}, one per leg")
-    numbers = [parse_positive(value, f"{field}[{i}]") for i, value in enumerate(values, 1)]
-    return Configuration(name, tuple(n * n if key == "lengths" else n for n in numbers))
-
-
-def _lengths_squared_at(pose: object, where: str, robot: Robot) -> tuple[Fraction, ...]:
-    if not isinstance(pose, dict):
-        raise InputError(f"{where}: {shown(pose)} is not a table; write {{ position = [...], quaternion = [...] }}")
-    _known_keys(pose, ("position", "quaternion"), where)
-    position = parse_vector(_required(pose, "position", f"{where}."), f"{where}.position")
-    row = _list(_required(pose, "quaternion", f"{where}."), f"{where}.quaternion", 4)
-    if len(row) != 4:
-        raise InputError(f"{where}.quaternion: {len(row)} numbers; give 4, scalar first")
-    e0, e1, e2, e3 = (parse_rational(e, f"{where}.quaternion[{i}]") for i, e in enumerate(row, 1))
-    if not any((e0, e1, e2, e3)):
-        raise InputError(f"{where}.quaternion: all four numbers are 0; give one that is not")
-    turn = rotation_of((e0, e1, e2, e3), robot.metric)
-    squares = []
-    for leg, (a, b) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True), 1):
-        square = distance_squared(a, b, position, turn, robot.metric)
-        if square == 0:
-            raise InputError(f"{where}: leg {leg} has length 0 at this pose; give another pose")
-        squares.append(bounded(square, square, f"{where}: the squared length of leg {leg}", MAX_COMPUTED_DIGITS))
-    return tuple(squares)

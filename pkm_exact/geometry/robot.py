@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final
 
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.chains import Chain, Crank, JointValue, parse_cosine_and_sine
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
-from pkm_exact.geometry.kinds import KINDS, Joints
+from pkm_exact.geometry.kinds import KINDS, Joints, gough_legs, knees
 from pkm_exact.geometry.problem import ForwardProblem, Vector
-from pkm_exact.geometry.rational import parse_positive, parse_vector
+from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational, parse_vector
 from pkm_exact.wording import shown
 
 LEGS: Final = 6
@@ -33,11 +34,14 @@ class Configuration:
     name : str
         Unique among the configurations of a robot.
     lengths_squared : tuple of 6 Fraction
-        Squared leg lengths, positive, in squared units of length.
+        Squared leg lengths, positive, in squared units of length; of the rods, if the robot has cranks or slides.
+    joint_values : tuple of 6 joint values
+        Positions of the slides, or (cos, sin) of the cranks' angles; empty if the legs themselves are actuated.
     """
 
     name: str
     lengths_squared: tuple[Fraction, ...]
+    joint_values: tuple[JointValue, ...] = ()
 
     def __post_init__(self) -> None:
         where = f"configuration {shown(self.name)}, lengths_squared"
@@ -53,13 +57,16 @@ class Robot:
     name, unit, source : str
         Its name, the unit of length, and where the numbers come from.
     kind : str
-        Key of the recipe in ``KINDS`` that turns joints and joint values into constraints.
+        Key in ``KINDS``: what the legs are made of.
     base_joints, platform_joints : tuple of 6 vectors of 3 Fraction
-        Joint centres in the fixed and in the mobile frame, rational coordinates with respect to ``metric``.
+        Joint centres in the fixed and in the mobile frame, rational coordinates with respect to ``metric``. A crank
+        turns about its base joint, a slide passes through it.
     metric : tuple of 3 int
         Gram diagonal, positive integers: the ordinary coordinate is sqrt(metric[i]) times the rational one.
     configurations : tuple of Configuration
         In the order of the model file; the first one is the default.
+    chains : tuple of 6 Crank or Slide
+        The actuated chains, one per leg; empty for a kind whose legs themselves are actuated.
 
     Examples
     --------
@@ -77,6 +84,7 @@ class Robot:
     platform_joints: Joints
     metric: Metric = UNIT_METRIC
     configurations: tuple[Configuration, ...] = ()
+    chains: tuple[Chain, ...] = ()
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
@@ -84,7 +92,9 @@ class Robot:
         object.__setattr__(self, "base_joints", parse_joints(self.base_joints, "base.joints"))
         object.__setattr__(self, "platform_joints", parse_joints(self.platform_joints, "platform.joints"))
         object.__setattr__(self, "metric", parse_metric(self.metric))
-        _refuse_equal_legs(self.base_joints, self.platform_joints)
+        self._require_chains()
+        if not self.chains:
+            _refuse_equal_legs(self.base_joints, self.platform_joints)
         _refuse_equal_names(self.configurations)
 
     def __repr__(self) -> str:
@@ -93,7 +103,8 @@ class Robot:
     def configuration(self, name: str | None = None) -> Configuration:
         """The configuration called ``name``, or the first one if ``name`` is None."""
         if not self.configurations:
-            raise InputError(f"configurations: {shown(self.name)} has none; give the six leg lengths instead")
+            remedy = "add one with joint values" if self.chains else "give the six leg lengths instead"
+            raise InputError(f"configurations: {shown(self.name)} has none; {remedy}")
         if name is None:
             return self.configurations[0]
         for configuration in self.configurations:
@@ -103,10 +114,92 @@ class Robot:
         more = ", ..." if len(self.configurations) > _LISTED else ""
         raise InputError(f"configuration: {shown(name)} is unknown; use one of: {known}{more}")
 
-    def problem(self, lengths_squared: Sequence[Fraction | int | str]) -> ForwardProblem:
-        """The forward kinematics problem for six squared leg lengths, exact and positive."""
-        values = _six(lengths_squared, "lengths_squared")
-        return ForwardProblem(KINDS[self.kind](self.base_joints, self.platform_joints, values), self.metric)
+    def problem(self, locked: Configuration | Sequence[Fraction | int | str]) -> ForwardProblem:
+        """The forward kinematics problem of a configuration, or for six squared leg lengths, exact and positive.
+
+        Raises
+        ------
+        InputError
+            If the values do not fit the kind: cranks and slides need a configuration, their rods have fixed lengths.
+        """
+        if not isinstance(locked, Configuration):
+            if self.chains:
+                raise InputError(
+                    f"lengths: the rods of a {self.kind} robot have fixed lengths; choose a configuration instead"
+                )
+            values = _six(locked, "lengths_squared")
+            return ForwardProblem(gough_legs(self.base_joints, self.platform_joints, values), self.metric)
+        feet = self.knees(locked)
+        return ForwardProblem(gough_legs(feet, self.platform_joints, locked.lengths_squared), self.metric)
+
+    def lock(self, name: str, values: Sequence[object]) -> Configuration:
+        """The configuration in which the cranks or slides stand at the given joint values.
+
+        Parameters
+        ----------
+        name : str
+        values : sequence of 6
+            Positions of slides; pairs (cos, sin) for cranks.
+
+        Raises
+        ------
+        InputError
+            If the values are not exact, or put two rods at the same two points.
+        """
+        if not self.chains:
+            raise InputError(f"kind: the legs of a {self.kind} robot are locked by their lengths")
+        if len(values) != LEGS:
+            raise InputError(f"joint values: {len(values)} given; give {LEGS}, one per leg")
+        parse = parse_cosine_and_sine if isinstance(self.chains[0], Crank) else parse_rational
+        exact = tuple(parse(value, f"joint values[{i}]") for i, value in enumerate(values, 1))
+        locked = Configuration(name, tuple(chain.rod_squared for chain in self.chains), exact)
+        feet = self.knees(locked)
+        for leg, foot in enumerate(feet, 1):
+            for coordinate in foot:
+                bounded(coordinate, coordinate, f"the knee of leg {leg}", MAX_COMPUTED_DIGITS)
+        _refuse_equal_legs(feet, self.platform_joints, "knees and platform.joints")
+        return locked
+
+    def knees(self, locked: Configuration) -> Joints:
+        """The lower ends of the legs: the base joints, or where cranks or slides put the rods."""
+        if len(locked.joint_values) != len(self.chains):
+            raise InputError(
+                f"configuration {shown(locked.name)}: {len(locked.joint_values)} joint values do not fit the kind "
+                f"{self.kind}; use one made for it"
+            )
+        return knees(self.base_joints, self.chains, locked.joint_values) if self.chains else self.base_joints
+
+    def as_gough(self, locked: Configuration | None) -> Robot:
+        """The 6-UPS robot with the same poses: itself, or with the knees of a configuration as base joints."""
+        if not self.chains:
+            return self
+        if locked is None:
+            raise InputError(f"configuration: a {self.kind} robot has knees only in a configuration; name one")
+        note = f"as 6-UPS: the knees of the {self.kind} robot in configuration {locked.name} are its base joints"
+        reduced = Configuration(locked.name, locked.lengths_squared)
+        return replace(
+            self,
+            kind="6-UPS",
+            source=f"{self.source}; {note}",
+            base_joints=self.knees(locked),
+            chains=(),
+            configurations=(reduced,),
+        )
+
+    def _require_chains(self) -> None:
+        kind = KINDS[self.kind]
+        if kind.chain is None:
+            if self.chains:
+                raise InputError(f"kind: a {self.kind} robot has neither cranks nor slides; remove them")
+            return
+        if len(self.chains) != LEGS:
+            raise InputError(f"{kind.chain_table}: {len(self.chains)} given; give {LEGS}, one per leg")
+        for leg, chain in enumerate(self.chains, 1):
+            if not isinstance(chain, kind.chain):
+                raise InputError(
+                    f"{kind.chain_table}[{leg}]: does not belong to the kind {self.kind}; use another kind"
+                )
+            chain.require_exact(self.metric, f"{kind.chain_table}, leg {leg}")
 
 
 def parse_joints(rows: Sequence[object], where: str) -> Joints:
@@ -127,15 +220,14 @@ def parse_metric(row: object) -> Metric:
     return g1, g2, g3
 
 
-def _refuse_equal_legs(base: Joints, platform: Joints) -> None:
+def _refuse_equal_legs(base: Joints, platform: Joints, where: str = "base.joints and platform.joints") -> None:
     """Merged joints are legal (TSSM, MSSM robots); two legs between the same two points are one leg."""
     seen: dict[tuple[Vector, Vector], int] = {}
     for number, ends in enumerate(zip(base, platform, strict=True), 1):
         first = seen.setdefault(ends, number)
         if first != number:
             raise InputError(
-                f"base.joints and platform.joints: legs {first} and {number} join the same two points; "
-                "give each leg its own pair of joints"
+                f"{where}: legs {first} and {number} join the same two points; give each leg its own pair of joints"
             )
 
 

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 
-from flint import acb_mat, arb, arb_mat, ctx
+import mpmath
+from flint import arb, arb_mat, ctx
 
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
@@ -111,16 +112,15 @@ def _leg_jacobian(
     """The Jacobian at an enclosed pose; None if the enclosures are too wide, unless this is the last try."""
     length = characteristic_length(problem)
     matrix = _matrix(problem, position, [rotation[0:3], rotation[3:6], rotation[6:9]], length)
-    values = _singular_values(matrix)
+    spectrum = _spectrum(matrix)
     if multiplicity is not None and multiplicity > 1:
-        if values[1] > 0:
+        if spectrum.second_is_positive:
             return LegJacobian(0, matrix.ncols() - 1, Interval(Fraction(0), Fraction(0)), None, length)
         return LegJacobian(0, None, Interval(Fraction(0), Fraction(0)), None, length) if last else None
-    determinant, smallest = matrix.det(), _outward(values[0])
-    if values[0] > 0 and (determinant > 0 or determinant < 0) and 2 * smallest.lo >= smallest.hi:
-        return LegJacobian(
-            1 if determinant > 0 else -1, matrix.ncols(), smallest, _outward(values[-1] / values[0]), length
-        )
+    determinant, smallest = matrix.det(), _outward(spectrum.smallest)
+    if spectrum.smallest > 0 and (determinant > 0 or determinant < 0) and 2 * smallest.lo >= smallest.hi:
+        condition = _outward(spectrum.largest / spectrum.smallest)
+        return LegJacobian(1 if determinant > 0 else -1, matrix.ncols(), smallest, condition, length)
     return LegJacobian(None, None, smallest, None, length) if last else None
 
 
@@ -144,12 +144,50 @@ def _matrix(
     return arb_mat(rows)
 
 
-def _singular_values(matrix: arb_mat) -> list[arb]:
-    """Enclosures of the singular values, increasing by midpoint: roots of the eigenvalues of J^T J."""
+@dataclass(frozen=True)
+class _Spectrum:
+    """Enclosures of the smallest, second smallest (from below only) and largest singular values."""
+
+    smallest: arb
+    second_is_positive: bool
+    largest: arb
+
+
+def _spectrum(matrix: arb_mat) -> _Spectrum:
+    """Bounds for the singular values: the eigenvalues of J^T J, symmetric, without a need to tell them apart.
+
+    With an approximate eigenvector matrix V, floating but exact as it stands, V^-1 (J^T J) V is similar to J^T J and
+    nearly diagonal: all eigenvalues lie in its Gershgorin discs. Rayleigh quotients bound the extreme ones from inside.
+    """
     symmetric = matrix.transpose() * matrix
-    eigenvalues = acb_mat(symmetric).eig(multiple=True)
-    real = [value.real.nonnegative_part() for value in eigenvalues]
-    return [value.sqrt() for value in sorted(real, key=lambda ball: _ends(ball)[0])]
+    size = symmetric.nrows()
+    with mpmath.workprec(ctx.prec):
+        middle = mpmath.matrix([[mpmath.mpf(symmetric[i, j].mid()._mpf_) for j in range(size)] for i in range(size)])
+        vectors = mpmath.eigsy((middle + middle.T) / 2)[1]
+        basis = arb_mat([[arb(vectors[i, j]) for j in range(size)] for i in range(size)])
+    similar = basis.inv() * symmetric * basis
+    discs = []
+    for i in range(size):
+        radius = sum((abs(similar[i, j]) for j in range(size) if j != i), arb(0))
+        discs.append((similar[i, i] - radius, similar[i, i] + radius))
+    discs.sort(key=lambda disc: _ends(disc[0])[0])
+    columns = [arb_mat(size, 1, [basis[i, j] for i in range(size)]) for j in range(size)]
+    quotients = [
+        (column.transpose() * symmetric * column)[0, 0] / (column.transpose() * column)[0, 0] for column in columns
+    ]
+    low = min(_ends(disc[0])[0] for disc in discs)
+    high = max(_ends(disc[1])[1] for disc in discs)
+    smallest = _hull(max(Fraction(0), low), min(_ends(value)[1] for value in quotients))
+    largest = _hull(max(_ends(value)[0] for value in quotients), high)
+    # A first disc apart from the others holds one eigenvalue, and the others lie in theirs.
+    apart = all(discs[0][1] < disc[0] and disc[0] > 0 for disc in discs[1:])
+    return _Spectrum(smallest.sqrt(), apart, largest.sqrt())
+
+
+def _hull(low: Fraction, high: Fraction) -> arb:
+    """A ball that contains both ends."""
+    ends = [arb(end.numerator) / end.denominator for end in (low, max(low, high))]
+    return ends[0].union(ends[1])
 
 
 def _outward(value: arb) -> Interval:

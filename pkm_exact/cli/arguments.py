@@ -1,0 +1,99 @@
+"""Words of the command line as values; what is wrong with them is said before any work begins."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import click
+
+from pkm_exact.errors import InputError
+from pkm_exact.formulations.registry import checked_code, formulation_codes
+from pkm_exact.wording import shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.problem import ForwardProblem
+    from pkm_exact.geometry.robot import Configuration, Robot
+
+SMALLEST_WIDTH: Final = Fraction(1, 2**4096)
+LONGEST_TIME: Final = 10**8
+
+
+def width(context: click.Context, _option: click.Parameter, value: str) -> Fraction:
+    """The number that --width denotes."""
+    number = _number(context, value, "--width")
+    if not SMALLEST_WIDTH <= number <= 1:
+        raise click.UsageError(f"--width: {shown(value)} is out of range, give a number from 2^-4096 to 1.", context)
+    return number
+
+
+def lengths(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[Fraction, ...] | None:
+    """The six numbers that --lengths denotes."""
+    if value is None:
+        return None
+    words = value.split(",")
+    if len(words) != 6:
+        raise click.UsageError(f"--lengths: {len(words)} given, six are needed between commas.", context)
+    return tuple(_number(context, word.strip(), f"--lengths, number {i}") for i, word in enumerate(words, 1))
+
+
+def timeout(context: click.Context, _option: click.Parameter, value: str) -> float:
+    """The number of seconds that --timeout denotes."""
+    number = _number(context, value, "--timeout")
+    if number > LONGEST_TIME:
+        raise click.UsageError(f"--timeout: {shown(value)} is out of range, give at most 10^8 seconds.", context)
+    return float(number)
+
+
+def code(context: click.Context, _option: click.Parameter, value: str) -> str:
+    """The code that --formulation denotes."""
+    return _code(context, value, "--formulation")
+
+
+def codes(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[str, ...]:
+    """The codes that --only denotes; all if it is not given."""
+    if value is None:
+        return formulation_codes()
+    return tuple(_code(context, word.strip(), "--only") for word in value.split(","))
+
+
+def _code(context: click.Context, value: str, where: str) -> str:
+    try:
+        return checked_code(value)
+    except InputError as error:
+        raise click.UsageError(f"{where}: {str(error).removeprefix('formulation: ')}", context) from None
+
+
+def _number(context: click.Context, text: str, where: str) -> Fraction:
+    from pkm_exact.geometry.rational import NumberText, parse_positive
+
+    try:
+        return parse_positive(text if "/" in text else NumberText(text), where)
+    except InputError as error:
+        raise click.UsageError(str(error), context) from None
+
+
+def chosen_problem(
+    robot: Robot, model: str, configuration: str | None, given: tuple[Fraction, ...] | None = None
+) -> tuple[Configuration | None, ForwardProblem]:
+    """The configuration of that name, or the first, and its problem; or None and that of the given lengths."""
+    try:
+        if given is not None:
+            return None, robot.problem([length * length for length in given])
+        chosen = robot.configuration(configuration)
+        return chosen, robot.problem(chosen)
+    except InputError as error:
+        raise InputError(f"{model}: {error}") from None
+
+
+def require_writable(path: Path, option: str) -> None:
+    """Find out before the work, not after it, that a file cannot be written."""
+    import os
+
+    if path.is_dir():
+        raise InputError(f"{path}: is a directory; give {option} the path of a file")
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: the folder {path.parent} does not exist; create it or give {option} another path")
+    if not os.access(path.parent, os.W_OK):
+        raise InputError(f"{path}: the folder {path.parent} is not writable; give {option} another path")

@@ -1,0 +1,127 @@
+"""The command ``legs``: inverse kinematics, exact leg lengths and joint values at a rational pose."""
+
+from __future__ import annotations
+
+import json
+import sys
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from pkm_exact.cli import arguments
+from pkm_exact.cli.main import ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.wording import shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.inverse import Matrix, Metric
+    from pkm_exact.geometry.problem import Vector
+
+
+@click.command(short_help="Leg lengths and joint values at a given pose.")
+@click.argument("model", type=click.Path())
+@click.option("--position", metavar="X,Y,Z", required=True, help="The platform's origin, exact: 0,-1/3,12.5.")
+@click.option("--quaternion", metavar="E0,E1,E2,E3", help="Its rotation, scalar first, of any norm.")
+@click.option("--cayley", metavar="A,B,C", help="Its rotation as a Cayley vector: the quaternion 1,A,B,C.")
+@click.option("--matrix", metavar="R11,..,R33", help="Its rotation matrix row by row, checked exactly.")
+@click.option(
+    "--width",
+    callback=arguments.width,
+    metavar="W",
+    default="1e-9",
+    show_default=True,
+    help="Greatest width of a bound on an irrational number, exact: 1e-9 or 1/1000.",
+)
+@click.option(
+    "--format",
+    "layout",
+    type=click.Choice(["table", "json"]),
+    default="table",
+    show_default=True,
+    help="What to print: decimals, or exact values and bounds as json.",
+)
+def legs(
+    model: str,
+    position: str,
+    quaternion: str | None,
+    cayley: str | None,
+    matrix: str | None,
+    width: Fraction,
+    layout: str,
+) -> int:
+    """Print what the legs of the robot in the file MODEL must be for its platform to stand at a pose.
+
+    Leg lengths where these are actuated; else every crank angle or slide position, all working modes. Coordinates are
+    those of the file, with respect to its metric. In the table, a line to copy into a configuration comes first if the
+    values are rational.
+    """
+    if sum(option is not None for option in (quaternion, cayley, matrix)) != 1:
+        raise click.UsageError("give exactly one of --quaternion, --cayley and --matrix.")
+    origin = _numbers(position, "--position", 3)
+    # Before the file is read: what is wrong with the words is said first.
+    words = {"--quaternion": (quaternion, 4), "--cayley": (cayley, 3), "--matrix": (matrix, 9)}
+    option, values = next((name, _numbers(text, name, n)) for name, (text, n) in words.items() if text is not None)
+    if option == "--quaternion" and not any(values):
+        raise click.UsageError("--quaternion: all four numbers are 0, give one that is not.")
+
+    from pkm_exact.cli.legs_report import as_object, as_text
+    from pkm_exact.geometry.reader import read_robot
+
+    robot = read_robot(model)
+    rotation = _rotation(option, values, robot.metric)
+    if layout == "json":
+        answer: dict[str, Any] = as_object(robot, _vector(origin), rotation, width)
+        sys.stdout.write(json.dumps(answer, indent=1) + "\n")
+    else:
+        sys.stdout.write(as_text(robot, _vector(origin), rotation, width))
+    return ExitCode.DONE
+
+
+def _numbers(text: str, option: str, count: int) -> list[Fraction]:
+    from pkm_exact.geometry.rational import NumberText, parse_rational
+
+    words = [word.strip() for word in text.split(",")]
+    if len(words) != count:
+        raise click.UsageError(f"{option}: {len(words)} numbers given, {count} are needed between commas.")
+    try:
+        return [
+            parse_rational(word if "/" in word else NumberText(word), f"{option}, number {i}")
+            for i, word in enumerate(words, 1)
+        ]
+    except InputError as error:
+        raise click.UsageError(str(error)) from None
+
+
+def _vector(values: list[Fraction]) -> Vector:
+    x, y, z = values
+    return x, y, z
+
+
+def _rotation(option: str, values: list[Fraction], metric: Metric) -> Matrix:
+    from pkm_exact.geometry.inverse import rotation_of
+
+    if option == "--matrix":
+        matrix = (_vector(values[:3]), _vector(values[3:6]), _vector(values[6:]))
+        _require_rotation(matrix, metric)
+        return matrix
+    e0, e1, e2, e3 = values if option == "--quaternion" else [Fraction(1), *values]
+    return rotation_of((e0, e1, e2, e3), metric)
+
+
+def _require_rotation(matrix: Matrix, metric: Metric) -> None:
+    """Refuse a matrix R unless R^T G R = G and det R = 1."""
+    from pkm_exact.geometry.inverse import dot
+
+    columns = [_vector(list(column)) for column in zip(*matrix, strict=True)]
+    for i in range(3):
+        for j in range(i + 1):
+            product, wanted = dot(columns[i], columns[j], metric), metric[i] if i == j else 0
+            if product != wanted:
+                raise InputError(
+                    f"--matrix: not a rotation in the metric {', '.join(map(str, metric))}: columns {j + 1} and "
+                    f"{i + 1} have the product {shown(product)} instead of {wanted}; give an exact rotation matrix"
+                )
+    (a, b, c), (d, e, f), (x, y, z) = matrix
+    if a * (e * z - f * y) - b * (d * z - f * x) + c * (d * y - e * x) != 1:
+        raise InputError("--matrix: its determinant is -1, a reflection; give a rotation matrix")

@@ -1,0 +1,159 @@
+"""Leg lengths and joint values at a pose, as a JSON object or as a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from math import prod
+from typing import Any, Final
+
+from pkm_exact.cli.table import decimal
+from pkm_exact.geometry.inverse import Matrix, distance_squared
+from pkm_exact.geometry.problem import Vector
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.surds import Surd
+from pkm_exact.geometry.working_modes import (
+    CrankMode,
+    FreeCrank,
+    Mode,
+    SlideMode,
+    platform_point,
+    working_modes,
+)
+from pkm_exact.poses.pose import Interval
+
+_LONGEST_EXACT: Final = 50
+
+
+def lengths_squared(robot: Robot, position: Vector, rotation: Matrix) -> list[Fraction]:
+    """Squared distances between the joints of each leg."""
+    pairs = zip(robot.base_joints, robot.platform_joints, strict=True)
+    return [distance_squared(a, b, position, rotation, robot.metric) for a, b in pairs]
+
+
+def joint_modes(robot: Robot, position: Vector, rotation: Matrix) -> list[tuple[Mode, ...]]:
+    """The working modes of each chain."""
+    chains = zip(robot.chains, robot.base_joints, robot.platform_joints, strict=True)
+    return [working_modes(c, a, platform_point(b, position, rotation), robot.metric) for c, a, b in chains]
+
+
+def as_object(robot: Robot, position: Vector, rotation: Matrix, width: Fraction) -> dict[str, Any]:
+    """The answer as a JSON object: every number exact, as "p", "p/q" or "p + q*sqrt(n)", and with bounds."""
+    answer: dict[str, Any] = {
+        "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
+        "metric": list(map(str, robot.metric)),
+        "pose": {"position": list(map(str, position)), "rotation": [list(map(str, row)) for row in rotation]},
+    }
+    if not robot.chains:
+        squares = lengths_squared(robot, position, rotation)
+        lengths = [_number(Surd.root_of(square), width) for square in squares]
+        return answer | {"lengths_squared": list(map(str, squares)), "lengths": lengths}
+    modes = joint_modes(robot, position, rotation)
+    free = any(isinstance(mode, FreeCrank) for leg in modes for mode in leg)
+    return answer | {
+        "working_modes": None if free else prod(map(len, modes)),
+        "legs": [[_mode(mode, width) for mode in leg] for leg in modes],
+    }
+
+
+def _mode(mode: Mode, width: Fraction) -> dict[str, Any]:
+    if isinstance(mode, SlideMode):
+        return {"position": _number(mode.position, width)}
+    if isinstance(mode, FreeCrank):
+        return {"free": True}
+    tangent = None if mode.half_tangent is None else _number(mode.half_tangent, width)
+    return {"cos": _number(mode.cos, width), "sin": _number(mode.sin, width), "half_tangent": tangent}
+
+
+def _number(value: Surd, width: Fraction) -> dict[str, Any]:
+    return {"exact": str(value), "bounds": list(map(str, value.enclosure(width)))}
+
+
+def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction) -> str:
+    """The answer as a headline, a line for a configuration if there is one, and a table."""
+    place = ", ".join(map(str, position))
+    rows = "; ".join(", ".join(map(str, row)) for row in rotation)
+    lines = [f"{robot.name} ({robot.kind}), position ({place}), rotation matrix ({rows})"]
+    if robot.chains:
+        lines += _chain_lines(robot, joint_modes(robot, position, rotation), width)
+    else:
+        squares = lengths_squared(robot, position, rotation)
+        lines += [_assignment("lengths_squared", squares), ""]
+        lengths = [Surd.root_of(square) for square in squares]
+        table = [(f"{i}", _decimal(x, width), _short(str(x))) for i, x in enumerate(lengths, 1)]
+        lines += _aligned([("leg", f"length [{robot.unit}]", "exact"), *table])
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _chain_lines(robot: Robot, modes: list[tuple[Mode, ...]], width: Fraction) -> Iterator[str]:
+    unreached = [str(i) for i, leg in enumerate(modes, 1) if not leg]
+    if unreached:
+        yield f"out of reach: leg {', '.join(unreached)}"
+    elif any(isinstance(mode, FreeCrank) for leg in modes for mode in leg):
+        yield "infinitely many working modes: the rod's upper end lies on a motor's axis"
+    else:
+        count = prod(map(len, modes))
+        yield f"{count} working mode{'' if count == 1 else 's'}"
+    line = _configuration_line(modes)
+    if line:
+        yield line
+    if not any(modes):
+        return
+    yield ""
+    is_crank = robot.kind == "6-RUS"
+    header = ("leg", "cos", "sin", "half tangent") if is_crank else ("leg", f"position [{robot.unit}]")
+    rows = [(*_row(i, mode, width),) for i, leg in enumerate(modes, 1) for mode in leg]
+    yield from _aligned([(*header, "exact"), *rows])
+
+
+def _row(leg: int, mode: Mode, width: Fraction) -> tuple[str, ...]:
+    if isinstance(mode, SlideMode):
+        return str(leg), _decimal(mode.position, width), _short(str(mode.position))
+    if isinstance(mode, FreeCrank):
+        return str(leg), "", "", "", "any angle"
+    cosine, sine = _decimal(mode.cos, width), _decimal(mode.sin, width)
+    if mode.half_tangent is None:
+        return str(leg), cosine, sine, "infinite", "180 degrees"
+    return str(leg), cosine, sine, _decimal(mode.half_tangent, width), _short(str(mode.half_tangent))
+
+
+def _configuration_line(modes: list[tuple[Mode, ...]]) -> str | None:
+    """The first working mode whose joint values are all rational, as a line of a model file."""
+    chosen = [next((mode for mode in leg if _is_rational(mode)), None) for leg in modes]
+    slides = [mode.position.p for mode in chosen if isinstance(mode, SlideMode)]
+    if len(slides) == len(modes):
+        return _assignment("slides", slides)
+    cranks = [mode for mode in chosen if isinstance(mode, CrankMode)]
+    if len(cranks) < len(modes):
+        return None
+    tangents = [mode.half_tangent.p for mode in cranks if mode.half_tangent is not None]
+    if len(tangents) == len(modes):
+        return _assignment("half_tangents", tangents)
+    return f"cos_sin = [{', '.join(f'[{_quoted(mode.cos.p)}, {_quoted(mode.sin.p)}]' for mode in cranks)}]"
+
+
+def _is_rational(mode: Mode) -> bool:
+    if isinstance(mode, SlideMode):
+        return mode.position.is_rational
+    return isinstance(mode, CrankMode) and mode.cos.is_rational and mode.sin.is_rational
+
+
+def _assignment(key: str, values: list[Fraction]) -> str:
+    return f"{key} = [{', '.join(map(_quoted, values))}]"
+
+
+def _quoted(value: Fraction) -> str:
+    return str(value) if value.denominator == 1 else f'"{value}"'
+
+
+def _decimal(value: Surd, width: Fraction) -> str:
+    return decimal(Interval(*value.enclosure(width)))
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= _LONGEST_EXACT else "long: see --format json"
+
+
+def _aligned(rows: list[tuple[str, ...]]) -> list[str]:
+    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
+    return ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]

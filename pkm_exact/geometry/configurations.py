@@ -1,0 +1,70 @@
+"""Configurations of a model file: locked actuators by name, as lengths, joint values or a pose."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.chains import cosine_and_sine, parse_cosine_and_sine
+from pkm_exact.geometry.fields import known_keys, label, list_field, required
+from pkm_exact.geometry.inverse import distance_squared, rotation_of
+from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational, parse_vector
+from pkm_exact.geometry.robot import LEGS, Configuration, Robot
+from pkm_exact.wording import shown
+
+
+def read_configuration(row: dict[str, Any], where: str, robot: Robot) -> Configuration:
+    """The configuration that a table describes, for a robot of known kind."""
+    keys = KINDS[robot.kind].joint_keys
+    known_keys(row, ("name", *keys), where)
+    name = label(row, "name", f"{where}.")
+    given = [key for key in keys if key in row]
+    if len(given) != 1:
+        found = " and ".join(given) or "none of them"
+        wanted = f"exactly one of {', '.join(keys)}" if len(keys) > 1 else keys[0]
+        raise InputError(f"{where} ({shown(name)}): {found} given; give {wanted}")
+    key = given[0]
+    field = f"{where}.{key}"
+    if key == "pose":
+        return Configuration(name, _lengths_squared_at(row[key], field, robot))
+    values = list_field(row[key], field, LEGS)
+    if len(values) != LEGS:
+        raise InputError(f"{field}: {len(values)} values; give {LEGS}, one per leg")
+    if robot.chains:
+        exact = [_joint_value(key, value, f"{field}[{i}]") for i, value in enumerate(values, 1)]
+        try:
+            return robot.lock(name, exact)
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from None
+    numbers = [parse_positive(value, f"{field}[{i}]") for i, value in enumerate(values, 1)]
+    return Configuration(name, tuple(n * n if key == "lengths" else n for n in numbers))
+
+
+def _joint_value(key: str, value: object, where: str) -> object:
+    if key == "cos_sin":
+        return parse_cosine_and_sine(value, where)
+    number = parse_rational(value, where)
+    return cosine_and_sine(number) if key == "half_tangents" else number
+
+
+def _lengths_squared_at(pose: object, where: str, robot: Robot) -> tuple[Fraction, ...]:
+    if not isinstance(pose, dict):
+        raise InputError(f"{where}: {shown(pose)} is not a table; write {{ position = [...], quaternion = [...] }}")
+    known_keys(pose, ("position", "quaternion"), where)
+    position = parse_vector(required(pose, "position", f"{where}."), f"{where}.position")
+    row = list_field(required(pose, "quaternion", f"{where}."), f"{where}.quaternion", 4)
+    if len(row) != 4:
+        raise InputError(f"{where}.quaternion: {len(row)} numbers; give 4, scalar first")
+    e0, e1, e2, e3 = (parse_rational(e, f"{where}.quaternion[{i}]") for i, e in enumerate(row, 1))
+    if not any((e0, e1, e2, e3)):
+        raise InputError(f"{where}.quaternion: all four numbers are 0; give one that is not")
+    turn = rotation_of((e0, e1, e2, e3), robot.metric)
+    squares = []
+    for leg, (a, b) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True), 1):
+        square = distance_squared(a, b, position, turn, robot.metric)
+        if square == 0:
+            raise InputError(f"{where}: leg {leg} has length 0 at this pose; give another pose")
+        squares.append(bounded(square, square, f"{where}: the squared length of leg {leg}", MAX_COMPUTED_DIGITS))
+    return tuple(squares)

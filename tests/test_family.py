@@ -1,0 +1,78 @@
+"""The family of hexapods: how many poses each member has, all of them, proved."""
+
+from fractions import Fraction
+
+import pytest
+from samples import MODELS, solved
+
+from pkm_exact.engine import solve
+from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
+from pkm_exact.geometry.reader import read_robot
+from pkm_exact.verdict import Claim
+
+COUNTS = {
+    "mssm": (16, 16),
+    "tssm": (16, 16),
+    "ssm-exact": (28, 16),
+    "6-6pp": (40, 16),
+    "6-6p": (40, 16),
+    "rolland-6-6": (40, 16),
+    "dietmaier": (40, 40),
+    "hexa": (40, 8),
+    "hexaglide": (36, 8),
+    "linapod-n": (40, 2),
+    "linuxcnc-hexapod": (16, 8),
+    "robocrane-r": (16, 4),
+    "similar-planar-s": (16, 8),
+}
+
+
+def _is_complete(name: str, complex_solutions: int, real_poses: int) -> None:
+    solution = solved(name)
+    assert solution.claim is Claim.COMPLETE
+    assert solution.complex_solutions == solution.distinct_solutions == complex_solutions
+    assert len(solution.poses) == real_poses
+
+
+@pytest.mark.parametrize("name", COUNTS)
+def test_all_poses_are_found_and_proved_to_be_all(name: str) -> None:
+    _is_complete(name, *COUNTS[name])
+
+
+@pytest.mark.slow
+def test_rounding_the_hexagons_adds_eight_complex_poses() -> None:
+    _is_complete("ssm-rounded", 36, 16)
+
+
+def test_a_hexa_with_equal_crank_angles_is_an_ssm() -> None:
+    robot = read_robot(next(path for path in MODELS if path.stem == "hexa"))
+    solution = solve(robot.problem(robot.configuration("level")))
+    assert (solution.claim, solution.complex_solutions) == (Claim.COMPLETE, 28)
+
+
+def test_the_linapod_stands_where_it_was_published() -> None:
+    positions = [[float(c.midpoint) for c in pose.position] for pose in solved("linapod-n").poses]
+    assert sorted(positions) == [
+        pytest.approx([-7.10e-5, -8.30e-5, 4.57e-4], abs=1e-6),
+        pytest.approx([2.46e-4, -5.01e-4, 0.225342], abs=1e-6),
+    ]
+
+
+BASE = ((-5, -7, 0), (4, -7, 0), (8, 2, 0), (3, 6, 0), (-2, 6, 0), (-9, 2, 0))
+PLATFORM = ((-3, -3, 0), (4, -3, 0), (5, -1, 0), (1, 5, 0), (-2, 5, 0), (-3, -1, 0))
+
+
+@pytest.mark.parametrize(("height", "shift", "count"), [(0, 0, 36), (1, 0, 36), (0, 1, 40)])
+def test_three_pairs_of_parallel_chords_send_four_solutions_to_infinity(height: int, shift: int, count: int) -> None:
+    """Joints 1-2, 3-6 and 4-5 are joined by parallels, in the base and in the platform: 36 solutions, not 40."""
+    base = [(*BASE[0][:2], height), (*BASE[1][:2], height), *BASE[2:]]
+    base[3] = (base[3][0], base[3][1] + shift, 0)
+    squares = (101, 107, 111, 121, 99, 133)
+    legs = tuple(Leg(_vector(a), _vector(b), Fraction(n)) for a, b, n in zip(base, PLATFORM, squares, strict=True))
+    solution = solve(ForwardProblem(legs))
+    assert (solution.claim, solution.complex_solutions) == (Claim.COMPLETE, count)
+
+
+def _vector(joint: tuple[int, int, int]) -> Vector:
+    x, y, z = map(Fraction, joint)
+    return x, y, z

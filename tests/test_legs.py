@@ -1,0 +1,197 @@
+"""Inverse kinematics: exact lengths and joint values, as numbers and as the command prints them."""
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pkm_exact.cli.main import main
+from pkm_exact.geometry.chains import Crank, Slide, cosine_and_sine
+from pkm_exact.geometry.inverse import dot
+from pkm_exact.geometry.problem import Vector
+from pkm_exact.geometry.reader import read_robot, robot_from_toml
+from pkm_exact.geometry.surds import Surd, quadratic_roots
+from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, SlideMode, working_modes
+
+MODELS = Path(__file__).parent.parent / "models"
+ROLLAND, HEXA, GLIDE = (str(MODELS / f"{name}.toml") for name in ("rolland-6-6", "hexa", "hexaglide"))
+Capture = pytest.CaptureFixture[str]
+
+small = st.fractions(min_value=-4, max_value=4, max_denominator=6)
+vectors = st.tuples(small, small, small)
+metrics = st.sampled_from([(1, 1, 1), (1, 3, 1), (2, 1, 5)])
+ZERO: Vector = (Fraction(0), Fraction(0), Fraction(0))
+
+
+def _plus(a: Surd, b: Surd) -> Surd:
+    assert a.n == b.n or 0 in (a.n, b.n)
+    return Surd(a.p + b.p, a.q + b.q, max(a.n, b.n))
+
+
+def _times(a: Surd, b: Surd) -> Surd:
+    n = max(a.n, b.n)
+    return Surd(a.p * b.p + a.q * b.q * n, a.p * b.q + a.q * b.p, n)
+
+
+def _is(value: Surd, wanted: Fraction | int) -> bool:
+    return value.p == wanted and value.q == 0
+
+
+@given(small.filter(bool), small, small)
+def test_quadratic_roots_are_roots(a: Fraction, b: Fraction, c: Fraction) -> None:
+    roots = quadratic_roots(a, b, c)
+    for x in roots:
+        assert _is(_plus(_plus(_times(x, x).scaled(a), x.scaled(2 * b)), Surd(c)), 0)
+    assert len(roots) == (b * b > a * c) + (b * b >= a * c)
+    ends = [end for x in roots for end in x.enclosure(Fraction(1, 10**6))]
+    assert ends == sorted(ends)
+
+
+@given(st.fractions(min_value=0, max_value=10**6, max_denominator=10**4), st.integers(0, 12))
+def test_enclosures_hold_the_root(square: Fraction, digits: int) -> None:
+    width = Fraction(1, 10**digits)
+    lo, hi = Surd.root_of(square).enclosure(width)
+    assert lo * lo <= square <= hi * hi
+    assert hi - lo <= width
+    assert (lo == hi) == (lo * lo == square)
+
+
+@given(vectors, vectors, small, metrics, vectors.filter(any))
+def test_a_slide_finds_the_position_it_was_put_at(
+    base: Vector, point: Vector, q: Fraction, metric: tuple[int, int, int], direction: Vector
+) -> None:
+    knee = Slide(direction, Fraction(1)).knee(base, q)
+    gap = tuple(k - p for k, p in zip(knee, point, strict=True))
+    rod = dot(gap, gap, metric)  # type: ignore[arg-type]
+    if rod == 0:
+        return
+    modes = working_modes(Slide(direction, rod), base, point, metric)
+    assert any(isinstance(mode, SlideMode) and _is(mode.position, q) for mode in modes)
+    assert all(isinstance(mode, SlideMode) and mode.position.is_rational for mode in modes)
+
+
+@given(vectors, vectors, small, st.sampled_from([(1, 3, 1), (1, 1, 1)]), st.booleans())
+def test_a_crank_finds_the_angle_it_was_put_at(
+    base: Vector, point: Vector, t: Fraction, metric: tuple[int, int, int], back: bool
+) -> None:
+    one, half = Fraction(1), Fraction(1, 2)
+    at_0 = (half, half, Fraction(0)) if metric[1] == 3 else (one, Fraction(0), Fraction(0))
+    at_90 = (Fraction(0), Fraction(0), one)
+    angle = (Fraction(-1), Fraction(0)) if back else cosine_and_sine(t)
+    knee = Crank(at_0, at_90, one).knee(base, angle)
+    gap = tuple(k - p for k, p in zip(knee, point, strict=True))
+    rod = dot(gap, gap, metric)  # type: ignore[arg-type]
+    if rod == 0:
+        return
+    crank = Crank(at_0, at_90, rod)
+    crank.require_exact(metric, "crank")
+    modes = working_modes(crank, base, point, metric)
+    if isinstance(modes[0], FreeCrank):
+        return
+    for mode in modes:
+        assert isinstance(mode, CrankMode)
+        assert _is(_plus(_times(mode.cos, mode.cos), _times(mode.sin, mode.sin)), 1)
+        if mode.half_tangent is not None:
+            assert mode.sin == _times(mode.half_tangent, _plus(mode.cos, Surd(one)))
+    found = {(mode.cos.p, mode.sin.p) for mode in modes if isinstance(mode, CrankMode)}
+    assert angle in found
+
+
+def test_modes_of_a_crank() -> None:
+    crank = Crank((2, 0, 0), (0, 0, 2), 9)  # type: ignore[arg-type]
+    one = (1, 1, 1)
+    at = lambda x, z: working_modes(crank, ZERO, (Fraction(x), Fraction(0), Fraction(z)), one)  # noqa: E731
+    assert at(6, 0) == ()
+    (stretched,) = at(5, 0)
+    assert isinstance(stretched, CrankMode)
+    assert _is(stretched.cos, 1)
+    (back,) = at(-5, 0)
+    assert isinstance(back, CrankMode)
+    assert back.half_tangent is None
+    assert len(at(3, 1)) == 2
+    assert at(0, 0) == ()
+    assert working_modes(crank, ZERO, (Fraction(0), Fraction(0), Fraction(0)), one) == ()
+    tilted = Crank((2, 0, 0), (0, 0, 2), 13)  # type: ignore[arg-type]
+    assert working_modes(tilted, ZERO, (Fraction(0), Fraction(3), Fraction(0)), one) == (FreeCrank(),)
+
+
+def _answer(words: list[str], capsys: Capture) -> dict:
+    assert main(["legs", *words, "--format", "json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_rotations_in_three_ways_give_the_same(capsys: Capture) -> None:
+    for model in (ROLLAND, GLIDE):
+        g = read_robot(model).metric[1]
+        place = [model, "--position", "1/2,-3,650"]
+        first = _answer([*place, "--quaternion", "4,0,0,2"], capsys)
+        norm = 16 * g + 4
+        c, s = Fraction(16 * g - 4, norm), Fraction(16, norm)
+        matrix = f"{c},{-s * g},0,{s},{c},0,0,0,1"
+        assert _answer([*place, "--cayley", "0,0,1/2"], capsys) == first
+        assert _answer([*place, "--matrix", matrix], capsys) == first
+
+
+def test_lengths_are_those_of_a_posed_configuration(capsys: Capture) -> None:
+    text = Path(ROLLAND).read_text()
+    pose = "pose = { position = [1, 2, 800], quaternion = [9, 1, 0, -1] }"
+    robot = robot_from_toml(text[: text.index("lengths =")] + pose + "\n")
+    words = [ROLLAND, "--position", "1,2,800", "--quaternion", "9,1,0,-1"]
+    answer = _answer(words, capsys)
+    assert tuple(map(Fraction, answer["lengths_squared"])) == robot.configuration().lengths_squared
+    for square, length in zip(answer["lengths_squared"], answer["lengths"], strict=True):
+        lo, hi = map(Fraction, length["bounds"])
+        assert lo * lo <= Fraction(square) <= hi * hi
+    assert main(["legs", *words]) == 0
+    line = capsys.readouterr().out.split("\n")[1]
+    assert robot_from_toml(text[: text.index("lengths =")] + line) == robot
+
+
+def test_joint_values_come_in_all_working_modes(capsys: Capture) -> None:
+    place = ["--position", "0,0,500", "--quaternion", "1,0,0,0"]
+    answer = _answer([HEXA, *place], capsys)
+    assert answer["working_modes"] == 64
+    assert [set(mode) for mode in answer["legs"][0]] == [{"cos", "sin", "half_tangent"}] * 2
+    answer = _answer([GLIDE, *place], capsys)
+    assert [[set(mode) for mode in leg] for leg in answer["legs"]] == [[{"position"}] * 2] * 6
+    assert main(["legs", HEXA, *place]) == 0
+    assert "64 working modes" in capsys.readouterr().out
+    assert main(["legs", HEXA, "--position", "0,0,5000", "--cayley", "0,0,0"]) == 0
+    assert capsys.readouterr().out.endswith("out of reach: leg 1, 2, 3, 4, 5, 6\n")
+
+
+def test_rational_joint_values_can_be_copied(tmp_path: Path, capsys: Capture) -> None:
+    text = Path(GLIDE).read_text().replace("length = 900", "lengths_squared = [10, 20, 29, 13, 25, 41]")
+    joints = [[1, 0, 3], [2, 0, 4], [5, 0, 2], [2, 0, 3], [3, 0, 4], [4, 0, 5]]
+    text = text.replace("hexagon = { sides = [613, 137], height = 236 }", f"joints = {joints}")
+    text = text.replace("-340", "0").replace("230", "0").replace("120", "0")
+    path = tmp_path / "slides.toml"
+    path.write_text(text)
+    assert main(["legs", str(path), "--position", "0,0,0", "--cayley", "0,0,0"]) == 0
+    line = capsys.readouterr().out.split("\n")[2]
+    assert line == "slides = [0, 0, 0, 0, 0, 0]"
+
+
+BAD = [
+    (["--quaternion", "1,0,0,0"], "missing option '--position'"),
+    (["--position", "0,0,1"], "give exactly one of --quaternion, --cayley and --matrix"),
+    (["--position", "0,0,1", "--cayley", "0,0,0", "--quaternion", "1,0,0,0"], "give exactly one of"),
+    (["--position", "0,0", "--cayley", "0,0,0"], "--position: 2 numbers given, 3 are needed"),
+    (["--position", "0,0,x", "--cayley", "0,0,0"], "--position, number 3: x is not a number"),
+    (["--position", "0,0,1", "--quaternion", "0,0,0,0"], "--quaternion: all four numbers are 0"),
+    (["--position", "0,0,1", "--matrix", "1,0,0,0,1,0,0,0,2"], "columns 3 and 3 have the product 4 instead of 1"),
+    (["--position", "0,0,1", "--matrix", "1,0,0,0,1,0,0,0,-1"], "its determinant is -1, a reflection"),
+    (["--position", "0,0,1", "--cayley", "0,0,0", "--width", "0"], "--width: 0 is not positive"),
+]
+
+
+@pytest.mark.parametrize(("words", "part"), BAD, ids=range(len(BAD)))
+def test_bad_usage_gives_one_sentence(words: list[str], part: str, capsys: Capture) -> None:
+    assert main(["legs", ROLLAND, *words]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1
+    assert part in err
