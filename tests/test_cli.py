@@ -26,7 +26,6 @@ from pkm_exact.verdict import Claim, CompletenessRoute
 
 ROOT = Path(__file__).parent.parent
 MODEL = str(ROOT / "models" / "mourrain-l.toml")
-SYMMETRIC = str(ROOT / "models" / "robocrane-r.toml")
 Capture = pytest.CaptureFixture[str]
 
 # The modules by their names: the package exports a function called solve as well.
@@ -75,7 +74,8 @@ BAD_USAGE = [
     (["solve", MODEL, "--lengths", "1,1,1,1,1,__import__('os')"], "--lengths, number 6: __import__"),
     (["solve", MODEL, "--lengths", "1,1,1,1,1," + "1" * 100_000], "is too long; use at most 200 digits"),
     (["solve", MODEL, "--lengths", "1,1,1,1,1,1e999999999"], "1e999999999 is too long"),
-    (["solve", MODEL, "--formulation", "AFD99"], "'AFD99' is not one of 'SE3', 'AFD4'"),
+    (["solve", MODEL, "--formulation", "AFD99"], "--formulation: 'AFD99' is unknown; use one of SE3, AFD1"),
+    (["solve", MODEL, "--formulation", "AFD1:zzy"], "'zzy' is no Euler convention"),
     (["solve", MODEL, "--width", "0"], "--width: 0 is not positive"),
     (["solve", MODEL, "--width", "wide"], "--width: wide is not a number"),
     (["solve", MODEL, "--width", "2"], "--width: '2' is out of range"),
@@ -176,8 +176,8 @@ def test_options_reach_the_engine(solution: Solution, monkeypatch: pytest.Monkey
         return solution
 
     monkeypatch.setattr(SOLVE, "solve", record)
-    assert main(["solve", MODEL, "--formulation", "AFD4", "--width", "1e-30"]) == 0
-    assert (seen["formulation"], seen["width"]) == ("AFD4", Fraction(1, 10**30))
+    assert main(["solve", MODEL, "--formulation", "AFD1:zxz", "--width", "1e-30"]) == 0
+    assert (seen["formulation"], seen["width"]) == ("AFD1:zxz", Fraction(1, 10**30))
     seen["progress"]("a stage")
     assert capsys.readouterr().err == ""
 
@@ -194,9 +194,13 @@ def test_solve_then_check(tmp_path: Path, capsys: Capture) -> None:
     assert len(out.split("\n")) > 3
 
 
-def test_a_weaker_claim_has_exit_code_3(tmp_path: Path, capsys: Capture) -> None:
+def test_a_weaker_claim_has_exit_code_3(
+    solution: Solution, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    weaker = replace(solution, claim=Claim.NOT_PROVEN_COMPLETE, completeness=None)
+    monkeypatch.setattr(SOLVE, "solve", lambda problem, **_: replace(weaker, problem=problem))
     path = tmp_path / "cert.json"
-    assert main(["solve", SYMMETRIC, "-o", str(path)]) == 3
+    assert main(["solve", MODEL, "-o", str(path)]) == 3
     assert "4 real poses; not proven complete" in capsys.readouterr().out
     assert path.is_file()
 
@@ -286,10 +290,10 @@ def test_a_full_disk_is_no_traceback() -> None:
 def test_headlines_say_what_is_claimed(solution: Solution) -> None:
     route = CompletenessRoute.REFINED_BEZOUT
     assert headline(solution).endswith(f"it is proved that there is no other ({route})")
-    weaker = replace(solution, claim=Claim.NOT_PROVEN_COMPLETE, completeness_route=None, complex_solutions=41)
+    weaker = replace(solution, claim=Claim.NOT_PROVEN_COMPLETE, completeness=None, complex_solutions=41)
     assert headline(weaker).startswith("41 complex solutions (40 distinct), 4 real poses; not proven complete: ")
     for claim in (Claim.POSITIVE_DIMENSIONAL_DETECTED, Claim.POSITIVE_DIMENSIONAL_PROVED, Claim.INCONSISTENT):
-        empty = replace(solution, claim=claim, completeness_route=None, representation=None, poses=())
+        empty = replace(solution, claim=claim, completeness=None, representation=None, poses=())
         assert not headline(empty)[0].isdigit()
         answer = as_object(read_robot(MODEL), None, empty)
         assert (answer["claim"], answer["poses"], answer["completeness_route"]) == (claim.value, [], None)

@@ -55,6 +55,8 @@ class FormulatedProblem:
     mirrors : tuple of ForwardProblem
         Robots with mirrored joints whose poses are the solutions that are no poses of the given robot: those of the
         other branches, or those that do not meet the conditions.
+    multiplicity : int
+        How often ``system`` counts each solution of the branches: 2 for every joint that is its own mirror image.
     is_chart : bool
         Whether some poses may have no finite coordinates here (half turns, gimbal lock).
     """
@@ -66,6 +68,7 @@ class FormulatedProblem:
     branches: tuple[PolynomialSystem, ...]
     conditions: tuple[Expression, ...] = ()
     mirrors: tuple[ForwardProblem, ...] = ()
+    multiplicity: int = 1
     is_chart: bool = False
 
 

@@ -25,7 +25,7 @@ from pkm_exact.formulations.base import (
     rational,
     rational_ring,
 )
-from pkm_exact.formulations.displacement import rotation_equations
+from pkm_exact.formulations.displacement import reduced, rotation_equations
 from pkm_exact.geometry.problem import ForwardProblem, Leg
 from pkm_exact.geometry.rotation import quaternion_products
 
@@ -121,9 +121,10 @@ class SE3:
                 value -= echelon[row, j] * generator
             if pivot < size:
                 coordinates[pivot] = value
-        equations = motion_quadrics(coordinates, unit, metric)
+        quadrics = motion_quadrics(coordinates, unit, metric)
         if size in pivots:
-            equations.append(unit)  # the legs force h = 0: no finite pose
+            quadrics.append(unit)  # the legs force h = 0: no finite pose
+        equations = reduced(quadrics)
         rotation = [coordinates[7 + 3 * i : 10 + 3 * i] for i in range(3)]
         products = quaternion_products(rotation, unit, metric)
         pose_map = PoseMap(tuple(map(tuple, products)), tuple(coordinates[3:6]))

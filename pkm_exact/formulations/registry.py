@@ -46,18 +46,39 @@ def formulation(code: str) -> Formulation:
     InputError
         If there is none of that code, or the option does not fit.
     """
+    name, values = _parsed(code)
+    module, _ = _ENTRIES[name]
+    return cast(Formulation, getattr(import_module(f"pkm_exact.formulations.{module}"), name)(**values))
+
+
+def checked_code(code: str) -> str:
+    """The code itself, if ``formulation`` accepts it; nothing is loaded to find out.
+
+    Raises
+    ------
+    InputError
+        As ``formulation``.
+
+    Examples
+    --------
+    >>> checked_code("AFD1:zxz")
+    'AFD1:zxz'
+    """
+    _parsed(code)
+    return code
+
+
+def _parsed(code: str) -> tuple[str, dict[str, Any]]:
+    """The name and the arguments that a code denotes."""
     name, colon, option = code.partition(":")
     if name not in _ENTRIES:
         raise InputError(f"formulation: {code[:40]!r} is unknown; use one of {', '.join(_ENTRIES)}")
-    module, field = _ENTRIES[name]
-    if colon and field is None:
+    _, field = _ENTRIES[name]
+    if not colon:
+        return name, {}
+    if field is None:
         raise InputError(f"formulation: {name} takes no option, but {code[:40]!r} has one; write {name}")
-    values: dict[str, Any] = {}
-    if colon and field == "convention":
-        values = {field: _convention(option)}
-    elif colon and field == "triple":
-        values = {field: _triple(option)}
-    return cast(Formulation, getattr(import_module(f"pkm_exact.formulations.{module}"), name)(**values))
+    return name, {field: _convention(option) if field == "convention" else _triple(option)}
 
 
 def _convention(option: str) -> str:

@@ -70,7 +70,11 @@ class AFP4:
         mirrors = tuple(_mirrored(problem, frame, others, signs) for signs in list(product(*choices))[1:])
         first_three = [points[k] for k in frame.legs]
         pose_map = pose_from_points(problem, frame, first_three, context.constant(1))
-        return FormulatedProblem(self.code, system, pose_map, fibre=1, branches=branches, mirrors=mirrors)
+        # With c_k = 0, w_k = t v3 and t^2 = 0: every solution stands twice.
+        multiplicity = 2 ** choices.count((1,))
+        return FormulatedProblem(
+            self.code, system, pose_map, fibre=1, branches=branches, mirrors=mirrors, multiplicity=multiplicity
+        )
 
     @staticmethod
     def _chirality(

@@ -1,0 +1,30 @@
+"""Files that appear whole or not at all."""
+
+from __future__ import annotations
+
+import errno
+import os
+from pathlib import Path
+from secrets import token_hex
+
+
+def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
+    """Write a file through a draft beside it, so that no reader ever sees half of it.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written; what stood there before is then untouched.
+    """
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file():
+        raise OSError(errno.EINVAL, "not a regular file", str(target))
+    draft = target.with_name(f".{target.name[:100]}.{token_hex(8)}.tmp")
+    try:
+        with draft.open("xb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        draft.replace(target)
+    finally:
+        draft.unlink(missing_ok=True)
