@@ -1,0 +1,1 @@
+"""Certificates of poses: ``build`` writes them, ``check`` replays them and shares nothing with the solver."""

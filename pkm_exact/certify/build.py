@@ -1,0 +1,176 @@
+"""Certificates: what a solve found, written down so that a program that shares nothing with the solver can replay it.
+
+The format is described field by field in ``docs/certificates.md``; its schema is ``certificate-1.schema.json`` in
+this folder. The same input gives the same bytes: nothing in a certificate depends on the time, the machine, a
+precision or a prime.
+"""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+from collections.abc import Iterable
+from hashlib import sha256
+from pathlib import Path
+from secrets import token_hex
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.poses.pose import Pose
+    from pkm_exact.poses.representation import PoseRepresentation
+    from pkm_exact.roots.interval import Interval
+    from pkm_exact.solution import Solution
+
+FORMAT: Final = "pkm_exact certificate"
+VERSION: Final = 1
+
+
+def certificate(robot: Robot, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
+    """The certificate of a solution, as a JSON object with its digest.
+
+    Parameters
+    ----------
+    robot : Robot
+        The robot whose problem was solved.
+    configuration_name : str or None
+        Name of the configuration; None if the lengths were given freely.
+    solution : Solution
+        What the solver found.
+
+    Raises
+    ------
+    ValueError
+        If the solution answers another problem than the robot's.
+    """
+    # The checker knows legs only: cranks and slides are certified as the 6-UPS robot with their knees as base joints.
+    robot = robot.as_gough(robot.configuration(configuration_name) if robot.chains else None)
+    lengths_squared = [leg.length_squared for leg in solution.problem.legs]
+    if robot.problem(lengths_squared) != solution.problem:
+        raise ValueError(f"the solution is not one of {robot!r}: joints or metric differ")
+    representation = solution.representation
+    content = {
+        "format": FORMAT,
+        "version": VERSION,
+        "robot": {
+            "name": robot.name,
+            "kind": robot.kind,
+            "unit": robot.unit,
+            "source": robot.source,
+            "metric": _texts(robot.metric),
+            "base": [_texts(joint) for joint in robot.base_joints],
+            "platform": [_texts(joint) for joint in robot.platform_joints],
+        },
+        "configuration": {"name": configuration_name, "lengths_squared": _texts(lengths_squared)},
+        "formulation": solution.formulation,
+        "method": solution.method,
+        "claim": str(solution.claim),
+        "completeness_route": None if solution.completeness_route is None else str(solution.completeness_route),
+        "complex_solutions": solution.complex_solutions,
+        "distinct_solutions": solution.distinct_solutions,
+        "real_poses": len(solution.poses),
+        "representation": None if representation is None else _representation(representation),
+        "elimination": _elimination(solution),
+        "box_exponent": solution.box_exponent,
+        "poses": [_pose(pose) for pose in solution.poses],
+        "notes": list(solution.notes),
+    }
+    return sealed(content)
+
+
+def sealed(content: dict[str, Any]) -> dict[str, Any]:
+    """The object with the digest of all its other entries as last entry.
+
+    Examples
+    --------
+    >>> sealed({"version": 1})["digest"][:20]
+    'sha256:aa2c737df4367'
+    """
+    body = {key: value for key, value in content.items() if key != "digest"}
+    return {**body, "digest": f"sha256:{sha256(canonical_bytes(body)).hexdigest()}"}
+
+
+def canonical_bytes(content: object) -> bytes:
+    r"""The one spelling of a JSON value that certificates use: one entry per line, ASCII only, a line feed at the end.
+
+    Examples
+    --------
+    >>> canonical_bytes({"a": [1, "é"]})
+    b'{\n "a": [\n  1,\n  "\\u00e9"\n ]\n}\n'
+    """
+    return (json.dumps(content, indent=1, ensure_ascii=True, allow_nan=False) + "\n").encode("ascii")
+
+
+def write_certificate(path: str | os.PathLike[str], content: dict[str, Any]) -> None:
+    """Write a certificate to a file, which appears whole or not at all.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written; what stood there before is then untouched.
+    """
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file():
+        raise OSError(errno.EINVAL, "not a regular file", str(target))
+    data = canonical_bytes(content)
+    draft = target.with_name(f".{target.name[:100]}.{token_hex(8)}.tmp")
+    try:
+        with draft.open("xb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        draft.replace(target)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def _texts(values: Iterable[object]) -> list[str]:
+    """Rationals as "p" or "p/q"."""
+    return [str(value) for value in values]
+
+
+def _representation(representation: PoseRepresentation) -> dict[str, Any]:
+    return {
+        "chart": list(representation.chart),
+        "separating_form": list(representation.separating_form),
+        "eliminant": _coefficients(representation.eliminant),
+        "quaternion": [_coefficients(numerator) for numerator in representation.quaternion],
+        "translation": [_coefficients(numerator) for numerator in representation.translation],
+    }
+
+
+def _elimination(solution: Solution) -> list[list[str]] | None:
+    """The products in each step: index of an element, then the indices of the unknowns that multiply it."""
+    if solution.completeness is None or solution.completeness.route != "exact-elimination":
+        return None
+    return [
+        [" ".join(map(str, (index, *_factors(exponents)))) for index, exponents in step]
+        for step in solution.completeness.elimination
+    ]
+
+
+def _factors(exponents: Iterable[int]) -> list[int]:
+    return [unknown for unknown, exponent in enumerate(exponents) for _ in range(exponent)]
+
+
+def _coefficients(values: Iterable[int]) -> list[str]:
+    """Hexadecimal integers, lowest degree first, without zeros of highest degree."""
+    texts = [hex(value) for value in values]
+    while texts and texts[-1] == "0x0":
+        texts.pop()
+    return texts
+
+
+def _pose(pose: Pose) -> dict[str, Any]:
+    return {
+        "parameter": _ends(pose.parameter),
+        "position": [_ends(interval) for interval in pose.position],
+        "rotation": [[_ends(interval) for interval in row] for row in pose.rotation],
+        "quaternion": [_ends(interval) for interval in pose.quaternion],
+        "multiplicity": pose.multiplicity,
+    }
+
+
+def _ends(interval: Interval) -> list[str]:
+    return _texts((interval.lo, interval.hi))

@@ -1,0 +1,50 @@
+"""The certificate checker: does a file prove what it claims? It shares nothing with the solver.
+
+Everything is recomputed from the robot's joints, the leg lengths and the polynomials of the univariate representation;
+counts, verdicts and boxes in the file are compared with what was recomputed, never used. The mathematics of every
+check, with proofs, is in ``docs/certificates.md``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from pkm_exact.certify.checker.claims import check_claims
+from pkm_exact.certify.checker.document import Document, read
+from pkm_exact.certify.checker.realposes import check_real_poses
+from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
+from pkm_exact.certify.checker.verdict import Refusal, Status, Verdict
+
+__all__ = ["Status", "Verdict", "check_bytes"]
+
+
+def check_bytes(data: bytes) -> Verdict:
+    r"""The verdict on the content of a certificate file.
+
+    Never raises on account of the data, and does a bounded amount of work on it.
+
+    Examples
+    --------
+    >>> print(check_bytes(b"{}\n"))
+    file: not a JSON object with a digest
+    malformed
+    """
+    lines: list[str] = []
+    try:
+        document = read(data)
+        lines.append("digest: that of the content")
+        for line in _checks(document):
+            lines.append(line)  # noqa: PERF402 - the lines before a refusal stay
+    except Refusal as refusal:
+        return Verdict(refusal.status, (*lines, refusal.line))
+    return Verdict(Status.ACCEPTED, tuple(lines))
+
+
+def _checks(document: Document) -> Iterator[str]:
+    """One line per claim; the costly ones, on completeness, last."""
+    if document.representation is not None:
+        yield from check_eliminant(document.representation)
+        yield from check_distinct(document.representation)
+        yield from check_poses(document.representation, document.legs, document.metric)
+        yield from check_real_poses(document.representation, document.metric, document.box_exponent, document.poses)
+    yield from check_claims(document)

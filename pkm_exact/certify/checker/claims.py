@@ -1,0 +1,139 @@
+"""Counts and claims: what follows from the solutions listed; a certificate must claim it, no more and no less."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from flint import fmpq, fmpz_poly
+
+from pkm_exact.certify.checker.document import Document, ListedPose, Representation
+from pkm_exact.certify.checker.elimination import Row, remaining_monomials
+from pkm_exact.certify.checker.multiplicity import are_simple, is_multiple, multiple_factors
+from pkm_exact.certify.checker.solutions import GREATEST_NUMBER
+from pkm_exact.certify.checker.verdict import rejected
+
+
+@dataclass(frozen=True)
+class _Proved:
+    """What is proved of all solutions.
+
+    Attributes
+    ----------
+    claim, route : str, str or None
+    total : int or None
+        Their number with multiplicity, if it is known.
+    multiple : tuple of fmpz_poly
+        If it is known: the irreducible factors of h at whose roots they are multiple.
+    """
+
+    claim: str
+    route: str | None
+    total: int | None
+    multiple: tuple[fmpz_poly, ...] = ()
+
+
+def check_claims(document: Document) -> Iterator[str]:
+    """The claim, its route, the counts and the multiplicities are those that can be proved."""
+    if document.real_poses != len(document.poses):
+        raise rejected(f"real poses: {document.real_poses} claimed, {len(document.poses)} listed")
+    if document.representation is None:
+        yield from _nothing_listed(document)
+    else:
+        yield from _solutions_listed(document, document.representation)
+
+
+def _nothing_listed(document: Document) -> Iterator[str]:
+    """Nothing listed: an elimination can prove that there is nothing, otherwise nothing is proved and none claimed."""
+    if document.complex_solutions or document.distinct_solutions or document.poses:
+        raise rejected("representation: missing, but solutions are claimed")
+    proved = (document.elimination is not None, document.claim, document.route)
+    if proved == (False, "not-proven-complete", None):
+        yield "not proven complete: no solution is listed, and none is excluded"
+    elif proved == (False, "positive-dimensional-detected", None):
+        yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
+    elif document.elimination is not None and proved[1:] == ("inconsistent", "exact-elimination"):
+        remaining_monomials(document.legs, document.metric, document.elimination, 0)
+        yield "inconsistent: 1 = 0 follows from the leg lengths, there is no solution, real or complex"
+    else:
+        raise rejected(f"claim: {document.claim} is not proved by what is in the certificate")
+
+
+def _solutions_listed(document: Document, representation: Representation) -> Iterator[str]:
+    number = representation.eliminant.degree()
+    if document.distinct_solutions != number:
+        raise rejected(f"distinct solutions: {document.distinct_solutions} claimed, {number} proved")
+    proved = _proved(document, representation)
+    if (document.claim, document.route) != (proved.claim, proved.route):
+        claimed = f"{document.claim} by {document.route or 'no route'}"
+        raise rejected(f"claim: {claimed}, but what is proved is {proved.claim} by {proved.route or 'no route'}")
+    _check_total(document.complex_solutions, number, proved.total)
+    _check_multiplicities(document.poses, proved)
+    yield _solutions_line(number, document.complex_solutions, proved)
+    if proved.route == "refined-bezout":
+        yield f"complete: {number} isolated solutions are the degree of the rigid motions, there is no other"
+    elif proved.route == "exact-elimination":
+        yield f"complete: polynomials over Q that vanish at all poses leave room for {proved.total}, there is no other"
+    else:
+        yield f"not proven complete: {number} solutions are proved, others are not excluded"
+
+
+def _proved(document: Document, representation: Representation) -> _Proved:
+    """The strongest claim that the certificate proves."""
+    number = int(representation.eliminant.degree())
+    simple = are_simple(representation, document.legs, document.metric)
+    if document.elimination is not None:
+        multiple = _filling(document, representation, document.elimination, simple)
+        total = number + sum(int(factor.degree()) for factor in multiple)
+        return _Proved("complete", "exact-elimination", total, multiple)
+    if simple and number == GREATEST_NUMBER:
+        return _Proved("complete", "refined-bezout", number)
+    return _Proved("not-proven-complete", None, number if simple else None)
+
+
+def _filling(
+    document: Document, representation: Representation, steps: Sequence[Sequence[Row]], simple: bool
+) -> tuple[fmpz_poly, ...]:
+    """The factors of h at multiple solutions, provided that all solutions, these doubly, fill what is left."""
+    legs, metric = document.legs, document.metric
+    left = len(remaining_monomials(legs, metric, steps, GREATEST_NUMBER))
+    multiple = () if simple else multiple_factors(representation, legs, metric)
+    filled = representation.eliminant.degree() + sum(factor.degree() for factor in multiple)
+    if left != filled or not all(is_multiple(factor, representation, legs, metric) for factor in multiple):
+        raise rejected(f"elimination: it leaves {left} monomials, the solutions are not proved to fill them")
+    return multiple
+
+
+def _check_total(claimed: int, number: int, proved: int | None) -> None:
+    """The number with multiplicity is the proved one; an unproved one must at least be possible."""
+    if proved is not None and claimed != proved:
+        raise rejected(f"complex solutions: {claimed} claimed, {proved} proved")
+    if not number <= claimed <= GREATEST_NUMBER:
+        raise rejected(f"complex solutions: {claimed} claimed, {number} distinct ones proved")
+
+
+def _check_multiplicities(poses: Sequence[ListedPose], proved: _Proved) -> None:
+    """Null if not all are known; else 1 at simple solutions; at multiple ones 2 if they are conjugate, else null."""
+    at_multiple = 2 if len(proved.multiple) == 1 else None
+    for number, pose in enumerate(poses, 1):
+        is_multiple_here = any(_has_root(factor, pose) for factor in proved.multiple)
+        expected = None if proved.total is None else at_multiple if is_multiple_here else 1
+        if pose.multiplicity != expected:
+            raise rejected(f"multiplicity: that of pose {number} differs from what is proved")
+
+
+def _has_root(factor: fmpz_poly, pose: ListedPose) -> bool:
+    """Whether a factor of h has the root of h that the pose's parameter isolates, as ``check_real_poses`` confirms."""
+    low, high = (factor(fmpq(end)) for end in pose.parameter)
+    return bool(low * high < 0 or low == 0 == high)
+
+
+def _solutions_line(number: int, total: int, proved: _Proved) -> str:
+    if proved.total is None:
+        return (
+            f"complex solutions: {number} distinct; not proved that all are simple, and the number {total} with "
+            "multiplicity is not proved"
+        )
+    if proved.multiple:
+        return f"complex solutions: {number} distinct, {total} with multiplicity, each simple or double"
+    return f"complex solutions: {number}, each isolated and simple, its six leg lines are independent"

@@ -1,0 +1,234 @@
+"""The content of a certificate, read into typed values; nothing in it is believed."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any, Final, TypeAlias
+
+from flint import fmpz_poly
+
+from pkm_exact.certify.checker.elimination import Row
+from pkm_exact.certify.checker.motion import Leg, Metric, Point
+from pkm_exact.certify.checker.spelling import (
+    choice,
+    count,
+    entries,
+    hexadecimal,
+    integer,
+    items,
+    positive,
+    rational,
+    rational_text,
+    read_sealed,
+    text,
+)
+from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_DEGREE, MAX_ELIMINATION_ROWS, malformed, too_large
+
+FORMAT: Final = "pkm_exact certificate"
+VERSION: Final = 1
+KINDS: Final = ("6-UPS",)
+FORMULATIONS: Final = re.compile(r"(?:SE3|AFD[1-6]|AFP[1-4])(?::[a-z0-9]{1,10})?", re.ASCII)
+METHODS: Final = ("exact",)
+CLAIMS: Final = (
+    "complete",
+    "not-proven-complete",
+    "positive-dimensional-detected",
+    "positive-dimensional-proved",
+    "inconsistent",
+)
+ROUTES: Final = ("refined-bezout", "exact-elimination")
+
+_KEYS: Final = (
+    "format",
+    "version",
+    "robot",
+    "configuration",
+    "formulation",
+    "method",
+    "claim",
+    "completeness_route",
+    "complex_solutions",
+    "distinct_solutions",
+    "real_poses",
+    "representation",
+    "elimination",
+    "box_exponent",
+    "poses",
+    "notes",
+)
+_ROBOT: Final = ("name", "kind", "unit", "source", "metric", "base", "platform")
+_REPRESENTATION: Final = ("chart", "separating_form", "eliminant", "quaternion", "translation")
+_POSE: Final = ("parameter", "position", "rotation", "quaternion", "multiplicity")
+
+_PRODUCT: Final = re.compile(r"(?:0|[1-9][0-9]{0,5})(?: (?:[0-9]|1[0-5])){0,8}", re.ASCII)
+
+Ends: TypeAlias = tuple[str, str]
+
+
+@dataclass(frozen=True)
+class Representation:
+    """(e, f) = (E, F)(t) / h'(t) at the roots t of h: ``eliminant`` h, ``quaternion`` E, ``translation`` F."""
+
+    chart: tuple[int, ...]
+    separating_form: tuple[int, ...]
+    eliminant: fmpz_poly
+    quaternion: tuple[fmpz_poly, ...]
+    translation: tuple[fmpz_poly, ...]
+
+
+@dataclass(frozen=True)
+class ListedPose:
+    """A pose as it is listed: the ends of its intervals as texts; ``box`` is position, rotation, quaternion."""
+
+    parameter: Ends
+    box: tuple[Ends, ...]
+    multiplicity: int | None
+
+
+@dataclass(frozen=True)
+class Document:
+    """What a certificate says."""
+
+    metric: Metric
+    legs: tuple[Leg, ...]
+    claim: str
+    route: str | None
+    complex_solutions: int
+    distinct_solutions: int
+    real_poses: int
+    representation: Representation | None
+    elimination: tuple[tuple[Row, ...], ...] | None
+    box_exponent: int
+    poses: tuple[ListedPose, ...]
+
+
+def read(data: bytes) -> Document:
+    """The content of a certificate, or a refusal if it has not the shape of one."""
+    body = read_sealed(data)
+    if body.get("format") != FORMAT or type(body.get("version")) is not int or body["version"] != VERSION:
+        raise malformed(f"format: not a {FORMAT}, version {VERSION}")
+    (
+        _,
+        _,
+        robot,
+        configuration,
+        formulation,
+        method,
+        claim,
+        route,
+        complex_solutions,
+        distinct_solutions,
+        real_poses,
+        representation,
+        elimination,
+        box_exponent,
+        poses,
+        notes,
+    ) = entries(body, "certificate", _KEYS)
+    metric, base, platform = _robot(robot)
+    if not FORMULATIONS.fullmatch(text(formulation, "formulation")):
+        raise malformed("formulation: not the code of one")
+    choice(method, "method", METHODS)
+    items(notes, "notes", None, text)
+    exponent = count(box_exponent, "box_exponent")
+    if exponent > MAX_BOX_EXPONENT:
+        raise too_large(f"box_exponent: more than {MAX_BOX_EXPONENT}")
+    return Document(
+        metric=metric,
+        legs=tuple(map(Leg, base, platform, _lengths_squared(configuration))),
+        claim=choice(claim, "claim", CLAIMS),
+        route=None if route is None else choice(route, "completeness_route", ROUTES),
+        complex_solutions=count(complex_solutions, "complex_solutions"),
+        distinct_solutions=count(distinct_solutions, "distinct_solutions"),
+        real_poses=count(real_poses, "real_poses"),
+        representation=None if representation is None else _representation(representation),
+        elimination=None if elimination is None else items(elimination, "elimination", None, _step),
+        box_exponent=exponent,
+        poses=items(poses, "poses", None, _pose),
+    )
+
+
+def _robot(value: Any) -> tuple[Metric, tuple[Point, ...], tuple[Point, ...]]:
+    name, kind, unit, source, metric, base, platform = entries(value, "robot", _ROBOT)
+    for label, content in (("name", name), ("unit", unit), ("source", source)):
+        text(content, f"robot.{label}")
+    choice(kind, "robot.kind", KINDS)
+    g = items(metric, "robot.metric", 3, positive)
+    if any(number.denominator != 1 for number in g):
+        raise malformed("robot.metric: not three integers")
+    return (
+        (int(g[0]), int(g[1]), int(g[2])),
+        items(base, "robot.base", 6, _point),
+        items(platform, "robot.platform", 6, _point),
+    )
+
+
+def _point(value: Any, where: str) -> Point:
+    x, y, z = items(value, where, 3, rational)
+    return x, y, z
+
+
+def _lengths_squared(value: Any) -> tuple[Any, ...]:
+    name, lengths_squared = entries(value, "configuration", ("name", "lengths_squared"))
+    if name is not None:
+        text(name, "configuration.name")
+    return items(lengths_squared, "configuration.lengths_squared", 6, positive)
+
+
+def _representation(value: Any) -> Representation:
+    chart, form, eliminant, quaternion, translation = entries(value, "representation", _REPRESENTATION)
+    h = _polynomial(eliminant, "representation.eliminant")
+    if h.degree() < 1:
+        raise malformed("representation.eliminant: constant")
+    return Representation(
+        chart=items(chart, "representation.chart", 4, integer),
+        separating_form=items(form, "representation.separating_form", 8, integer),
+        eliminant=h,
+        quaternion=items(quaternion, "representation.quaternion", 4, _polynomial),
+        translation=items(translation, "representation.translation", 4, _polynomial),
+    )
+
+
+def _polynomial(value: Any, where: str) -> fmpz_poly:
+    if isinstance(value, list) and len(value) > MAX_DEGREE + 1:
+        raise too_large(f"{where}: degree above {MAX_DEGREE}")
+    coefficients = items(value, where, None, hexadecimal)
+    if coefficients and coefficients[-1] == 0:
+        raise malformed(f"{where}: the coefficient of highest degree is 0")
+    return fmpz_poly(list(coefficients))
+
+
+def _step(value: Any, where: str) -> tuple[Row, ...]:
+    if isinstance(value, list) and len(value) > MAX_ELIMINATION_ROWS:
+        raise too_large(f"{where}: more than {MAX_ELIMINATION_ROWS} products")
+    return items(value, where, None, _product)
+
+
+def _product(value: Any, where: str) -> Row:
+    if not _PRODUCT.fullmatch(text(value, where)):
+        raise malformed(f"{where}: not the index of an element and those of the unknowns that multiply it")
+    index, *factors = map(int, value.split(" "))
+    if factors != sorted(factors):
+        raise malformed(f"{where}: the unknowns are not in increasing order")
+    return index, tuple(factors)
+
+
+def _pose(value: Any, where: str) -> ListedPose:
+    parameter, position, rotation, quaternion, multiplicity = entries(value, where, _POSE)
+    rows = items(rotation, f"{where}.rotation", 3, lambda row, place: items(row, place, 3, _ends))
+    box = (
+        *items(position, f"{where}.position", 3, _ends),
+        *(entry for row in rows for entry in row),
+        *items(quaternion, f"{where}.quaternion", 4, _ends),
+    )
+    return ListedPose(
+        _ends(parameter, f"{where}.parameter"),
+        box,
+        None if multiplicity is None else count(multiplicity, f"{where}.multiplicity"),
+    )
+
+
+def _ends(value: Any, where: str) -> Ends:
+    low, high = items(value, where, 2, rational_text)
+    return low, high

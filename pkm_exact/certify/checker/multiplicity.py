@@ -1,0 +1,92 @@
+"""Simple and multiple solutions: where the six leg lines are independent, and where they are not. All exact.
+
+The derivative of |C + R B - A|^2 / 2 along a velocity v and an angular velocity w is d.v + (b x d).w, where
+d = C + R B - A is the leg and b = R B its arm. If the six lines (d, b x d) are independent, no tangent direction keeps
+all lengths: the solution is isolated and simple. If they are not, its multiplicity is at least 2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from flint import fmpq_poly, fmpz_poly
+
+from pkm_exact.certify.checker.document import Representation
+from pkm_exact.certify.checker.motion import Leg, Metric, leg_lines, motion
+from pkm_exact.certify.checker.solutions import modulo, primitive_part, proved_coprime
+
+
+def are_simple(representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
+    """Whether all solutions are proved simple; "no" means that no proof was found."""
+    return _is_proved_simple(primitive_part(representation.eliminant), representation, legs, metric)
+
+
+def multiple_factors(representation: Representation, legs: Sequence[Leg], metric: Metric) -> tuple[fmpz_poly, ...]:
+    """The irreducible factors of h at whose roots the solution is not proved simple."""
+    factors = [factor for factor, _ in primitive_part(representation.eliminant).factor()[1]]
+    return tuple(factor for factor in factors if not _is_proved_simple(factor, representation, legs, metric))
+
+
+def _is_proved_simple(factor: fmpz_poly, representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
+    """Whether the leg lines are proved independent at every root of a primitive factor of h, modulo some prime."""
+
+    def determinant(p: int) -> Any:
+        numerators = (*representation.quaternion, *representation.translation)
+        return _lines_determinant([modulo(x, p) for x in numerators], modulo(factor, p), legs, metric)
+
+    return proved_coprime(factor, determinant)
+
+
+def is_multiple(factor: fmpz_poly, representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
+    """Whether the leg lines are dependent at every root of an irreducible factor of h, over Q."""
+    numerators = (*representation.quaternion, *representation.translation)
+    return not _lines_determinant([fmpq_poly(x) for x in numerators], fmpq_poly(factor), legs, metric)
+
+
+def _lines_determinant(point: Sequence[Any], modulus: Any, legs: Sequence[Leg], metric: Metric) -> Any:
+    """The determinant of the leg lines at (e, f), in the residue ring of a polynomial over a field."""
+    x = [_Residue(value % modulus, modulus) for value in point]
+    return determinant(leg_lines(legs, motion(x[:4], x[4:], metric))).value
+
+
+class _Residue:
+    """A polynomial over a field, modulo another."""
+
+    __slots__ = ("modulus", "value")
+
+    def __init__(self, value: Any, modulus: Any) -> None:
+        self.value = value
+        self.modulus = modulus
+
+    def __add__(self, other: _Residue) -> _Residue:
+        return _Residue(self.value + other.value, self.modulus)
+
+    def __sub__(self, other: _Residue) -> _Residue:
+        return _Residue(self.value - other.value, self.modulus)
+
+    def __mul__(self, other: _Residue) -> _Residue:
+        return _Residue(self.value * other.value % self.modulus, self.modulus)
+
+    def __rmul__(self, scalar: int) -> _Residue:
+        return _Residue(scalar * self.value, self.modulus)
+
+
+def determinant(matrix: Sequence[Sequence[Any]]) -> Any:
+    """The determinant by expansion along one row after another, without division: n 2^(n-1) products."""
+    size = len(matrix)
+    minors = {1 << column: matrix[0][column] for column in range(size)}
+    for row in matrix[1:]:
+        wider: dict[int, Any] = {}
+        for columns, minor in minors.items():
+            for column in range(size):
+                if columns >> column & 1:
+                    continue
+                term = row[column] * minor
+                key = columns | 1 << column
+                if (columns >> column).bit_count() % 2:
+                    wider[key] = wider[key] - term if key in wider else -1 * term
+                else:
+                    wider[key] = wider[key] + term if key in wider else term
+        minors = wider
+    return minors[(1 << size) - 1]

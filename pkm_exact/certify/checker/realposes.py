@@ -1,0 +1,173 @@
+"""The real poses: their number, isolating intervals of the parameter, boxes. Every interval is computed anew.
+
+Real solutions are those with a real parameter, since (e, f) are rational functions of t over Q and t a linear form in
+(e, f). Arb encloses every complex root in a box of its own. A root whose box, reflected in the real axis, meets no
+other box is its own conjugate, hence real; each real root is confirmed by an exact change of sign. The grid cell that
+a coordinate lies in does not depend on a precision: there is one right answer, and the certificate must have it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from typing import Final, TypeAlias
+
+from flint import acb_poly, arb, ctx, fmpq, fmpz, fmpz_poly
+
+from pkm_exact.certify.checker.document import Ends, ListedPose, Representation
+from pkm_exact.certify.checker.motion import Metric, motion
+from pkm_exact.certify.checker.solutions import primitive_part
+from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_PRECISION, rejected, too_large
+
+Cell: TypeAlias = tuple[fmpz, fmpz]
+"""The ends of an interval, times the power of 2 of its grid."""
+
+PARAMETER_EXPONENT: Final = 32
+"""The parameter's grid is at least this fine: 2^-32."""
+ISOLATING_PRECISION: Final = 1 << 12
+"""Roots that are not isolated at this precision, in bits, are too close; more serves refinement only."""
+NEAR: Final = 32
+"""A coordinate closer than 2^-32 cells to a grid point gets the two cells around it."""
+ENCLOSED: Final = 40
+"""Coordinates are enclosed to 2^-40 cells before their cell is decided."""
+DOUBLINGS: Final = 4
+"""Doublings of the precision after which a coordinate not decided to be far from a grid point counts as near."""
+
+
+def check_real_poses(
+    representation: Representation, metric: Metric, exponent: int, poses: Sequence[ListedPose]
+) -> Iterator[str]:
+    """The poses listed are all the real ones, each with the intervals that it must have, no two in the same box."""
+    h = primitive_part(representation.eliminant)
+    cells, fineness = _parameter_cells(h)
+    if len(poses) != len(cells):
+        raise rejected(f"real poses: {len(poses)} listed, the eliminant has {len(cells)} real roots")
+    for number, (pose, (low, high)) in enumerate(zip(poses, cells, strict=True), 1):
+        if pose.parameter != _ends(low, high, fineness):
+            raise rejected(f"real poses: pose {number} does not have the isolating interval of real root {number}")
+    yield f"real poses: {len(poses)}, one for each real root of the eliminant"
+    boxes = _box_cells(representation, metric, exponent)
+    for number, (pose, box) in enumerate(zip(poses, boxes, strict=True), 1):
+        if pose.box != tuple(_ends(low, high, exponent) for low, high in box):
+            raise rejected(f"boxes: the box of pose {number} is not that of its solution")
+    yield f"boxes: all {16 * len(poses)} intervals are those of the solutions, on the grid 2^-{exponent}"
+    for (i, one), (j, other) in combinations(enumerate(boxes, 1), 2):
+        if not any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one[:12], other[:12], strict=True)):
+            raise rejected(f"boxes: those of poses {i} and {j} are not disjoint in position or rotation")
+    yield "boxes: pairwise disjoint"
+
+
+def _ends(low: fmpz, high: fmpz, exponent: int) -> Ends:
+    scale = fmpz(1) << exponent
+    return str(fmpq(low, scale)), str(fmpq(high, scale))
+
+
+def _real_roots(h: fmpz_poly, precision: int) -> list[arb] | None:
+    """Enclosures of all real roots of a squarefree polynomial, increasing; None if the precision does not suffice."""
+    if precision > MAX_PRECISION:
+        raise too_large(f"real poses: the roots are not told apart by {MAX_PRECISION} bits")
+    with ctx.workprec(precision):
+        try:
+            roots = acb_poly(h).roots(arb(2) ** (-precision // 2), maxprec=2 * precision)
+        except ValueError:  # python-flint's way to say that the roots are not isolated at this precision
+            return None
+        touching = [root for root in roots if root.imag.contains(0)]
+        for root in touching:
+            if sum(root.conjugate().overlaps(other) for other in roots) != 1:
+                return None
+        return sorted((root.real for root in touching), key=lambda root: fmpq(*_dyadic(root.mid())))
+
+
+def _dyadic(value: arb) -> tuple[fmpz, fmpz]:
+    """Numerator and denominator of an exact dyadic number."""
+    mantissa, exponent = value.man_exp()
+    power = int(exponent)
+    return (mantissa << power, fmpz(1)) if power >= 0 else (mantissa, fmpz(1) << -power)
+
+
+def _scaled(ball: arb, exponent: int) -> tuple[fmpq, fmpq]:
+    """Midpoint and radius of an enclosure, times 2^exponent, exactly."""
+    scale = fmpz(1) << exponent
+    return fmpq(*_dyadic(ball.mid())) * scale, fmpq(*_dyadic(ball.rad())) * scale
+
+
+def _parameter_cells(h: fmpz_poly) -> tuple[list[Cell], int]:
+    """The isolating intervals on the coarsest grid from 2^-32 on where each holds one root only, and its exponent."""
+    precision, exponent = 256, PARAMETER_EXPONENT
+    while exponent <= MAX_BOX_EXPONENT:
+        roots = _real_roots(h, precision)
+        if roots is None and precision >= ISOLATING_PRECISION:
+            raise too_large(f"real poses: the roots are not told apart by {precision} bits")
+        cells = [None] if roots is None else [_root_cell(h, root, exponent) for root in roots]
+        decided = [cell for cell in cells if cell is not None]
+        if len(decided) < len(cells):
+            precision *= 2
+        elif len(set(decided)) == len(decided) and all(_holds_one_root(h, cell, exponent) for cell in decided):
+            return decided, exponent
+        else:
+            exponent += 1
+    raise too_large(f"real poses: the roots are not told apart by a grid of 2^-{MAX_BOX_EXPONENT}")
+
+
+def _root_cell(h: fmpz_poly, root: arb, exponent: int) -> Cell | None:
+    """(m, m) if the enclosed root is m / 2^exponent, else (m, m + 1) for the cell around it; None if undecided."""
+    middle, radius = _scaled(root, exponent)
+    first, last = (middle - radius).floor(), (middle + radius).floor()
+    for m in (first, last):
+        if abs(m - middle) <= radius and h(fmpq(m, fmpz(1) << exponent)) == 0:
+            return m, m
+    return (first, first + 1) if first == last and first != middle - radius else None
+
+
+def _holds_one_root(h: fmpz_poly, cell: Cell, exponent: int) -> bool:
+    """Whether h is 0 at the cell's only point, or changes its sign between its ends."""
+    low, high = (h(fmpq(end, fmpz(1) << exponent)) for end in cell)
+    return bool(low == 0) if cell[0] == cell[1] else bool(low * high < 0)
+
+
+def _box_cells(representation: Representation, metric: Metric, exponent: int) -> list[list[Cell]]:
+    """For each real pose the cells of its 16 ordinary coordinates on the grid 2^-exponent."""
+    h = primitive_part(representation.eliminant)
+    precision, doublings = exponent + 256, 0
+    while True:
+        roots = _real_roots(h, precision)
+        values = [ordinary_coordinates(representation, metric, root, precision) for root in roots or ()]
+        if roots is not None and all(_is_fine(value, exponent) for row in values for value in row):
+            boxes = [[_coordinate_cell(value, exponent, doublings >= DOUBLINGS) for value in row] for row in values]
+            decided = [[cell for cell in box if cell is not None] for box in boxes]
+            if decided == boxes:
+                return decided
+            doublings += 1
+        precision *= 2
+
+
+def ordinary_coordinates(representation: Representation, metric: Metric, root: arb, precision: int) -> list[arb]:
+    """Position, rotation matrix by rows and unit quaternion (its sign that of e with w.e = 1) at an enclosed root."""
+    with ctx.workprec(precision):
+        slope = representation.eliminant.derivative()(root)
+        e = [numerator(root) / slope for numerator in representation.quaternion]
+        f = [numerator(root) / slope for numerator in representation.translation]
+        placed = motion(e, f, metric)
+        axes = [arb(g).sqrt() for g in metric]
+        length = placed.norm.sqrt()
+        position = [axis * value / placed.norm for axis, value in zip(axes, placed.position, strict=True)]
+        rotation = [axes[i] * placed.rotation[i][j] / (axes[j] * placed.norm) for i in range(3) for j in range(3)]
+        scalar = axes[0] * axes[1] * axes[2] * e[0] / length
+        return [*position, *rotation, scalar, *(axis * value / length for axis, value in zip(axes, e[1:], strict=True))]
+
+
+def _is_fine(value: arb, exponent: int) -> bool:
+    """Whether a value is enclosed to 2^-40 cells of the grid 2^-exponent."""
+    return bool(value.is_finite() and _scaled(value, exponent + ENCLOSED)[1] < 1)
+
+
+def _coordinate_cell(value: arb, exponent: int, late: bool) -> Cell | None:
+    """The cell around a finely enclosed value, two cells if it is near a grid point; None if not decided yet."""
+    middle, radius = _scaled(value, exponent)
+    nearest = (middle + fmpq(1, 2)).floor()
+    distance, limit = abs(middle - nearest), fmpq(1, fmpz(1) << NEAR)
+    if distance + radius < limit or (late and distance - radius <= limit):
+        return nearest - 1, nearest + 1
+    if distance - radius > limit:
+        return middle.floor(), middle.floor() + 1
+    return None

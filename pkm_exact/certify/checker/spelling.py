@@ -1,0 +1,173 @@
+"""Reading JSON strictly: every value has one spelling, every size is bounded before a number is made of it."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from fractions import Fraction
+from hashlib import sha256
+from typing import Any, Final, TypeVar
+
+from pkm_exact.certify.checker.verdict import (
+    MAX_BYTES,
+    MAX_COEFFICIENT_BITS,
+    MAX_ENTRIES,
+    MAX_RATIONAL_LENGTH,
+    MAX_TEXT,
+    malformed,
+    rejected,
+    too_large,
+)
+
+_Value = TypeVar("_Value")
+
+_RATIONAL: Final = re.compile(r"(0|-?[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
+_HEXADECIMAL: Final = re.compile(r"0x0|-?0x[1-9a-f][0-9a-f]*", re.ASCII)
+_INTEGER_DIGITS: Final = 12
+_RATIONAL_DIGITS: Final = 600
+
+
+def read_sealed(data: bytes) -> dict[str, Any]:
+    """The JSON object in ``data`` without its digest, which must be that of the content, spelled canonically."""
+    content = _json(data)
+    if not isinstance(content, dict) or not isinstance(content.get("digest"), str):
+        raise malformed("file: not a JSON object with a digest")
+    digest = content.pop("digest")
+    try:
+        body = _canonical_bytes(content)
+        whole = _canonical_bytes({**content, "digest": digest})
+    except RecursionError:
+        raise malformed("file: brackets are nested too deeply") from None
+    if digest != f"sha256:{sha256(body).hexdigest()}":
+        raise rejected("digest: differs from that of the content")
+    if data != whole:
+        raise malformed("file: not in canonical form, one entry per line with an indent of one space per level")
+    return content
+
+
+def _canonical_bytes(content: object) -> bytes:
+    return (json.dumps(content, indent=1, ensure_ascii=True) + "\n").encode("ascii")
+
+
+def _json(data: bytes) -> Any:
+    if len(data) > MAX_BYTES:
+        raise too_large(f"file: more than {MAX_BYTES} bytes")
+    if sum(map(data.count, (b",", b"[", b"{"))) > MAX_ENTRIES:
+        raise too_large(f"file: more than {MAX_ENTRIES} entries")
+    try:
+        return json.loads(
+            data.decode("ascii"),
+            object_pairs_hook=_unique_keys,
+            parse_int=_short_integer,
+            parse_float=_no_float,
+            parse_constant=_no_float,
+        )
+    except RecursionError:
+        raise malformed("file: brackets are nested too deeply") from None
+    except ValueError:
+        raise malformed("file: not JSON in ASCII") from None
+
+
+def _unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    content = dict(pairs)
+    if len(content) != len(pairs):
+        raise malformed("file: a key occurs twice in one object")
+    return content
+
+
+def _short_integer(text: str) -> int:
+    if len(text) > _INTEGER_DIGITS:
+        raise malformed(f"file: an integer of more than {_INTEGER_DIGITS} digits")
+    return int(text)
+
+
+def _no_float(_text: str) -> float:
+    raise malformed("file: a number with a decimal point or an exponent, or no number at all")
+
+
+def entries(value: object, where: str, keys: tuple[str, ...]) -> list[Any]:
+    """The values of an object that has exactly these keys, in this order."""
+    if not isinstance(value, dict) or tuple(value) != keys:
+        raise malformed(f"{where}: not an object with the keys {', '.join(keys)}, in this order")
+    return list(value.values())
+
+
+def items(value: object, where: str, length: int | None, read: Callable[[Any, str], _Value]) -> tuple[_Value, ...]:
+    """The entries of a list of the given length (any if None), each read with ``read``."""
+    if not isinstance(value, list) or (length is not None and len(value) != length):
+        raise malformed(f"{where}: not a list" + (f" of {length}" if length is not None else ""))
+    return tuple(read(entry, f"{where}[{number}]") for number, entry in enumerate(value, 1))
+
+
+def text(value: object, where: str) -> str:
+    """A text."""
+    if not isinstance(value, str):
+        raise malformed(f"{where}: not a text")
+    if len(value) > MAX_TEXT:
+        raise too_large(f"{where}: more than {MAX_TEXT} characters")
+    return value
+
+
+def choice(value: object, where: str, known: tuple[str, ...]) -> str:
+    """One of the known words."""
+    if not isinstance(value, str) or value not in known:
+        raise malformed(f"{where}: not one of {', '.join(known)}")
+    return value
+
+
+def integer(value: object, where: str) -> int:
+    """An integer written as a JSON number."""
+    if type(value) is not int:
+        raise malformed(f"{where}: not an integer")
+    return value
+
+
+def count(value: object, where: str) -> int:
+    """An integer that is not negative."""
+    number = integer(value, where)
+    if number < 0:
+        raise malformed(f"{where}: negative")
+    return number
+
+
+def rational_text(value: object, where: str) -> str:
+    """A text "p" or "p/q" without sign +, without leading zeros."""
+    if not isinstance(value, str):
+        raise malformed(f"{where}: not a rational number in quotes")
+    if len(value) > MAX_RATIONAL_LENGTH:
+        raise too_large(f"{where}: more than {MAX_RATIONAL_LENGTH} characters")
+    if not _RATIONAL.fullmatch(value):
+        raise malformed(f"{where}: not a rational number p or p/q")
+    return value
+
+
+def rational(value: object, where: str) -> Fraction:
+    """A rational number "p" or "p/q" in lowest terms, q > 1, each of at most 600 digits."""
+    written = rational_text(value, where)
+    parts = written.split("/")
+    if max(map(len, parts)) > _RATIONAL_DIGITS:
+        raise too_large(f"{where}: more than {_RATIONAL_DIGITS} digits")
+    number = Fraction(int(parts[0]), int(parts[-1]) if len(parts) == 2 else 1)
+    if str(number) != written:
+        raise malformed(f"{where}: not in lowest terms")
+    return number
+
+
+def positive(value: object, where: str) -> Fraction:
+    """A rational number greater than 0."""
+    number = rational(value, where)
+    if number <= 0:
+        raise malformed(f"{where}: not positive")
+    return number
+
+
+def hexadecimal(value: object, where: str) -> int:
+    """An integer in hexadecimal digits, 0x before them."""
+    if not isinstance(value, str):
+        raise malformed(f"{where}: not an integer in hexadecimal digits")
+    if 4 * len(value) > MAX_COEFFICIENT_BITS:
+        raise too_large(f"{where}: more than {MAX_COEFFICIENT_BITS} bits")
+    if not _HEXADECIMAL.fullmatch(value):
+        raise malformed(f"{where}: not an integer in hexadecimal digits")
+    return int(value, 16)

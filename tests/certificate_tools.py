@@ -1,0 +1,119 @@
+"""Golden certificates, and ways to change them."""
+
+import json
+import re
+from collections.abc import Iterator
+from copy import deepcopy
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from pkm_exact.certify.build import canonical_bytes, sealed
+from pkm_exact.certify.check import Verdict, check_bytes
+
+CERTS = Path(__file__).parent.parent / "certs"
+NAMES = ("dietmaier", "mourrain-l", "robocrane-r", "rolland-6-6", "similar-planar-s")
+
+Path_ = tuple[str | int, ...]
+
+
+def golden_bytes(name: str) -> bytes:
+    """A golden certificate as it is in the repository."""
+    return (CERTS / f"{name}.json").read_bytes()
+
+
+def golden(name: str) -> dict[str, Any]:
+    """A golden certificate, parsed."""
+    return json.loads(golden_bytes(name))
+
+
+def without_proof(content: dict[str, Any]) -> dict[str, Any]:
+    """The weaker certificate that lacks the elimination and does not claim completeness by it; quicker to check."""
+    if content["elimination"] is None:
+        return content
+    return {**content, "claim": "not-proven-complete", "completeness_route": None, "elimination": None}
+
+
+def sample(content: dict[str, Any], step: int) -> list[Path_]:
+    """Paths of all leaves, but of polynomial coefficients, boxes and products only of every step-th."""
+    paths = []
+    for number, (path, _) in enumerate(leaves(content)):
+        many = path[0] in ("poses", "elimination") or path[:2] in [
+            ("representation", key) for key in ("eliminant", "quaternion", "translation")
+        ]
+        if not many or number % step == 0:
+            paths.append(path)
+    return paths
+
+
+def check_resealed(content: dict[str, Any]) -> Verdict:
+    """The verdict on a changed certificate whose digest was made to fit."""
+    return check_bytes(canonical_bytes(sealed(content)))
+
+
+def last_line(verdict: Verdict) -> str:
+    """The reason of a verdict other than accepted."""
+    return verdict.lines[-1]
+
+
+def at(content: Any, path: Path_) -> Any:
+    """The entry at a path."""
+    for key in path:
+        content = content[key]
+    return content
+
+
+def nodes(value: Any, path: Path_ = ()) -> Iterator[tuple[Path_, Any]]:
+    """All lists, objects and leaves below a value, with their paths."""
+    yield path, value
+    if isinstance(value, dict | list):
+        for key, entry in value.items() if isinstance(value, dict) else enumerate(value):
+            yield from nodes(entry, (*path, key))
+
+
+def leaves(content: Any) -> Iterator[tuple[Path_, Any]]:
+    """All texts, numbers and nulls, with their paths."""
+    return ((path, value) for path, value in nodes(content) if not isinstance(value, dict | list))
+
+
+def neighbours(value: Any) -> list[Any]:
+    """Other values of the same kind that a leaf could have."""
+    if value is None:
+        return [0, 1, "refined-bezout"]
+    if isinstance(value, int):
+        return [value - 1, value + 1]
+    if re.fullmatch(r"-?0x[0-9a-f]+", value):
+        return [hex(int(value, 16) + step) for step in (-1, 1)]
+    if re.fullmatch(r"-?[0-9]+(/[0-9]+)?", value):
+        return [str(Fraction(value) + step) for step in (-1, 1)]
+    return [value + "x", value[:-1]]
+
+
+def with_entry(content: dict[str, Any], path: Path_, value: Any) -> dict[str, Any]:
+    """The content with another value at a path; shares everything else with the original."""
+    if not path:
+        return value
+    changed: Any = dict(content) if isinstance(content, dict) else list(content)
+    changed[path[0]] = with_entry(content[path[0]], path[1:], value)  # type: ignore[index]
+    return changed
+
+
+def restructured(value: Any) -> Iterator[Any]:
+    """A list or object with an entry dropped, doubled, moved or renamed."""
+    if isinstance(value, list):
+        if value:
+            yield value[:-1]
+            yield value[1:]
+            yield [*value, deepcopy(value[-1])]
+            yield [*value, None]
+        for i in range(len(value) - 1):
+            if value[i] != value[i + 1]:
+                yield [*value[:i], value[i + 1], value[i], *value[i + 2 :]]
+                break
+    elif isinstance(value, dict):
+        keys = list(value)
+        for key in keys:
+            yield {other: value[other] for other in keys if other != key}
+            yield {other + "_" * (other == key): value[other] for other in keys}
+        yield {**value, "extra": None}
+        yield {key: value[key] for key in reversed(keys)}
