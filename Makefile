@@ -1,6 +1,7 @@
 # make poses   certify the reference robot, print its poses, check the certificate
 # make test    lint, types and tests
-# Both need Python 3.11 or newer and make, nothing else: they set up .venv themselves.
+# make notebooks   run the documents in notebooks/ and write them to build/notebooks as HTML
+# All need Python 3.11 or newer and make, nothing else: they set up .venv themselves.
 
 PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && { echo $$p; break; }; done)
@@ -12,7 +13,7 @@ CERT := build/$(notdir $(MODEL:.toml=.json))
 JOBS ?= 2
 SOURCES := pkm_exact tests $(wildcard benchmarks notebooks)
 
-.PHONY: poses test test-slow check-style golden bench clean
+.PHONY: poses test test-slow check-style golden bench notebooks clean
 
 # A claim weaker than complete (exit code 3) is an answer, not a failure.
 poses: $(VENV)/.installed
@@ -40,6 +41,15 @@ golden: $(VENV)/.installed
 bench: $(VENV)/.installed-test
 	@for script in benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
 
+notebooks: $(VENV)/.installed-notebooks
+	@mkdir -p build/notebooks
+	@for source in notebooks/*.py; do \
+		target=build/notebooks/$$(basename $$source .py); \
+		$(BIN)/python -m jupytext --quiet --to ipynb --output $$target.ipynb $$source || exit 1; \
+		$(BIN)/python -m nbconvert --log-level ERROR --execute --to html $$target.ipynb || exit 1; \
+		echo $$target.html; \
+	done
+
 clean:
 	rm -rf $(VENV) build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
@@ -51,6 +61,10 @@ $(BIN)/python:
 
 $(VENV)/.installed: pyproject.toml | $(BIN)/python
 	@$(PIP) install --editable .
+	@touch $@
+
+$(VENV)/.installed-notebooks: $(VENV)/.installed
+	@$(PIP) install --editable '.[notebooks]'
 	@touch $@
 
 # The msolve program is only compared with; its tests are skipped where it cannot be had.
