@@ -393,6 +393,43 @@ def test_forty_points_of_a_self_motion_are_not_all() -> None:
     _assert_rejected(content, "multiplicity")
 
 
+def _moving(kind: str) -> dict[str, Any]:
+    """The certificate of a robot that is proved to move: a solver's, of congruent halves or of similar hexagons."""
+    circle = ((3, 4, 5), (5, 0, 5), (-3, 4, 5), (-5, 0, 5), (5, -12, 13), (-4, -3, 5))
+    base = tuple((Fraction(x, r), Fraction(y, r), Fraction(0)) for x, y, r in circle)
+    if kind == "congruent":
+        robot = Robot("moving", "6-UPS", "1", "made up", base, tuple((-x, -y, z) for x, y, z in base), (1, 3, 1))
+        return certificate(robot, None, solve(robot.problem([Fraction(5)] * 6)))
+    robot = Robot("moving", "6-UPS", "1", "made up", base, tuple((x / 2, y / 2, z) for x, y, z in base))
+    squares = [  # at C = (0, 0, 2) and R by the angle with cosine 4/5 about the third axis
+        (Fraction(2, 5) * x - Fraction(3, 10) * y - x) ** 2 + (Fraction(3, 10) * x + Fraction(2, 5) * y - y) ** 2 + 4
+        for x, y, _ in base
+    ]
+    return certificate(robot, None, solve(robot.problem(squares)))
+
+
+@pytest.mark.parametrize("kind", ["congruent", "similar"])
+def test_self_motions_are_certified(kind: str) -> None:
+    content = _moving(kind)
+    assert content["claim"] == "positive-dimensional-proved"
+    answer = check_resealed(content)
+    assert answer.status is Status.ACCEPTED
+    assert last_line(answer).startswith("positive dimension: ")
+    _assert_rejected(content | {"distinct_solutions": 2}, "claim")
+    _assert_rejected(content | {"elimination": []}, "claim")
+    _assert_rejected(content | {"completeness_route": "refined-bezout"}, "claim")
+    _assert_rejected(content | {"claim": "inconsistent", "elimination": []}, "real poses")
+    content["configuration"]["lengths_squared"][0] = "6"
+    _assert_rejected(content, "legs")
+
+
+def test_witnesses_of_a_robot_that_does_not_move() -> None:
+    none = {"poses": [], "real_poses": 0, "complex_solutions": 0, "distinct_solutions": 0, "completeness_route": None}
+    content = golden("mourrain-l") | none | {"claim": "positive-dimensional-proved"}
+    _assert_rejected(content, "claim")
+    _assert_rejected(content | {"representation": None}, "claim")
+
+
 @pytest.mark.parametrize("count", [39, 41])
 def test_the_number_with_multiplicity_is_not_less_than_distinct_and_at_most_forty(count: int) -> None:
     _assert_rejected(_sliding(40) | {"complex_solutions": count}, "complex solutions")

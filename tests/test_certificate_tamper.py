@@ -96,7 +96,7 @@ def test_a_changed_elimination_proves_the_same_or_nothing(step: int) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_every_changed_entry_with_a_new_digest(name: str) -> None:
-    content = golden(name)
+    content = without_proof(golden(name))
     for path, _ in leaves(content):
         if _is_mathematics(path):
             _refused_after_resealing(content, path)

@@ -15,7 +15,7 @@ from itertools import combinations
 
 from flint import fmpq, fmpq_mat
 
-from pkm_exact.algebra.exact_basis import ExactBasis
+from pkm_exact.algebra.exact_basis import ExactBasis, ExactPolynomial
 from pkm_exact.algebra.monomials import MonomialRing
 from pkm_exact.algebra.quotient import standard_monomials
 
@@ -59,12 +59,18 @@ class ExactQuotient:
 
 
 def exact_quotient(basis: ExactBasis, limit: int) -> ExactQuotient | None:
-    """The multiplication matrices of a basis with a finite staircase; None if it is infinite or empty."""
+    """The multiplication matrices of a basis with a finite staircase.
+
+    None if the staircase is infinite or empty, or if an element of the basis does not reduce to 0: the algebra would
+    then be a larger one than that of the ideal.
+    """
     normal = standard_monomials(basis.ring, basis.leading_monomials, limit)
     if not normal:
         return None
     reduction = _ExactReduction(basis, normal)
     units = [basis.ring.unknown(index) for index in range(basis.ring.size)]
+    if any(any(reduction.combination(element)) for element in basis.elements):
+        return None
     matrices = tuple(fmpq_mat([reduction.form(monomial + unit) for monomial in normal]) for unit in units)
     return ExactQuotient(basis.ring, normal, matrices)
 
@@ -83,6 +89,13 @@ class _ExactReduction:
         if monomial not in self.known:
             self.known[monomial] = self._found(monomial)
         return self.known[monomial]
+
+    def combination(self, terms: ExactPolynomial) -> list[fmpq]:
+        """Coordinates of a polynomial."""
+        total = [fmpq(0)] * len(self.normal)
+        for monomial, value in terms:
+            total = [a + value * b if b else a for a, b in zip(total, self.form(monomial), strict=True)]
+        return total
 
     def _found(self, monomial: int) -> list[fmpq]:
         total = [fmpq(0)] * len(self.normal)

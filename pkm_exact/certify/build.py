@@ -10,16 +10,17 @@ from __future__ import annotations
 import errno
 import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from pathlib import Path
 from secrets import token_hex
 from typing import TYPE_CHECKING, Any, Final
 
+from pkm_exact.certify.witness import sphere_witnesses
+
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.poses.pose import Pose
-    from pkm_exact.poses.representation import PoseRepresentation
     from pkm_exact.roots.interval import Interval
     from pkm_exact.solution import Solution
 
@@ -49,7 +50,6 @@ def certificate(robot: Robot, configuration_name: str | None, solution: Solution
     lengths_squared = [leg.length_squared for leg in solution.problem.legs]
     if robot.problem(lengths_squared) != solution.problem:
         raise ValueError(f"the solution is not one of {robot!r}: joints or metric differ")
-    representation = solution.representation
     content = {
         "format": FORMAT,
         "version": VERSION,
@@ -70,7 +70,7 @@ def certificate(robot: Robot, configuration_name: str | None, solution: Solution
         "complex_solutions": solution.complex_solutions,
         "distinct_solutions": solution.distinct_solutions,
         "real_poses": len(solution.poses),
-        "representation": None if representation is None else _representation(representation),
+        "representation": _representation(solution),
         "elimination": _elimination(solution),
         "box_exponent": solution.box_exponent,
         "poses": [_pose(pose) for pose in solution.poses],
@@ -130,13 +130,28 @@ def _texts(values: Iterable[object]) -> list[str]:
     return [str(value) for value in values]
 
 
-def _representation(representation: PoseRepresentation) -> dict[str, Any]:
+def _representation(solution: Solution) -> dict[str, Any] | None:
+    """The solutions listed, or complex poses that witness a self-motion."""
+    from pkm_exact.poses.self_motion import SelfMotion, TranslationalMotion
+
+    representation = solution.representation
+    if isinstance(solution.self_motion, TranslationalMotion):
+        return _spelled(sphere_witnesses(solution.problem, solution.self_motion))
+    if isinstance(solution.self_motion, SelfMotion):
+        representation = solution.self_motion.representation
+    if representation is None:
+        return None
+    keys = ("chart", "separating_form", "eliminant", "quaternion", "translation")
+    return _spelled({key: getattr(representation, key) for key in keys})
+
+
+def _spelled(lists: Mapping[str, Any]) -> dict[str, Any]:
     return {
-        "chart": list(representation.chart),
-        "separating_form": list(representation.separating_form),
-        "eliminant": _coefficients(representation.eliminant),
-        "quaternion": [_coefficients(numerator) for numerator in representation.quaternion],
-        "translation": [_coefficients(numerator) for numerator in representation.translation],
+        "chart": list(lists["chart"]),
+        "separating_form": list(lists["separating_form"]),
+        "eliminant": _coefficients(lists["eliminant"]),
+        "quaternion": [_coefficients(numerator) for numerator in lists["quaternion"]],
+        "translation": [_coefficients(numerator) for numerator in lists["translation"]],
     }
 
 

@@ -8,9 +8,12 @@ from dataclasses import dataclass
 from flint import fmpq, fmpz_poly
 
 from pkm_exact.certify.checker.document import Document, ListedPose, Representation
-from pkm_exact.certify.checker.elimination import Row, remaining_monomials
+from pkm_exact.certify.checker.elimination import Row, eliminate
+from pkm_exact.certify.checker.motion import PLANAR_LEGS
 from pkm_exact.certify.checker.multiplicity import are_simple, is_multiple, multiple_factors
+from pkm_exact.certify.checker.selfmotion import check_self_motion
 from pkm_exact.certify.checker.solutions import GREATEST_NUMBER
+from pkm_exact.certify.checker.traceform import distinct_solutions
 from pkm_exact.certify.checker.verdict import rejected
 
 
@@ -39,6 +42,8 @@ def check_claims(document: Document) -> Iterator[str]:
         raise rejected(f"real poses: {document.real_poses} claimed, {len(document.poses)} listed")
     if document.representation is None:
         yield from _nothing_listed(document)
+    elif document.claim == "positive-dimensional-proved":
+        yield from check_self_motion(document, document.representation)
     else:
         yield from _solutions_listed(document, document.representation)
 
@@ -53,7 +58,7 @@ def _nothing_listed(document: Document) -> Iterator[str]:
     elif proved == (False, "positive-dimensional-detected", None):
         yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
     elif document.elimination is not None and proved[1:] == ("inconsistent", "exact-elimination"):
-        remaining_monomials(document.legs, document.metric, document.elimination, 0)
+        eliminate(document.legs, document.metric, document.elimination).standard(0)
         yield "inconsistent: 1 = 0 follows from the leg lengths, there is no solution, real or complex"
     else:
         raise rejected(f"claim: {document.claim} is not proved by what is in the certificate")
@@ -68,7 +73,7 @@ def _solutions_listed(document: Document, representation: Representation) -> Ite
         claimed = f"{document.claim} by {document.route or 'no route'}"
         raise rejected(f"claim: {claimed}, but what is proved is {proved.claim} by {proved.route or 'no route'}")
     _check_total(document.complex_solutions, number, proved.total)
-    _check_multiplicities(document.poses, proved)
+    _check_multiplicities(document.poses, number, proved)
     yield _solutions_line(number, document.complex_solutions, proved)
     if proved.route == "refined-bezout":
         yield f"complete: {number} isolated solutions are the degree of the rigid motions, there is no other"
@@ -83,25 +88,31 @@ def _proved(document: Document, representation: Representation) -> _Proved:
     number = int(representation.eliminant.degree())
     simple = are_simple(representation, document.legs, document.metric)
     if document.elimination is not None:
-        multiple = _filling(document, representation, document.elimination, simple)
-        total = number + sum(int(factor.degree()) for factor in multiple)
+        total, multiple = _filling(document, representation, document.elimination, simple)
         return _Proved("complete", "exact-elimination", total, multiple)
-    if simple and number == GREATEST_NUMBER:
+    if simple and number == GREATEST_NUMBER and len(document.legs) > PLANAR_LEGS:
         return _Proved("complete", "refined-bezout", number)
     return _Proved("not-proven-complete", None, number if simple else None)
 
 
 def _filling(
     document: Document, representation: Representation, steps: Sequence[Sequence[Row]], simple: bool
-) -> tuple[fmpz_poly, ...]:
-    """The factors of h at multiple solutions, provided that all solutions, these doubly, fill what is left."""
+) -> tuple[int, tuple[fmpz_poly, ...]]:
+    """Number of all solutions with multiplicity, and the factors of h at multiple ones; those listed must be all.
+
+    They are if they fill what the elimination leaves, simple ones once and singular ones twice; or else if the algebra
+    on what is left has no more distinct solutions.
+    """
     legs, metric = document.legs, document.metric
-    left = len(remaining_monomials(legs, metric, steps, GREATEST_NUMBER))
+    number = int(representation.eliminant.degree())
+    elimination = eliminate(legs, metric, steps)
+    left = len(elimination.standard(GREATEST_NUMBER))
     multiple = () if simple else multiple_factors(representation, legs, metric)
-    filled = representation.eliminant.degree() + sum(factor.degree() for factor in multiple)
-    if left != filled or not all(is_multiple(factor, representation, legs, metric) for factor in multiple):
+    doubled = number + sum(int(factor.degree()) for factor in multiple)
+    singular = all(is_multiple(factor, representation, legs, metric) for factor in multiple)
+    if not singular or (left != doubled and distinct_solutions(elimination) != number):
         raise rejected(f"elimination: it leaves {left} monomials, the solutions are not proved to fill them")
-    return multiple
+    return left, multiple
 
 
 def _check_total(claimed: int, number: int, proved: int | None) -> None:
@@ -112,14 +123,17 @@ def _check_total(claimed: int, number: int, proved: int | None) -> None:
         raise rejected(f"complex solutions: {claimed} claimed, {number} distinct ones proved")
 
 
-def _check_multiplicities(poses: Sequence[ListedPose], proved: _Proved) -> None:
-    """Null if not all are known; else 1 at simple solutions; at multiple ones 2 if they are conjugate, else null."""
-    at_multiple = 2 if len(proved.multiple) == 1 else None
-    for number, pose in enumerate(poses, 1):
+def _check_multiplicities(poses: Sequence[ListedPose], number: int, proved: _Proved) -> None:
+    """Null if not all are known; else 1 at simple solutions; multiple ones, if conjugate, share the rest, else null."""
+    shared = None
+    if proved.total is not None and len(proved.multiple) == 1:
+        degree = int(proved.multiple[0].degree())
+        shared = (proved.total - number + degree) // degree
+    for place, pose in enumerate(poses, 1):
         is_multiple_here = any(_has_root(factor, pose) for factor in proved.multiple)
-        expected = None if proved.total is None else at_multiple if is_multiple_here else 1
+        expected = None if proved.total is None else shared if is_multiple_here else 1
         if pose.multiplicity != expected:
-            raise rejected(f"multiplicity: that of pose {number} differs from what is proved")
+            raise rejected(f"multiplicity: that of pose {place} differs from what is proved")
 
 
 def _has_root(factor: fmpz_poly, pose: ListedPose) -> bool:
@@ -135,5 +149,5 @@ def _solutions_line(number: int, total: int, proved: _Proved) -> str:
             "multiplicity is not proved"
         )
     if proved.multiple:
-        return f"complex solutions: {number} distinct, {total} with multiplicity, each simple or double"
-    return f"complex solutions: {number}, each isolated and simple, its six leg lines are independent"
+        return f"complex solutions: {number} distinct, {total} with multiplicity"
+    return f"complex solutions: {number}, each isolated and simple, its leg lines are independent"

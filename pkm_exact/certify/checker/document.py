@@ -9,7 +9,7 @@ from typing import Any, Final, TypeAlias
 from flint import fmpz_poly
 
 from pkm_exact.certify.checker.elimination import Row
-from pkm_exact.certify.checker.motion import Leg, Metric, Point
+from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, Point
 from pkm_exact.certify.checker.spelling import (
     choice,
     count,
@@ -27,7 +27,8 @@ from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_DEGREE, MAX_
 
 FORMAT: Final = "pkm_exact certificate"
 VERSION: Final = 1
-KINDS: Final = ("6-UPS",)
+KINDS: Final = {"6-UPS": 6, "3-RPR": PLANAR_LEGS}
+"""Kinds of robot, with their numbers of legs."""
 FORMULATIONS: Final = re.compile(r"(?:SE3|AFD[1-6]|AFP[1-4])(?::[a-z0-9]{1,10})?", re.ASCII)
 METHODS: Final = ("exact",)
 CLAIMS: Final = (
@@ -136,7 +137,7 @@ def read(data: bytes) -> Document:
         raise too_large(f"box_exponent: more than {MAX_BOX_EXPONENT}")
     return Document(
         metric=metric,
-        legs=tuple(map(Leg, base, platform, _lengths_squared(configuration))),
+        legs=tuple(map(Leg, base, platform, _lengths_squared(configuration, len(base)))),
         claim=choice(claim, "claim", CLAIMS),
         route=None if route is None else choice(route, "completeness_route", ROUTES),
         complex_solutions=count(complex_solutions, "complex_solutions"),
@@ -153,15 +154,14 @@ def _robot(value: Any) -> tuple[Metric, tuple[Point, ...], tuple[Point, ...]]:
     name, kind, unit, source, metric, base, platform = entries(value, "robot", _ROBOT)
     for label, content in (("name", name), ("unit", unit), ("source", source)):
         text(content, f"robot.{label}")
-    choice(kind, "robot.kind", KINDS)
+    number = KINDS[choice(kind, "robot.kind", tuple(KINDS))]
     g = items(metric, "robot.metric", 3, positive)
     if any(number.denominator != 1 for number in g):
         raise malformed("robot.metric: not three integers")
-    return (
-        (int(g[0]), int(g[1]), int(g[2])),
-        items(base, "robot.base", 6, _point),
-        items(platform, "robot.platform", 6, _point),
-    )
+    joints = (items(base, "robot.base", number, _point), items(platform, "robot.platform", number, _point))
+    if number == PLANAR_LEGS and any(joint[2] for side in joints for joint in side):
+        raise malformed("robot: a joint of a planar robot has a third coordinate other than 0")
+    return (int(g[0]), int(g[1]), int(g[2])), *joints
 
 
 def _point(value: Any, where: str) -> Point:
@@ -169,11 +169,11 @@ def _point(value: Any, where: str) -> Point:
     return x, y, z
 
 
-def _lengths_squared(value: Any) -> tuple[Any, ...]:
+def _lengths_squared(value: Any, number: int) -> tuple[Any, ...]:
     name, lengths_squared = entries(value, "configuration", ("name", "lengths_squared"))
     if name is not None:
         text(name, "configuration.name")
-    return items(lengths_squared, "configuration.lengths_squared", 6, positive)
+    return items(lengths_squared, "configuration.lengths_squared", number, positive)
 
 
 def _representation(value: Any) -> Representation:

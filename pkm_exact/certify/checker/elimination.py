@@ -12,6 +12,7 @@ these are n, then the unknowns take at most n different values at poses, and a p
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from math import gcd, lcm
 from typing import TypeAlias
 
@@ -27,10 +28,20 @@ Row: TypeAlias = tuple[int, tuple[int, ...]]
 """A product: index of an element, from 0, and the indices of the unknowns that multiply it."""
 
 
-def remaining_monomials(
-    legs: Sequence[Leg], metric: Metric, steps: Sequence[Sequence[Row]], most: int
-) -> list[Monomial]:
-    """The monomials that no leading monomial of an element divides; rejects if there are more than ``most``."""
+@dataclass(frozen=True)
+class Elimination:
+    """Polynomials that vanish at all poses: ``elements``, terms in decreasing order, in ``size`` unknowns."""
+
+    size: int
+    elements: tuple[Polynomial, ...]
+
+    def standard(self, most: int) -> list[Monomial]:
+        """The monomials that no leading monomial of an element divides; rejects if there are more than ``most``."""
+        return _standard([_leading(element) for element in self.elements], self.size, most)
+
+
+def eliminate(legs: Sequence[Leg], metric: Metric, steps: Sequence[Sequence[Row]]) -> Elimination:
+    """The elements that the steps yield."""
     size, quadrics = section(legs, metric)
     elements = _echelon([_integers(quadric) for quadric in quadrics])
     for number, step in enumerate(steps, 1):
@@ -39,7 +50,7 @@ def remaining_monomials(
         leading = [_leading(element) for element in elements]
         found = _echelon([_multiple(elements[index], factors) for index, factors in step])
         elements += [element for element in found if not _is_divisible(_leading(element), leading)]
-    return _standard([_leading(element) for element in elements], size, most)
+    return Elimination(size, tuple(elements))
 
 
 def _integers(terms: Mapping[Monomial, fmpq]) -> Polynomial:

@@ -23,6 +23,9 @@ from typing import Any, TypeAlias
 Point: TypeAlias = tuple[Fraction, Fraction, Fraction]
 Metric: TypeAlias = tuple[int, int, int]
 
+PLANAR_LEGS = 3
+"""A robot of three legs moves in the plane of the first two axes: C3 = 0, and R turns about the third axis."""
+
 CYCLIC = ((0, 1, 2), (1, 2, 0), (2, 0, 1))
 
 
@@ -130,6 +133,8 @@ def combination(scalars: Sequence[int], values: Sequence[Any]) -> Any:
 def leg_lines(legs: Sequence[Leg], placed: Motion) -> list[list[Any]]:
     """A 6 x 6 matrix that is regular iff the lines of the six legs are independent (Pluecker coordinates).
 
+    For a planar robot it is 3 x 3: the third line coordinate and the first two moments are 0.
+
     Row i is (q q d, q b x q d) with d = N (C + R B - A) the leg, b = N R B its arm and q a common denominator of all
     joints. In a metric G both halves are the ordinary coordinates up to a factor for each column.
     """
@@ -142,5 +147,8 @@ def leg_lines(legs: Sequence[Leg], placed: Motion) -> list[list[Any]]:
         arm = [combination(platform, row) for row in placed.rotation]
         line = [scale * placed.position[i] + arm[i] - base[i] * placed.norm for i in range(3)]
         moment = [arm[j] * line[k] - arm[k] * line[j] for _, j, k in CYCLIC]
-        rows.append([scale * value for value in line] + moment)
+        if len(legs) == PLANAR_LEGS:
+            rows.append([scale * line[0], scale * line[1], moment[2]])
+        else:
+            rows.append([scale * value for value in line] + moment)
     return rows

@@ -12,10 +12,13 @@ from typing import Any, Final
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
 
-from pkm_exact.certify.checker.motion import CYCLIC, Leg, Metric, leg_form
+from pkm_exact.certify.checker.motion import CYCLIC, PLANAR_LEGS, Leg, Metric, leg_form
 
 ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
 """Coordinates; the legs are solved for those on the left first, and unknowns decrease in the monomial order."""
+
+_PLANE: Final = (("u3", 0), ("c3", 0), ("r13", 0), ("r23", 0), ("r31", 0), ("r32", 0), ("r33", -1))
+"""What keeps a planar robot in the plane of the first two axes: these coordinates, minus 1 for r33, are 0."""
 
 Terms = dict[tuple[int, ...], fmpq]
 """A polynomial: coefficients by exponents."""
@@ -27,6 +30,8 @@ def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Terms]]:
     for leg in legs:
         form = leg_form(leg, metric)  # on (1, R, C, u, s)
         rows.append([*form[13:16], *form[10:13], form[16], *form[1:10], form[0]])
+    if len(legs) == PLANAR_LEGS:
+        rows += [[int(name == fixed) for name in ORDER] + [constant] for fixed, constant in _PLANE]
     echelon, rank = fmpq_mat(rows).rref()
     size = len(ORDER)
     pivots = [next(j for j in range(size + 1) if echelon[row, j] != 0) for row in range(rank)]

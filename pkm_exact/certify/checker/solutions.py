@@ -15,7 +15,7 @@ from typing import Final
 from flint import fmpz_poly, nmod_poly
 
 from pkm_exact.certify.checker.document import Representation
-from pkm_exact.certify.checker.motion import Leg, Metric, combination, leg_form, motion
+from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import rejected
 
 PRIMES: Final = tuple((1 << 63) - offset for offset in (25, 165, 259, 301, 375, 387))
@@ -64,17 +64,20 @@ def check_distinct(representation: Representation) -> Iterator[str]:
 def check_poses(representation: Representation, legs: Sequence[Leg], metric: Metric) -> Iterator[str]:
     """At every root of h: e.f = 0, N(e) is not 0, and the six legs have their lengths."""
     h0 = primitive_part(representation.eliminant)
+    e, f = representation.quaternion, representation.translation
+    if len(legs) == PLANAR_LEGS and any((e[1], e[2], f[0], f[3])):
+        raise rejected("motion: e1, e2, f0 and f3 are not all 0, but the robot is planar")
     placed = motion(representation.quaternion, representation.translation, metric)
-    if not _vanishes(placed.study, h0):
+    if not vanishes(placed.study, h0):
         raise rejected("motion: e.f is not 0 at every root of the eliminant")
     if not proved_coprime(h0, lambda p: modulo(placed.norm, p)):
         raise rejected("motion: not proved that N(e) is nowhere 0")
     yield "motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
     coordinates = placed.coordinates()
     for number, leg in enumerate(legs, 1):
-        if not _vanishes(combination(leg_form(leg, metric), coordinates), h0):
+        if not vanishes(combination(leg_form(leg, metric), coordinates), h0):
             raise rejected(f"legs: leg {number} does not have its length at every solution")
-    yield "legs: all six have their lengths at every solution"
+    yield f"legs: all {len(legs)} have their lengths at every solution"
 
 
 def proved_coprime(h0: fmpz_poly, image: Callable[[int], nmod_poly]) -> bool:
@@ -88,6 +91,6 @@ def modulo(polynomial: fmpz_poly, p: int) -> nmod_poly:
     return nmod_poly([int(coefficient) % p for coefficient in polynomial.coeffs()], p)
 
 
-def _vanishes(value: fmpz_poly, h0: fmpz_poly) -> bool:
+def vanishes(value: fmpz_poly, h0: fmpz_poly) -> bool:
     """Whether h0, primitive, divides an integer polynomial over Q; it then divides it over Z (Gauss)."""
     return not divmod(value, h0)[1]

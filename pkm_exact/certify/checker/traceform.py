@@ -1,0 +1,87 @@
+"""The number of distinct solutions of an elimination, by the trace form of the algebra that it defines.
+
+On the monomials that an elimination leaves, multiplication by each unknown has a matrix over Q, read off the elements.
+If these matrices commute, exactly, they define an algebra with these monomials as a basis, whose solutions include
+every pose (Mourrain 1999). The number of its distinct solutions is the rank of its trace form (Hermite). If all
+elements are 0 in it, it is the algebra of the poses, and their multiplicities sum to its dimension.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+
+from flint import fmpq, fmpq_mat
+
+from pkm_exact.certify.checker.elimination import Elimination, Monomial
+from pkm_exact.certify.checker.solutions import GREATEST_NUMBER
+
+
+def distinct_solutions(elimination: Elimination) -> int | None:
+    """The rank of the trace form, or None if the matrices do not commute or an element does not reduce to 0."""
+    basis = elimination.standard(GREATEST_NUMBER)
+    reduction = _Reduction(elimination, basis)
+    matrices = reduction.matrices()
+    cleared = [matrix.numer_denom()[0] for matrix in matrices]
+    if any(left * right != right * left for left, right in combinations(cleared, 2)):
+        return None
+    if any(reduction.combination(element.items()) for element in elimination.elements):
+        return None
+    size = len(basis)
+    powers = {basis[0]: fmpq_mat([[int(i == j) for j in range(size)] for i in range(size)])}
+    for monomial in basis[1:]:
+        axis = next(i for i, exponent in enumerate(monomial) if exponent)
+        powers[monomial] = powers[_shifted(monomial, axis, -1)] * matrices[axis]
+    ordered = [powers[monomial] for monomial in basis]
+    traces = [sum((matrix[i, i] for i in range(size)), fmpq(0)) for matrix in ordered]
+    column = fmpq_mat(size, 1, traces)
+    return int(fmpq_mat([[value for (value,) in (matrix * column).table()] for matrix in ordered]).rank())
+
+
+def _shifted(monomial: Monomial, axis: int, step: int) -> Monomial:
+    return (*monomial[:axis], monomial[axis] + step, *monomial[axis + 1 :])
+
+
+class _Reduction:
+    """Coordinates of monomials on the basis, each found once, as 1 x n matrices."""
+
+    def __init__(self, elimination: Elimination, basis: Sequence[Monomial]) -> None:
+        self.size = elimination.size
+        self.basis = basis
+        self.place = {monomial: index for index, monomial in enumerate(basis)}
+        self.leading = {next(iter(element)): element for element in elimination.elements}
+        self.known: dict[Monomial, fmpq_mat] = {}
+
+    def matrices(self) -> list[fmpq_mat]:
+        """Multiplication by each unknown: row b holds the coordinates of the product with the b-th monomial."""
+        return [
+            fmpq_mat([list(self.row(_shifted(monomial, axis, 1)).entries()) for monomial in self.basis])
+            for axis in range(self.size)
+        ]
+
+    def row(self, monomial: Monomial) -> fmpq_mat:
+        if monomial not in self.known:
+            self.known[monomial] = self._found(monomial)
+        return self.known[monomial]
+
+    def combination(self, terms: Iterable[tuple[Monomial, int]]) -> fmpq_mat:
+        """Coordinates of a polynomial."""
+        total = fmpq_mat(1, len(self.basis))
+        for monomial, value in terms:
+            total += self.row(monomial) * value
+        return total
+
+    def _found(self, monomial: Monomial) -> fmpq_mat:
+        total = fmpq_mat(1, len(self.basis))
+        if monomial in self.place:
+            total[0, self.place[monomial]] = 1
+        elif monomial in self.leading:
+            (_, lead), *tail = self.leading[monomial].items()
+            total = self.combination(tail) * fmpq(-1, lead)
+        else:
+            lowered = ((axis, _shifted(monomial, axis, -1)) for axis in range(self.size) if monomial[axis])
+            axis, smaller = next((axis, other) for axis, other in lowered if other not in self.place)
+            for other, value in zip(self.basis, self.row(smaller).entries(), strict=True):
+                if value:
+                    total += self.row(_shifted(other, axis, 1)) * value
+        return total
