@@ -14,10 +14,10 @@ from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.lifting import lift_by_newton, lift_by_primes
 from pkm_exact.algebra.representation import union
 from pkm_exact.algebra.rur import ModularRepresentation
-from pkm_exact.errors import InputError, InternalContradictionError
+from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.base import FormulatedProblem
 from pkm_exact.formulations.registry import formulation as formulation_of
-from pkm_exact.formulations.registry import formulation_codes
+from pkm_exact.formulations.registry import formulation_codes, formulation_for
 from pkm_exact.formulations.turned import Turn, candidate_turns, formulate_turned
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
@@ -179,11 +179,7 @@ class _Run:
 
     def _started(self) -> _Start:
         """The poses modulo a prime, in a platform frame in which the formulation has coordinates for all of them."""
-        formulation = formulation_of(self.code)
-        if self.problem.planar and self.code != formulation_codes()[0]:
-            raise InputError(
-                f"formulation: {self.code} is for spatial robots, but this one is planar; use {formulation_codes()[0]}"
-            )
+        formulation = formulation_for(self.code, self.problem)
         expected: int | None = None
         for attempt, turn in enumerate(islice(candidate_turns(self.policy.seed), self.policy.attempts)):
             self._enter("formulation")

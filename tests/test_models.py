@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
 
@@ -28,7 +29,7 @@ def test_five_robots_are_shipped() -> None:
 def test_every_robot_has_provenance_and_a_configuration(robot: Robot) -> None:
     assert len(robot.source) > 40
     assert robot.configurations
-    assert all(len(c.lengths_squared) == 6 for c in robot.configurations)
+    assert all(len(c.lengths_squared) == KINDS[robot.kind].legs for c in robot.configurations)
 
 
 def test_robot_names_are_distinct() -> None:

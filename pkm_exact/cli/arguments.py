@@ -29,12 +29,14 @@ def width(context: click.Context, _option: click.Parameter, value: str) -> Fract
 
 
 def lengths(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[Fraction, ...] | None:
-    """The six numbers that --lengths denotes."""
+    """The numbers that --lengths denotes, six or three; the robot says which."""
     if value is None:
         return None
     words = value.split(",")
-    if len(words) != 6:
-        raise click.UsageError(f"--lengths: {len(words)} given, six are needed between commas.", context)
+    if len(words) not in (3, 6):
+        raise click.UsageError(
+            f"--lengths: {len(words)} given, six are needed between commas, three for a planar robot.", context
+        )
     return tuple(_number(context, word.strip(), f"--lengths, number {i}") for i, word in enumerate(words, 1))
 
 

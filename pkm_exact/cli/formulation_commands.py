@@ -105,10 +105,10 @@ def export(
         arguments.require_writable(Path(output), "-o")
 
     from pkm_exact.export.targets import export as exported
-    from pkm_exact.formulations.registry import formulation as formulation_of
+    from pkm_exact.formulations.registry import formulation_for
 
     try:
-        formulated = formulation_of(formulation).formulate(problem)
+        formulated = formulation_for(formulation, problem).formulate(problem)
     except InputError as error:
         raise InputError(f"{model}: {error}") from None
     system = formulated.branches[0] if localised else formulated.system

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
@@ -17,14 +17,21 @@ from pkm_exact.wording import shown
 if TYPE_CHECKING:
     from pkm_exact.geometry.inverse import Matrix, Metric
     from pkm_exact.geometry.problem import Vector
+    from pkm_exact.geometry.robot import Robot
+
+_PLANAR: Final = ("--half-tangent", "--cos-sin")
 
 
 @click.command(short_help="Leg lengths and joint values at a given pose.")
 @click.argument("model", type=click.Path())
-@click.option("--position", metavar="X,Y,Z", required=True, help="The platform's origin, exact: 0,-1/3,12.5.")
+@click.option(
+    "--position", metavar="X,Y,Z", required=True, help="The platform's origin, exact: 0,-1/3,12.5. X,Y if planar."
+)
 @click.option("--quaternion", metavar="E0,E1,E2,E3", help="Its rotation, scalar first, of any norm.")
 @click.option("--cayley", metavar="A,B,C", help="Its rotation as a Cayley vector: the quaternion 1,A,B,C.")
 @click.option("--matrix", metavar="R11,..,R33", help="Its rotation matrix row by row, checked exactly.")
+@click.option("--half-tangent", metavar="T", help="A planar robot's rotation: the tangent of half its angle.")
+@click.option("--cos-sin", metavar="C,S", help="Or cosine and sine of its angle, checked exactly.")
 @click.option(
     "--width",
     callback=arguments.width,
@@ -47,6 +54,8 @@ def legs(
     quaternion: str | None,
     cayley: str | None,
     matrix: str | None,
+    half_tangent: str | None,
+    cos_sin: str | None,
     width: Fraction,
     layout: str,
 ) -> int:
@@ -56,12 +65,22 @@ def legs(
     those of the file, with respect to its metric. In the table, a line to copy into a configuration comes first if the
     values are rational.
     """
-    if sum(option is not None for option in (quaternion, cayley, matrix)) != 1:
-        raise click.UsageError("give exactly one of --quaternion, --cayley and --matrix.")
-    origin = _numbers(position, "--position", 3)
+    words = {
+        "--quaternion": (quaternion, 4),
+        "--cayley": (cayley, 3),
+        "--matrix": (matrix, 9),
+        "--half-tangent": (half_tangent, 1),
+        "--cos-sin": (cos_sin, 2),
+    }
+    given = [(name, text, count) for name, (text, count) in words.items() if text is not None]
+    if len(given) != 1:
+        raise click.UsageError(
+            "give exactly one of --quaternion, --cayley and --matrix; of --half-tangent and --cos-sin if it is planar."
+        )
     # Before the file is read: what is wrong with the words is said first.
-    words = {"--quaternion": (quaternion, 4), "--cayley": (cayley, 3), "--matrix": (matrix, 9)}
-    option, values = next((name, _numbers(text, name, n)) for name, (text, n) in words.items() if text is not None)
+    option, text, count = given[0]
+    origin = _numbers(position, "--position", 2 if option in _PLANAR else 3)
+    values = _numbers(text, option, count)
     if option == "--quaternion" and not any(values):
         raise click.UsageError("--quaternion: all four numbers are 0, give one that is not.")
 
@@ -69,6 +88,7 @@ def legs(
     from pkm_exact.geometry.reader import read_robot
 
     robot = read_robot(model)
+    _require_kind(option, robot, model)
     rotation = _rotation(option, values, robot.metric)
     if layout == "json":
         answer: dict[str, Any] = as_object(robot, _vector(origin), rotation, width)
@@ -94,17 +114,39 @@ def _numbers(text: str, option: str, count: int) -> list[Fraction]:
 
 
 def _vector(values: list[Fraction]) -> Vector:
-    x, y, z = values
+    x, y, z = values if len(values) == 3 else [*values, Fraction(0)]
     return x, y, z
+
+
+def _require_kind(option: str, robot: Robot, model: str) -> None:
+    """Refuse the rotation of a planar robot for a spatial one, and the other way round."""
+    from pkm_exact.geometry.kinds import KINDS
+
+    planar = KINDS[robot.kind].planar
+    if planar and option not in _PLANAR:
+        raise InputError(
+            f"{model}: {option} is for spatial robots, but a {robot.kind} robot is planar; "
+            "give --position X,Y and --half-tangent or --cos-sin"
+        )
+    if not planar and option in _PLANAR:
+        raise InputError(
+            f"{model}: {option} is for planar robots, but a {robot.kind} robot is spatial; "
+            "give --position X,Y,Z and --quaternion, --cayley or --matrix"
+        )
 
 
 def _rotation(option: str, values: list[Fraction], metric: Metric) -> Matrix:
     from pkm_exact.geometry.inverse import rotation_of
+    from pkm_exact.geometry.planar import parse_half_tangent, parse_turn
 
     if option == "--matrix":
         matrix = (_vector(values[:3]), _vector(values[3:6]), _vector(values[6:]))
         _require_rotation(matrix, metric)
         return matrix
+    if option == "--half-tangent":
+        return parse_half_tangent(values[0], option, metric)
+    if option == "--cos-sin":
+        return parse_turn(values, option, metric)
     e0, e1, e2, e3 = values if option == "--quaternion" else [Fraction(1), *values]
     return rotation_of((e0, e1, e2, e3), metric)
 

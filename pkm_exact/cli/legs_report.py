@@ -8,7 +8,9 @@ from math import prod
 from typing import Any, Final
 
 from pkm_exact.cli.table import decimal
+from pkm_exact.geometry.chains import Crank
 from pkm_exact.geometry.inverse import Matrix, distance_squared
+from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.surds import Surd
@@ -44,6 +46,9 @@ def as_object(robot: Robot, position: Vector, rotation: Matrix, width: Fraction)
         "metric": list(map(str, robot.metric)),
         "pose": {"position": list(map(str, position)), "rotation": [list(map(str, row)) for row in rotation]},
     }
+    if KINDS[robot.kind].planar:
+        names = ("x", "y", "cos", "sin")
+        answer["pose"]["planar"] = dict(zip(names, map(str, _planar(robot, position, rotation)), strict=True))
     if not robot.chains:
         squares = lengths_squared(robot, position, rotation)
         lengths = [_number(Surd.root_of(square), width) for square in squares]
@@ -71,9 +76,13 @@ def _number(value: Surd, width: Fraction) -> dict[str, Any]:
 
 def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction) -> str:
     """The answer as a headline, a line for a configuration if there is one, and a table."""
-    place = ", ".join(map(str, position))
-    rows = "; ".join(", ".join(map(str, row)) for row in rotation)
-    lines = [f"{robot.name} ({robot.kind}), position ({place}), rotation matrix ({rows})"]
+    if KINDS[robot.kind].planar:
+        x, y, c, s = _planar(robot, position, rotation)
+        place = f"position ({x}, {y}), cosine and sine ({c}, {s})"
+    else:
+        rows = "; ".join(", ".join(map(str, row)) for row in rotation)
+        place = f"position ({', '.join(map(str, position))}), rotation matrix ({rows})"
+    lines = [f"{robot.name} ({robot.kind}), {place}"]
     if robot.chains:
         lines += _chain_lines(robot, joint_modes(robot, position, rotation), width)
     else:
@@ -83,6 +92,11 @@ def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction) -
         table = [(f"{i}", _decimal(x, width), _short(str(x))) for i, x in enumerate(lengths, 1)]
         lines += _aligned([("leg", f"length [{robot.unit}]", "exact"), *table])
     return "".join(f"{line}\n" for line in lines)
+
+
+def _planar(robot: Robot, position: Vector, rotation: Matrix) -> tuple[Fraction, Fraction, Fraction, Fraction]:
+    """A planar pose as x, y, c, s in the coordinates of the file (``geometry.planar``)."""
+    return position[0], position[1], rotation[0][0], rotation[1][0] / robot.metric[0]
 
 
 def _chain_lines(robot: Robot, modes: list[tuple[Mode, ...]], width: Fraction) -> Iterator[str]:
@@ -100,7 +114,7 @@ def _chain_lines(robot: Robot, modes: list[tuple[Mode, ...]], width: Fraction) -
     if not any(modes):
         return
     yield ""
-    is_crank = robot.kind == "6-RUS"
+    is_crank = KINDS[robot.kind].chain is Crank
     header = ("leg", "cos", "sin", "half tangent") if is_crank else ("leg", f"position [{robot.unit}]")
     rows = [(*_row(i, mode, width),) for i, leg in enumerate(modes, 1) for mode in leg]
     yield from _aligned([(*header, "exact"), *rows])

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from pkm_exact.poses.planar import planar_coordinates
 from pkm_exact.verdict import Claim
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ def as_object(robot: Robot, configuration: str | None, solution: Solution) -> di
         "complex_solutions": solution.complex_solutions,
         "distinct_solutions": solution.distinct_solutions,
         "real_poses": len(solution.poses),
-        "poses": [_pose(pose) for pose in solution.poses],
+        "poses": [_pose(pose, planar=solution.problem.planar) for pose in solution.poses],
         "notes": list(solution.notes),
     }
 
@@ -86,8 +87,8 @@ def _configuration(robot: Robot, name: str | None, solution: Solution) -> dict[s
     return entry
 
 
-def _pose(pose: Pose) -> dict[str, Any]:
-    return {
+def _pose(pose: Pose, *, planar: bool) -> dict[str, Any]:
+    entry: dict[str, Any] = {
         "parameter": _bounds(pose.parameter),
         "position": [_bounds(c) for c in pose.position],
         "rotation": [[_bounds(entry) for entry in row] for row in pose.rotation],
@@ -95,6 +96,9 @@ def _pose(pose: Pose) -> dict[str, Any]:
         "multiplicity": pose.multiplicity,
         "jacobian": _jacobian(pose.jacobian),
     }
+    if planar:
+        entry["planar"] = {name: _bounds(value) for name, value in planar_coordinates(pose).items()}
+    return entry
 
 
 def _jacobian(jacobian: LegJacobian | None) -> dict[str, Any] | None:

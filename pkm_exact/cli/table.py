@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
 _DIGITS_OF_EXACT = 15
 _HEADER = ("", "x", "y", "z", "q0", "q1", "q2", "q3", "det J", "cond J")
+_PLANAR_HEADER = ("", "x", "y", "theta", "det J", "cond J")
 
 
 def decimal(interval: Interval) -> str:
@@ -49,14 +50,16 @@ def print_table(robot: Robot, configuration: str | None, solution: Solution, hea
     sys.stdout.write("\n".join(lines) + "\n")
     if not solution.poses:
         return
-    rows = [_row(number, pose) for number, pose in enumerate(solution.poses, 1)]
-    sys.stdout.write(
-        f"\nposition [{robot.unit}], unit quaternion (scalar first), right to one unit of the last digit\n"
-    )
+    planar = solution.problem.planar
+    coordinates = _planar if planar else _spatial
+    rows = [_row(number, pose, coordinates(pose)) for number, pose in enumerate(solution.poses, 1)]
+    rotation = "angle [degrees]" if planar else "unit quaternion (scalar first)"
+    sys.stdout.write(f"\nposition [{robot.unit}], {rotation}, right to one unit of the last digit\n")
+    header = _PLANAR_HEADER if planar else _HEADER
     if sys.stdout.isatty():
-        _print_rich(rows)
+        _print_rich(rows, header)
     else:
-        sys.stdout.write(plain(rows))
+        sys.stdout.write(plain(rows, header))
 
 
 def _details(robot: Robot, solution: Solution) -> list[str]:
@@ -79,10 +82,21 @@ def _details(robot: Robot, solution: Solution) -> list[str]:
     return details
 
 
-def _row(number: int, pose: Pose) -> tuple[str, ...]:
+def _row(number: int, pose: Pose, coordinates: tuple[str, ...]) -> tuple[str, ...]:
     multiple = "" if pose.multiplicity == 1 else f" (x{pose.multiplicity or '?'})"
-    coordinates = (decimal(c) for c in (*pose.position, *pose.quaternion))
     return f"{number}{multiple}", *coordinates, *_jacobian(pose)
+
+
+def _spatial(pose: Pose) -> tuple[str, ...]:
+    return tuple(decimal(c) for c in (*pose.position, *pose.quaternion))
+
+
+def _planar(pose: Pose) -> tuple[str, ...]:
+    from pkm_exact.poses.planar import angle_in_degrees, planar_coordinates
+
+    bounds = planar_coordinates(pose)
+    angle = angle_in_degrees(bounds["cos"], bounds["sin"])
+    return decimal(bounds["x"]), decimal(bounds["y"]), "?" if angle is None else decimal(angle)
 
 
 def _jacobian(pose: Pose) -> tuple[str, str]:
@@ -95,29 +109,29 @@ def _jacobian(pose: Pose) -> tuple[str, str]:
     return "+" if pose.jacobian.det_sign > 0 else "-", f"{Decimal(condition.numerator) / condition.denominator:.4g}"
 
 
-def plain(rows: list[tuple[str, ...]]) -> str:
+def plain(rows: list[tuple[str, ...]], header: tuple[str, ...] = _HEADER) -> str:
     """The rows under the header, right-aligned.
 
     >>> print(plain([("1", "0.5", "-12", "0", "1", "0", "0", "0", "+", "3.5")]), end="")
          x    y  z  q0  q1  q2  q3  det J  cond J
     1  0.5  -12  0   1   0   0   0      +     3.5
     """
-    table = [_HEADER, *rows]
-    widths = [max(len(row[i]) for row in table) for i in range(len(_HEADER))]
+    table = [header, *rows]
+    widths = [max(len(row[i]) for row in table) for i in range(len(header))]
     lines = ("  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in table)
     return "".join(f"{line.rstrip()}\n" for line in lines)
 
 
-def _print_rich(rows: list[tuple[str, ...]]) -> None:
+def _print_rich(rows: list[tuple[str, ...]], header: tuple[str, ...]) -> None:
     from rich.console import Console
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False, header_style="bold")
-    for name in _HEADER:
+    for name in header:
         table.add_column(name, justify="right", no_wrap=True, style="dim" if not name else None)
     for row in rows:
         table.add_row(*row)
-    needed = max(len(line) for line in plain(rows).splitlines())
+    needed = max(len(line) for line in plain(rows, header).splitlines())
     console = Console(file=sys.stdout, highlight=False)
     console.width = max(console.width, needed)
     console.print(table)

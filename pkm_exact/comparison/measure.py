@@ -23,7 +23,7 @@ from pkm_exact.comparison.row import ResultFigures, SystemFigures
 from pkm_exact.engine import solve
 from pkm_exact.export.text import polynomial_text
 from pkm_exact.formulations.base import FormulatedProblem
-from pkm_exact.formulations.registry import formulation
+from pkm_exact.formulations.registry import formulation_for
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.pose import Pose
@@ -60,7 +60,7 @@ def measure(
     PkmExactError
         If there is no answer.
     """
-    formulated = formulation(code).formulate(problem)
+    formulated = formulation_for(code, problem).formulate(problem)
     written(system_figures(formulated.system))
     start, processor_start = perf_counter(), process_time()
     solution = solve(problem, formulation=code, progress=progress)

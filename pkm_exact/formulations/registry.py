@@ -7,10 +7,13 @@ joints AFP1 to AFP4 start from ("AFP1:124").
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.protocol import Formulation
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.problem import ForwardProblem
 
 _ENTRIES = {
     "SE3": ("motion_variety", None),
@@ -49,6 +52,20 @@ def formulation(code: str) -> Formulation:
     name, values = _parsed(code)
     module, _ = _ENTRIES[name]
     return cast(Formulation, getattr(import_module(f"pkm_exact.formulations.{module}"), name)(**values))
+
+
+def formulation_for(code: str, problem: ForwardProblem) -> Formulation:
+    """The formulation with the given code, to write this problem in.
+
+    Raises
+    ------
+    InputError
+        As ``formulation``, and if the robot is planar and the formulation for spatial ones only.
+    """
+    found, first = formulation(code), formulation_codes()[0]
+    if problem.planar and code != first:
+        raise InputError(f"formulation: {code} is for spatial robots, but this one is planar; use {first}")
+    return found
 
 
 def checked_code(code: str) -> str:

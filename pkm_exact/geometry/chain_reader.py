@@ -10,23 +10,24 @@ from pkm_exact.geometry.chains import Chain, Crank, Slide
 from pkm_exact.geometry.fields import known_keys, list_field, required, table_field
 from pkm_exact.geometry.hexagons import HEXAGON_METRIC, semi_regular_hexagon
 from pkm_exact.geometry.inverse import Metric
-from pkm_exact.geometry.kinds import KINDS, Joints
+from pkm_exact.geometry.kinds import Joints, Kind
+from pkm_exact.geometry.planar import quarter_turn
 from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.rational import parse_positive, parse_vector
-from pkm_exact.geometry.robot import LEGS, parse_joints
+from pkm_exact.geometry.robot import parse_joints
 from pkm_exact.wording import shown
 
 CHAIN_TABLES: Final = ("cranks", "slides", "rods")
 _RODS: Final = ("length", "lengths", "lengths_squared")
 
 
-def read_joints(table: dict[str, Any], key: str, metric: Metric) -> Joints:
-    """The six joints of ``[base]`` or ``[platform]``, as coordinates or as a semi-regular hexagon."""
+def read_joints(table: dict[str, Any], key: str, kind: Kind, metric: Metric) -> Joints:
+    """The joints of ``[base]`` or ``[platform]``, as coordinates or, for six, as a semi-regular hexagon."""
     value = table_field(table, key, "joints = [...]")
-    known_keys(value, ("joints", "hexagon"), key)
+    known_keys(value, ("joints",) if kind.planar else ("joints", "hexagon"), key)
     if "hexagon" not in value:
-        rows = list_field(required(value, "joints", f"{key}."), f"{key}.joints", LEGS)
-        return parse_joints(rows, f"{key}.joints")
+        rows = list_field(required(value, "joints", f"{key}."), f"{key}.joints", kind.legs)
+        return parse_joints(rows, f"{key}.joints", kind)
     where = f"{key}.hexagon"
     if "joints" in value:
         raise InputError(f"{key}: joints and hexagon given; give one of them")
@@ -45,42 +46,52 @@ def read_joints(table: dict[str, Any], key: str, metric: Metric) -> Joints:
         raise InputError(f"{where}.{error}") from None
 
 
-def read_chains(table: dict[str, Any], kind: str) -> tuple[Chain, ...]:
-    """The six cranks or slides of a kind that has them."""
-    wanted = KINDS[kind].chain_table
+def read_chains(table: dict[str, Any], name: str, kind: Kind, metric: Metric) -> tuple[Chain, ...]:
+    """The cranks or slides, one per leg, of a kind (called ``name``) that has them."""
+    wanted = kind.chain_table
     for key in CHAIN_TABLES:
         if key in table and key not in (wanted, "rods" if wanted else ""):
-            raise InputError(f"{key}: a {kind} robot has none; remove the table or write another kind")
+            raise InputError(f"{key}: a {name} robot has none; remove the table or write another kind")
     if not wanted:
         return ()
-    rods = _rods(table_field(table, "rods", "lengths = [...]"))
+    rods = _rods(table_field(table, "rods", "lengths = [...]"), kind.legs)
     if wanted == "cranks":
-        cranks = table_field(table, "cranks", "at_0 = [...] and at_90 = [...]")
-        known_keys(cranks, ("at_0", "at_90"), "cranks")
-        pairs = zip(_vectors(cranks, "cranks", "at_0"), _vectors(cranks, "cranks", "at_90"), rods, strict=True)
-        return tuple(Crank(at_0, at_90, rod) for at_0, at_90, rod in pairs)
+        return _cranks(table, kind, metric, rods)
     slides = table_field(table, "slides", "directions = [...]")
     known_keys(slides, ("direction", "directions"), "slides")
     if len(slides) != 1:
         found = "both" if slides else "none of them"
         raise InputError(f"slides: {found} given; give exactly one of direction, directions")
     if "direction" in slides:
-        common = parse_vector(slides["direction"], "slides.direction")
+        common = parse_vector(slides["direction"], "slides.direction", kind.dimension)
         return tuple(Slide(common, rod) for rod in rods)
-    directions = _vectors(slides, "slides", "directions")
+    directions = _vectors(slides, "slides", "directions", kind)
     return tuple(Slide(direction, rod) for direction, rod in zip(directions, rods, strict=True))
 
 
-def _vectors(table: dict[str, Any], name: str, key: str) -> tuple[Vector, ...]:
+def _cranks(table: dict[str, Any], kind: Kind, metric: Metric, rods: tuple[Fraction, ...]) -> tuple[Crank, ...]:
+    cranks = table_field(table, "cranks", "at_0 = [...] and at_90 = [...]")
+    known_keys(cranks, ("at_0", "at_90"), "cranks")
+    at_0 = _vectors(cranks, "cranks", "at_0", kind)
+    if kind.planar and "at_90" not in cranks:
+        at_90 = tuple(quarter_turn(vector, metric, "cranks.at_0") for vector in at_0)
+    else:
+        at_90 = _vectors(cranks, "cranks", "at_90", kind)
+    return tuple(Crank(*vectors) for vectors in zip(at_0, at_90, rods, strict=True))
+
+
+def _vectors(table: dict[str, Any], name: str, key: str, kind: Kind) -> tuple[Vector, ...]:
     where = f"{name}.{key}"
-    rows = list_field(required(table, key, f"{name}."), where, LEGS)
-    if len(rows) != LEGS:
-        raise InputError(f"{where}: {len(rows)} rows; give {LEGS} vectors of 3 coordinates, one per leg")
-    return tuple(parse_vector(row, f"{where}[{i}]") for i, row in enumerate(rows, 1))
+    rows = list_field(required(table, key, f"{name}."), where, kind.legs)
+    if len(rows) != kind.legs:
+        raise InputError(
+            f"{where}: {len(rows)} rows; give {kind.legs} vectors of {kind.dimension} coordinates, one per leg"
+        )
+    return tuple(parse_vector(row, f"{where}[{i}]", kind.dimension) for i, row in enumerate(rows, 1))
 
 
-def _rods(table: dict[str, Any]) -> tuple[Fraction, ...]:
-    """Squared lengths of the six rods."""
+def _rods(table: dict[str, Any], legs: int) -> tuple[Fraction, ...]:
+    """Squared lengths of the rods."""
     known_keys(table, _RODS, "rods")
     given = [key for key in _RODS if key in table]
     if len(given) != 1:
@@ -88,9 +99,9 @@ def _rods(table: dict[str, Any]) -> tuple[Fraction, ...]:
     key = given[0]
     where = f"rods.{key}"
     if key == "length":
-        return (parse_positive(table[key], where) ** 2,) * LEGS
-    values = list_field(table[key], where, LEGS)
-    if len(values) != LEGS:
-        raise InputError(f"{where}: {len(values)} values; give {LEGS}, one per leg")
+        return (parse_positive(table[key], where) ** 2,) * legs
+    values = list_field(table[key], where, legs)
+    if len(values) != legs:
+        raise InputError(f"{where}: {len(values)} values; give {legs}, one per leg")
     numbers = [parse_positive(value, f"{where}[{i}]") for i, value in enumerate(values, 1)]
     return tuple(n * n if key == "lengths" else n for n in numbers)

@@ -69,6 +69,11 @@ class Crank:
         if squares[0] == 0:
             raise InputError(f"{where}: the crank has length 0; give one of positive length")
 
+    @property
+    def is_planar(self) -> bool:
+        """Whether the crank stays in the plane of the first two axes."""
+        return self.at_0[2] == 0 == self.at_90[2]
+
     def knee(self, base: Vector, value: JointValue) -> Vector:
         """The end of the crank at an angle given by its cosine and sine."""
         if not isinstance(value, tuple):
@@ -108,6 +113,11 @@ class Slide:
         if not any(self.direction):
             raise InputError(f"{where}: the direction is 0; give one that is not")
 
+    @property
+    def is_planar(self) -> bool:
+        """Whether the slide lies in the plane of the first two axes."""
+        return self.direction[2] == 0
+
     def knee(self, base: Vector, value: JointValue) -> Vector:
         """The carriage at a position along the slide."""
         if isinstance(value, tuple):
@@ -119,26 +129,34 @@ class Slide:
 Chain: TypeAlias = Crank | Slide
 
 
-def cosine_and_sine(half_tangent: Fraction) -> CosSin:
-    """Cosine and sine of the angle whose half has the given tangent: (1 - t^2, 2 t) / (1 + t^2).
+def cosine_and_sine(half_tangent: Fraction, weight: int = 1) -> CosSin:
+    """Cosine and sine of the angle whose half has the given tangent: (1 - w t^2, 2 t) / (1 + w t^2).
+
+    With a weight w other than 1, tangent and sine are those numbers times sqrt(w) (``geometry.planar``).
 
     Examples
     --------
     >>> [str(x) for x in cosine_and_sine(Fraction(1, 2))]
     ['3/5', '4/5']
     """
-    square = half_tangent * half_tangent
+    square = weight * half_tangent * half_tangent
     return (1 - square) / (1 + square), 2 * half_tangent / (1 + square)
 
 
-def parse_cosine_and_sine(value: object, where: str) -> CosSin:
-    """Two rational numbers with c^2 + s^2 = 1, exactly."""
+def parse_cosine_and_sine(value: object, where: str, weight: int = 1) -> CosSin:
+    """Two rational numbers with c^2 + w s^2 = 1, exactly; the sine is sqrt(w) s."""
     if not isinstance(value, list | tuple) or len(value) != 2:
         raise InputError(f"{where}: {shown(value)} is not a pair; give [cosine, sine]")
     c, s = (parse_rational(number, f"{where}[{i}]") for i, number in enumerate(value, 1))
-    if c * c + s * s != 1:
+    total = c * c + weight * s * s
+    if total == 1:
+        return c, s
+    if weight == 1:
         raise InputError(
-            f"{where}: the squares of cosine and sine sum to {shown(c * c + s * s)}, not to 1; "
-            'give exact pairs such as ["3/5", "4/5"], or half_tangents'
+            f"{where}: the squares of cosine and sine sum to {shown(total)}, not to 1; "
+            'give exact pairs such as ["3/5", "4/5"], or half tangents'
         )
-    return c, s
+    raise InputError(
+        f"{where}: c^2 + w s^2 is {shown(total)}, not 1; in this metric w is {shown(weight)}: give cos = c and "
+        "sin = sqrt(w) s, or a half tangent"
+    )

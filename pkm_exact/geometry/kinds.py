@@ -1,7 +1,8 @@
 """Kinds of robot. A kind is a recipe: it turns joints and joint values into the constraints on the platform's pose.
 
-Every kind ends in six legs of known length between a base joint and a platform joint. Where the actuators are cranks
-or slides (``geometry.chains``), the legs are the rods, and the base joints are the knees.
+Every kind ends in legs of known length between a base joint and a platform joint: six, or three if the platform moves
+in a plane. Where the actuators are cranks or slides (``geometry.chains``), the legs are the rods, and the base joints
+are the knees.
 """
 
 from __future__ import annotations
@@ -30,11 +31,27 @@ class Kind:
         The table of a model file that describes the chains; empty if there are none.
     joint_keys : tuple of str
         The keys that give joint values in a configuration.
+    gough : str
+        The kind with the same number of legs whose legs themselves are actuated.
+    dimension : int
+        Number of coordinates of a joint: 3, or 2 if the robot is planar.
     """
 
     chain: type[Crank] | type[Slide] | None
     chain_table: str
     joint_keys: tuple[str, ...]
+    gough: str = "6-UPS"
+    dimension: int = 3
+
+    @property
+    def planar(self) -> bool:
+        """Whether the platform moves in the plane of the first two axes."""
+        return self.dimension == 2
+
+    @property
+    def legs(self) -> int:
+        """How many legs a robot of this kind has: as many as its platform has freedoms."""
+        return 3 if self.planar else 6
 
 
 KINDS: Final[Mapping[str, Kind]] = MappingProxyType(
@@ -42,13 +59,16 @@ KINDS: Final[Mapping[str, Kind]] = MappingProxyType(
         "6-UPS": Kind(None, "", ("lengths", "lengths_squared", "pose")),
         "6-RUS": Kind(Crank, "cranks", ("half_tangents", "cos_sin")),
         "6-PUS": Kind(Slide, "slides", ("slides",)),
+        "3-RPR": Kind(None, "", ("lengths", "lengths_squared", "pose"), "3-RPR", 2),
+        "3-RRR": Kind(Crank, "cranks", ("half_tangents", "cos_sin"), "3-RPR", 2),
+        "3-PRR": Kind(Slide, "slides", ("slides",), "3-RPR", 2),
     }
 )
 """The kinds by the names used in model files."""
 
 
 def gough_legs(base: Joints, platform: Joints, lengths_squared: tuple[Fraction, ...]) -> tuple[Leg, ...]:
-    """The legs of a 6-UPS robot (Gough platform): leg i joins the joints i, its length is actuated."""
+    """The legs of a 6-UPS robot (Gough platform) or a 3-RPR one: leg i joins the joints i, its length is actuated."""
     return tuple(Leg(a, b, square) for a, b, square in zip(base, platform, lengths_squared, strict=True))
 
 

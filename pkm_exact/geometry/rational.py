@@ -76,13 +76,20 @@ def parse_positive(value: object, where: str) -> Fraction:
     return number
 
 
-def parse_vector(row: object, where: str) -> Vector:
-    """Three rational numbers."""
+def parse_vector(row: object, where: str, dimension: int = 3) -> Vector:
+    """Three rational numbers; with ``dimension = 2`` two, and 0.
+
+    Examples
+    --------
+    >>> parse_vector(["1/2", 3], "x", 2)
+    (Fraction(1, 2), Fraction(3, 1), Fraction(0, 1))
+    """
     if not isinstance(row, list | tuple):
-        raise InputError(f"{where}: {shown(row)} is not a list; give a list of 3 numbers")
-    if len(row) != 3:
-        raise InputError(f"{where}: a list of {len(row)}; give a list of 3 numbers")
-    x, y, z = (parse_rational(value, f"{where}[{i}]") for i, value in enumerate(row, 1))
+        raise InputError(f"{where}: {shown(row)} is not a list; give a list of {dimension} numbers")
+    if len(row) != dimension:
+        raise InputError(f"{where}: a list of {len(row)}; give a list of {dimension} numbers")
+    numbers = [parse_rational(value, f"{where}[{i}]") for i, value in enumerate(row, 1)]
+    x, y, z = numbers + [Fraction(0)] * (3 - dimension)
     return x, y, z
 
 

@@ -76,12 +76,13 @@ def robot_from_toml(text: str) -> Robot:
     }
     if geometry["kind"] not in KINDS:
         raise InputError(f"kind: {shown(geometry['kind'])} is unknown; use one of: {', '.join(KINDS)}")
-    metric = parse_metric(table["metric"]) if "metric" in table else UNIT_METRIC
+    kind = KINDS[geometry["kind"]]
+    metric = parse_metric(table["metric"], kind) if "metric" in table else UNIT_METRIC
     geometry |= {
         "metric": metric,
-        "base_joints": read_joints(table, "base", metric),
-        "platform_joints": read_joints(table, "platform", metric),
-        "chains": read_chains(table, geometry["kind"]),
+        "base_joints": read_joints(table, "base", kind, metric),
+        "platform_joints": read_joints(table, "platform", kind, metric),
+        "chains": read_chains(table, geometry["kind"], kind, metric),
     }
     rows = table.get("configurations", [])
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):

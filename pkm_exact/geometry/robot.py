@@ -10,18 +10,15 @@ from typing import Final
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Chain, Crank, JointValue, parse_cosine_and_sine
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
-from pkm_exact.geometry.kinds import KINDS, Joints, gough_legs, knees
+from pkm_exact.geometry.kinds import KINDS, Joints, Kind, gough_legs, knees
 from pkm_exact.geometry.problem import ForwardProblem, Vector
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational, parse_vector
 from pkm_exact.wording import shown
 
-LEGS: Final = 6
 _LISTED: Final = 20
 
 
-def _six(values: Sequence[object], where: str) -> tuple[Fraction, ...]:
-    if len(values) != LEGS:
-        raise InputError(f"{where}: {len(values)} values; give {LEGS}, one per leg")
+def _squares(values: Sequence[object], where: str) -> tuple[Fraction, ...]:
     return tuple(parse_positive(value, f"{where}[{i}]") for i, value in enumerate(values, 1))
 
 
@@ -34,8 +31,9 @@ class Configuration:
     name : str
         Unique among the configurations of a robot.
     lengths_squared : tuple of 6 Fraction
-        Squared leg lengths, positive, in squared units of length; of the rods, if the robot has cranks or slides.
-    joint_values : tuple of 6 joint values
+        Squared leg lengths, positive, in squared units of length; of the rods, if the robot has cranks or slides. Three
+        for a planar robot.
+    joint_values : tuple of joint values, one per leg
         Positions of the slides, or (cos, sin) of the cranks' angles; empty if the legs themselves are actuated.
     """
 
@@ -45,7 +43,9 @@ class Configuration:
 
     def __post_init__(self) -> None:
         where = f"configuration {shown(self.name)}, lengths_squared"
-        object.__setattr__(self, "lengths_squared", _six(self.lengths_squared, where))
+        if len(self.lengths_squared) not in (3, 6):
+            raise InputError(f"{where}: {len(self.lengths_squared)} values; give 6, one per leg, or 3 if it is planar")
+        object.__setattr__(self, "lengths_squared", _squares(self.lengths_squared, where))
 
 
 @dataclass(frozen=True)
@@ -60,12 +60,14 @@ class Robot:
         Key in ``KINDS``: what the legs are made of.
     base_joints, platform_joints : tuple of 6 vectors of 3 Fraction
         Joint centres in the fixed and in the mobile frame, rational coordinates with respect to ``metric``. A crank
-        turns about its base joint, a slide passes through it.
+        turns about its base joint, a slide passes through it. Three if the kind is planar, given by two coordinates
+        each; the third is then 0.
     metric : tuple of 3 int
-        Gram diagonal, positive integers: the ordinary coordinate is sqrt(metric[i]) times the rational one.
+        Gram diagonal, positive integers: the ordinary coordinate is sqrt(metric[i]) times the rational one. Two suffice
+        if the kind is planar.
     configurations : tuple of Configuration
         In the order of the model file; the first one is the default.
-    chains : tuple of 6 Crank or Slide
+    chains : tuple of Crank or Slide
         The actuated chains, one per leg; empty for a kind whose legs themselves are actuated.
 
     Examples
@@ -89,9 +91,11 @@ class Robot:
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise InputError(f"kind: {shown(self.kind)} is unknown; use one of: {', '.join(KINDS)}")
-        object.__setattr__(self, "base_joints", parse_joints(self.base_joints, "base.joints"))
-        object.__setattr__(self, "platform_joints", parse_joints(self.platform_joints, "platform.joints"))
-        object.__setattr__(self, "metric", parse_metric(self.metric))
+        kind = KINDS[self.kind]
+        for field, where in (("base_joints", "base.joints"), ("platform_joints", "platform.joints")):
+            rows = [_in_plane(row) for row in getattr(self, field)] if kind.planar else getattr(self, field)
+            object.__setattr__(self, field, parse_joints(rows, where, kind))
+        object.__setattr__(self, "metric", parse_metric(self.metric, kind))
         self._require_chains()
         if not self.chains:
             _refuse_equal_legs(self.base_joints, self.platform_joints)
@@ -103,7 +107,8 @@ class Robot:
     def configuration(self, name: str | None = None) -> Configuration:
         """The configuration called ``name``, or the first one if ``name`` is None."""
         if not self.configurations:
-            remedy = "add one with joint values" if self.chains else "give the six leg lengths instead"
+            count = "three" if KINDS[self.kind].planar else "six"
+            remedy = "add one with joint values" if self.chains else f"give the {count} leg lengths instead"
             raise InputError(f"configurations: {shown(self.name)} has none; {remedy}")
         if name is None:
             return self.configurations[0]
@@ -115,7 +120,7 @@ class Robot:
         raise InputError(f"configuration: {shown(name)} is unknown; use one of: {known}{more}")
 
     def problem(self, locked: Configuration | Sequence[Fraction | int | str]) -> ForwardProblem:
-        """The forward kinematics problem of a configuration, or for six squared leg lengths, exact and positive.
+        """The forward kinematics problem of a configuration, or for squared leg lengths, exact and positive.
 
         Raises
         ------
@@ -127,10 +132,12 @@ class Robot:
                 raise InputError(
                     f"lengths: the rods of a {self.kind} robot have fixed lengths; choose a configuration instead"
                 )
-            values = _six(locked, "lengths_squared")
-            return ForwardProblem(gough_legs(self.base_joints, self.platform_joints, values), self.metric)
+            self._require_one_per_leg(locked, "lengths_squared")
+            values = _squares(locked, "lengths_squared")
+            return self._problem(self.base_joints, values)
         feet = self.knees(locked)
-        return ForwardProblem(gough_legs(feet, self.platform_joints, locked.lengths_squared), self.metric)
+        self._require_one_per_leg(locked.lengths_squared, f"configuration {shown(locked.name)}, lengths_squared")
+        return self._problem(feet, locked.lengths_squared)
 
     def lock(self, name: str, values: Sequence[object]) -> Configuration:
         """The configuration in which the cranks or slides stand at the given joint values.
@@ -138,7 +145,7 @@ class Robot:
         Parameters
         ----------
         name : str
-        values : sequence of 6
+        values : sequence, one per leg
             Positions of slides; pairs (cos, sin) for cranks.
 
         Raises
@@ -148,8 +155,8 @@ class Robot:
         """
         if not self.chains:
             raise InputError(f"kind: the legs of a {self.kind} robot are locked by their lengths")
-        if len(values) != LEGS:
-            raise InputError(f"joint values: {len(values)} given; give {LEGS}, one per leg")
+        if len(values) != len(self.chains):
+            raise InputError(f"joint values: {len(values)} given; give {len(self.chains)}, one per leg")
         parse = parse_cosine_and_sine if isinstance(self.chains[0], Crank) else parse_rational
         exact = tuple(parse(value, f"joint values[{i}]") for i, value in enumerate(values, 1))
         locked = Configuration(name, tuple(chain.rod_squared for chain in self.chains), exact)
@@ -170,16 +177,17 @@ class Robot:
         return knees(self.base_joints, self.chains, locked.joint_values) if self.chains else self.base_joints
 
     def as_gough(self, locked: Configuration | None) -> Robot:
-        """The 6-UPS robot with the same poses: itself, or with the knees of a configuration as base joints."""
+        """The 6-UPS (or 3-RPR) robot with the same poses: itself, or with a configuration's knees as base joints."""
         if not self.chains:
             return self
         if locked is None:
             raise InputError(f"configuration: a {self.kind} robot has knees only in a configuration; name one")
-        note = f"as 6-UPS: the knees of the {self.kind} robot in configuration {locked.name} are its base joints"
+        kind = KINDS[self.kind].gough
+        note = f"as {kind}: the knees of the {self.kind} robot in configuration {locked.name} are its base joints"
         reduced = Configuration(locked.name, locked.lengths_squared)
         return replace(
             self,
-            kind="6-UPS",
+            kind=kind,
             source=f"{self.source}; {note}",
             base_joints=self.knees(locked),
             chains=(),
@@ -192,26 +200,53 @@ class Robot:
             if self.chains:
                 raise InputError(f"kind: a {self.kind} robot has neither cranks nor slides; remove them")
             return
-        if len(self.chains) != LEGS:
-            raise InputError(f"{kind.chain_table}: {len(self.chains)} given; give {LEGS}, one per leg")
+        if len(self.chains) != kind.legs:
+            raise InputError(f"{kind.chain_table}: {len(self.chains)} given; give {kind.legs}, one per leg")
         for leg, chain in enumerate(self.chains, 1):
             if not isinstance(chain, kind.chain):
                 raise InputError(
                     f"{kind.chain_table}[{leg}]: does not belong to the kind {self.kind}; use another kind"
                 )
             chain.require_exact(self.metric, f"{kind.chain_table}, leg {leg}")
+            if kind.planar and not chain.is_planar:
+                raise InputError(
+                    f"{kind.chain_table}, leg {leg}: leaves the plane of a {self.kind} robot; give third coordinates 0"
+                )
+
+    def _require_one_per_leg(self, values: Sequence[object], where: str) -> None:
+        legs = KINDS[self.kind].legs
+        if len(values) != legs:
+            raise InputError(f"{where}: {len(values)} values; give {legs}, one per leg")
+
+    def _problem(self, feet: Joints, lengths_squared: tuple[Fraction, ...]) -> ForwardProblem:
+        legs = gough_legs(feet, self.platform_joints, lengths_squared)
+        return ForwardProblem(legs, self.metric, KINDS[self.kind].planar)
 
 
-def parse_joints(rows: Sequence[object], where: str) -> Joints:
-    """Six vectors of three rational numbers."""
-    if len(rows) != LEGS:
-        raise InputError(f"{where}: {len(rows)} rows; give {LEGS} joints of 3 coordinates, one per leg")
-    return tuple(parse_vector(row, f"{where}[{i}]") for i, row in enumerate(rows, 1))
+def parse_joints(rows: Sequence[object], where: str, kind: Kind) -> Joints:
+    """As many vectors as the kind has legs; with third coordinate 0 if it is planar, where two are to be given."""
+    if len(rows) != kind.legs:
+        raise InputError(
+            f"{where}: {len(rows)} rows; give {kind.legs} joints of {kind.dimension} coordinates, one per leg"
+        )
+    return tuple(parse_vector(row, f"{where}[{i}]", kind.dimension) for i, row in enumerate(rows, 1))
 
 
-def parse_metric(row: object) -> Metric:
-    """Three positive integers: the Gram diagonal. In place of p/q write p q, and divide that coordinate by q."""
+def _in_plane(row: object) -> object:
+    """The row without the third coordinate 0 that joints of planar robots have once they are read."""
+    if isinstance(row, tuple) and len(row) == 3 and isinstance(row[2], Fraction) and row[2] == 0:
+        return row[:2]
+    return row
+
+
+def parse_metric(row: object, kind: Kind) -> Metric:
+    """Three positive integers: the Gram diagonal. In place of p/q write p q, and divide that coordinate by q.
+
+    For planar kinds the third does not matter; it is 1 if it is left out.
+    """
     numbers = []
+    if kind.planar and isinstance(row, list | tuple) and len(row) == 2:
+        row = [*row, 1]
     for i, number in enumerate(parse_vector(row, "metric"), 1):
         if number <= 0 or number.denominator != 1:
             raise InputError(f"metric[{i}]: {shown(number)} is not a positive integer; give one such as 1 or 3")
