@@ -23,7 +23,6 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import exponent_for_width, pose_boxes
 from pkm_exact.poses.completeness import (
-    MOTION_DEGREE,
     CompletenessProof,
     are_isolated,
     multiplicities,
@@ -382,6 +381,5 @@ def _open_question(count: int, distinct: int) -> str:
             "such, and that there is no other is not proved"
         )
     return (
-        f"{count} of the at most {MOTION_DEGREE} solutions are finite; each one listed is certified, but that no "
-        "other is finite is not proved"
+        f"{count} finite solutions were found; each one listed is certified, but that there is no other is not proved"
     )

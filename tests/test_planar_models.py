@@ -114,7 +114,10 @@ BAD = {
         RPR_TEXT.replace('["4/5", "3/5"]', '["4/5", "4/5"]'),
         "pose.cos_sin: the squares of cosine and sine sum",
     ),
-    "circle in the metric": (RPR_TEXT.replace("[base]", "metric = [1, 3]\n[base]"), "c^2 + w s^2 is 43/25, not 1; in this metric w is 3"),
+    "circle in the metric": (
+        RPR_TEXT.replace("[base]", "metric = [1, 3]\n[base]"),
+        "c^2 + w s^2 is 43/25, not 1; in this metric w is 3",
+    ),
     "at a joint": (
         RPR_TEXT.replace('[5, "9/2"]', "[0, 0]", 1),
         "configurations[2].pose: leg 1 has length 0 at this pose",
@@ -131,7 +134,10 @@ BAD = {
         "cranks.at_0[1]: a list of 3; give a list of 2",
     ),
     "zero crank": (RRR_TEXT.replace("at_0 = [[4, 0]", "at_0 = [[0, 0]"), "cranks, leg 1: the crank has length 0"),
-    "irrational crank": (RRR_TEXT.replace("[base]", "metric = [1, 3]\n[base]"), "not rational in this metric; choose one whose"),
+    "irrational crank": (
+        RRR_TEXT.replace("[base]", "metric = [1, 3]\n[base]"),
+        "not rational in this metric; choose one whose",
+    ),
     "half tangents": (RRR_TEXT.replace(', "1/3", -2]', "]"), "half_tangents: 1 values; give 3, one per leg"),
     "direction": (PRR_TEXT.replace("[1, 0], [", "[0, 0], ["), "slides, leg 1: the direction is 0"),
     "spatial direction": (

@@ -42,8 +42,8 @@ class LegJacobian:
         by singularities.
     rank : int or None
         None if the enclosures leave it open (only possible at a pose not proved simple).
-    sigma_min : Interval
-        Smallest singular value.
+    sigma_min : Interval or None
+        Smallest singular value; None if the enclosures leave it open.
     condition : Interval or None
         Largest singular value by the smallest; None where the smallest is not proved positive.
     length : Fraction
@@ -52,7 +52,7 @@ class LegJacobian:
 
     det_sign: int | None
     rank: int | None
-    sigma_min: Interval
+    sigma_min: Interval | None
     condition: Interval | None
     length: Fraction
 
@@ -113,6 +113,8 @@ def _leg_jacobian(
     length = characteristic_length(problem)
     matrix = _matrix(problem, position, [rotation[0:3], rotation[3:6], rotation[6:9]], length)
     spectrum = _spectrum(matrix)
+    if spectrum is None:
+        return LegJacobian(None, None, None, None, length) if last else None
     if multiplicity is not None and multiplicity > 1:
         if spectrum.second_is_positive:
             return LegJacobian(0, matrix.ncols() - 1, Interval(Fraction(0), Fraction(0)), None, length)
@@ -153,14 +155,18 @@ class _Spectrum:
     largest: arb
 
 
-def _spectrum(matrix: arb_mat) -> _Spectrum:
+def _spectrum(matrix: arb_mat) -> _Spectrum | None:
     """Bounds for the singular values: the eigenvalues of J^T J, symmetric, without a need to tell them apart.
+
+    None if the enclosures are too wide for any bound.
 
     With an approximate eigenvector matrix V, floating but exact as it stands, V^-1 (J^T J) V is similar to J^T J and
     nearly diagonal: all eigenvalues lie in its Gershgorin discs. Rayleigh quotients bound the extreme ones from inside.
     """
     symmetric = matrix.transpose() * matrix
     size = symmetric.nrows()
+    if not all(entry.is_finite() for entry in symmetric.entries()):
+        return None
     with mpmath.workprec(ctx.prec):
         middle = mpmath.matrix([[mpmath.mpf(symmetric[i, j].mid()._mpf_) for j in range(size)] for i in range(size)])
         vectors = mpmath.eigsy((middle + middle.T) / 2)[1]
@@ -170,6 +176,8 @@ def _spectrum(matrix: arb_mat) -> _Spectrum:
     for i in range(size):
         radius = sum((abs(similar[i, j]) for j in range(size) if j != i), arb(0))
         discs.append((similar[i, i] - radius, similar[i, i] + radius))
+    if not all(end.is_finite() for disc in discs for end in disc):
+        return None
     discs.sort(key=lambda disc: _ends(disc[0])[0])
     columns = [arb_mat(size, 1, [basis[i, j] for i in range(size)]) for j in range(size)]
     quotients = [
@@ -181,7 +189,7 @@ def _spectrum(matrix: arb_mat) -> _Spectrum:
     largest = _hull(max(_ends(value)[0] for value in quotients), high)
     # A first disc apart from the others holds one eigenvalue, and the others lie in theirs.
     apart = all(discs[0][1] < disc[0] and disc[0] > 0 for disc in discs[1:])
-    return _Spectrum(smallest.sqrt(), apart, largest.sqrt())
+    return _Spectrum(smallest.nonnegative_part().sqrt(), apart, largest.sqrt())
 
 
 def _hull(low: Fraction, high: Fraction) -> arb:
