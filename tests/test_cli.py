@@ -315,3 +315,21 @@ def test_decimals_show_what_the_box_guarantees(lo: str, hi: str, text: str) -> N
     assert decimal(interval) == text
     unit = Fraction(1, 10 ** len(text.partition(".")[2]))
     assert max(abs(interval.lo - Fraction(text)), abs(interval.hi - Fraction(text))) <= unit
+
+
+def test_the_model_is_not_overwritten_by_its_certificate(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    model = tmp_path / "robot.toml"
+    text = (ROOT / "models" / "robocrane-r.toml").read_text()
+    model.write_text(text)
+    assert main(["solve", str(model), "-o", str(model)]) == 2
+    assert "is the model file itself" in capsys.readouterr().err
+    assert model.read_text() == text
+
+
+def test_a_byte_order_mark_and_a_closed_output_do_no_harm(tmp_path: Path) -> None:
+    model = tmp_path / "robot.toml"
+    model.write_bytes(b"\xef\xbb\xbf" + (ROOT / "models" / "3-rpr-merlet-p.toml").read_bytes())
+    start = "import sys; from pkm_exact.cli.main import main; sys.exit(main())"
+    command = f"exec {sys.executable} -c '{start}' solve {model} >&-"
+    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")

@@ -82,3 +82,16 @@ def test_a_multiple_pose_is_counted_and_singular(name: str, multiplicity: int, t
     lie = data.replace(f'"multiplicity": {multiplicity}'.encode(), b'"multiplicity": 1')
     assert lie != data
     assert check_bytes(lie).status == "rejected"
+
+
+def test_two_multiple_poses_that_are_not_conjugate_share_what_is_known() -> None:
+    """Similar planar robots, at a pose without rotation: two poses hold all 16 solutions; each share stays open."""
+    base = ((0, 0), (4, 0), (7, 3), (4, 8), (0, 7), (-2, 3))
+    legs = []
+    for x, y in base:
+        square = (Fraction(1, 2) - Fraction(x, 2)) ** 2 + (Fraction(1, 3) - Fraction(y, 2)) ** 2 + 25
+        legs.append(Leg((Fraction(x), Fraction(y), Fraction(0)), (Fraction(x, 2), Fraction(y, 2), Fraction(0)), square))
+    solution = solve(ForwardProblem(tuple(legs)))
+    assert (solution.claim, solution.complex_solutions, solution.distinct_solutions) == (Claim.COMPLETE, 16, 2)
+    assert [pose.multiplicity for pose in solution.poses] == [None, None]
+    assert all(pose.jacobian is not None and pose.jacobian.det_sign is None for pose in solution.poses)

@@ -7,16 +7,14 @@ precision or a prime.
 
 from __future__ import annotations
 
-import errno
 import json
 import os
 from collections.abc import Iterable, Mapping
 from hashlib import sha256
-from pathlib import Path
-from secrets import token_hex
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.certify.witness import sphere_witnesses
+from pkm_exact.files import write_whole
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
@@ -110,19 +108,7 @@ def write_certificate(path: str | os.PathLike[str], content: dict[str, Any]) -> 
     OSError
         If the file cannot be written; what stood there before is then untouched.
     """
-    target = Path(os.path.realpath(path))
-    if target.exists() and not target.is_file():
-        raise OSError(errno.EINVAL, "not a regular file", str(target))
-    data = canonical_bytes(content)
-    draft = target.with_name(f".{target.name[:100]}.{token_hex(8)}.tmp")
-    try:
-        with draft.open("xb") as stream:
-            stream.write(data)
-            stream.flush()
-            os.fsync(stream.fileno())
-        draft.replace(target)
-    finally:
-        draft.unlink(missing_ok=True)
+    write_whole(path, canonical_bytes(content))
 
 
 def _texts(values: Iterable[object]) -> list[str]:

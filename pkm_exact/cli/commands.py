@@ -92,6 +92,7 @@ def solve(
     robot = read_robot(model)
     chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     if output is not None:
+        arguments.require_other_file(Path(output), model, "-o")
         arguments.require_writable(Path(output), "-o")
 
     from pkm_exact.cli.progress import Progress

@@ -54,6 +54,7 @@ def formulations(
     robot = read_robot(model)
     chosen, problem = arguments.chosen_problem(robot, model, configuration)
     if output is not None:
+        arguments.require_other_file(Path(output), model, "--json")
         arguments.require_writable(Path(output), "--json")
 
     from pkm_exact.cli.formulations_table import print_tables
@@ -102,6 +103,7 @@ def export(
     robot = read_robot(model)
     chosen, problem = arguments.chosen_problem(robot, model, configuration)
     if output is not None:
+        arguments.require_other_file(Path(output), model, "-o")
         arguments.require_writable(Path(output), "-o")
 
     from pkm_exact.export.targets import export as exported

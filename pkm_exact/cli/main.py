@@ -11,6 +11,7 @@ import os
 import sys
 from collections.abc import Sequence
 from enum import IntEnum
+from pathlib import Path
 
 import click
 
@@ -46,6 +47,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     certify-poses 0.1.0
     0
     """
+    if sys.stdout is None:  # closed by the caller: the exit code and the files still count
+        sys.stdout = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - the output from now on
     _accept_any_character()
     try:
         code = _run(arguments)

@@ -108,7 +108,7 @@ def _bytes(name: str) -> bytes:
 
 def _text(data: bytes) -> str:
     try:
-        text = data.decode("utf-8")
+        text = data.decode("utf-8-sig")  # some editors put a byte order mark first
     except UnicodeDecodeError as error:
         raise InputError(f"byte {error.start + 1} is not UTF-8 text; save the model file as UTF-8") from None
     return text.replace("\r\n", "\n")

@@ -29,6 +29,8 @@ GREATEST_PRECISION = 1 << 13
 """Bits after which an undecided Jacobian stays undecided; only poses not proved simple get there."""
 OUTPUT_BITS = 40
 """Significant bits of the intervals returned."""
+FINEST_EXPONENT = 256
+"""Intervals returned lie on the grid 2^-256 at the finest: a bound that close to 0 says enough."""
 
 
 @dataclass(frozen=True)
@@ -203,7 +205,7 @@ def _outward(value: arb) -> Interval:
     low, high = _ends(value)
     if high <= 0:
         return Interval(Fraction(0), Fraction(0))
-    shift = OUTPUT_BITS - (high.numerator.bit_length() - high.denominator.bit_length())
+    shift = min(OUTPUT_BITS - (high.numerator.bit_length() - high.denominator.bit_length()), FINEST_EXPONENT)
     scale = Fraction(2) ** shift
     return Interval(max(Fraction(0), (low * scale).__floor__() / scale), -((-high * scale).__floor__() / scale))
 
