@@ -24,7 +24,6 @@ from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import exponent_for_width, pose_boxes
 from pkm_exact.poses.completeness import (
     CompletenessProof,
-    are_isolated,
     multiplicities,
     prove_complete,
     prove_inconsistent,
@@ -40,6 +39,7 @@ from pkm_exact.poses.self_motion import (
     leg_rank,
     translational_motion,
 )
+from pkm_exact.poses.singularity import jacobian_rank
 from pkm_exact.poses.study_equations import Chart, StudyEquations, free_coordinates
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
@@ -126,10 +126,8 @@ class _Run:
         proof = prove_complete(representation, self.problem, self.policy)
         self._enter("real roots and boxes")
         exponent, poses = pose_boxes(representation, self.problem.metric, width)
-        poses = self._with_multiplicities(poses, representation, proof)
         self._enter("Jacobians")
-        jacobians = pose_jacobians(representation, self.problem, [pose.multiplicity for pose in poses])
-        poses = tuple(replace(pose, jacobian=found) for pose, found in zip(poses, jacobians, strict=True))
+        poses = self._with_jacobians(poses, representation, proof)
         self._leave()
         degree = representation.univariate.degree
         return Solution(
@@ -163,17 +161,18 @@ class _Run:
                 return SelfMotion(missing, extended.legs[len(self.problem.legs) :], representation)
         return None
 
-    def _with_multiplicities(
+    def _with_jacobians(
         self, poses: tuple[Pose, ...], representation: PoseRepresentation, proof: CompletenessProof | None
     ) -> tuple[Pose, ...]:
-        """The poses with the multiplicities that are proved; without a proof of completeness, none but simple ones."""
-        if proof is None:
-            simple = are_isolated(representation, self.problem, self.policy)
-            return poses if simple else tuple(replace(pose, multiplicity=None) for pose in poses)
-        found = multiplicities(representation, self.problem, proof.total, self.policy)
+        """The poses with the multiplicities that are proved, and what is certified of their Jacobians."""
+        total = None if proof is None else proof.total
+        found = multiplicities(representation, self.problem, total, self.policy)
+        ranks = [None if count == 1 else jacobian_rank(representation, self.problem, f) for f, count in found]
+        places = [next(k for k, (f, _) in enumerate(found) if has_root(f, pose.parameter)) for pose in poses]
+        jacobians = pose_jacobians(representation, self.problem, [ranks[place] for place in places])
         return tuple(
-            replace(pose, multiplicity=next(m for factor, m in found if has_root(factor, pose.parameter)))
-            for pose in poses
+            replace(pose, multiplicity=found[place][1], jacobian=jacobian)
+            for pose, place, jacobian in zip(poses, places, jacobians, strict=True)
         )
 
     def _started(self) -> _Start:

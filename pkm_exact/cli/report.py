@@ -107,7 +107,7 @@ def _jacobian(jacobian: LegJacobian | None) -> dict[str, Any] | None:
     return {
         "det_sign": jacobian.det_sign,
         "rank": jacobian.rank,
-        "sigma_min": None if jacobian.sigma_min is None else _bounds(jacobian.sigma_min),
+        "sigma_min": _bounds(jacobian.sigma_min),
         "condition": None if jacobian.condition is None else _bounds(jacobian.condition),
         "length": str(jacobian.length),
     }

@@ -101,7 +101,7 @@ def _planar(pose: Pose) -> tuple[str, ...]:
 
 def _jacobian(pose: Pose) -> tuple[str, str]:
     """Sign of the determinant of the leg Jacobian, and its condition number."""
-    if pose.jacobian is None or pose.jacobian.det_sign is None:
+    if pose.jacobian is None:
         return "?", "?"
     if pose.jacobian.condition is None:
         return "0", "singular"

@@ -81,21 +81,23 @@ def prove_complete(
 
 
 def multiplicities(
-    representation: PoseRepresentation, problem: ForwardProblem, total: int, policy: Policy
+    representation: PoseRepresentation, problem: ForwardProblem, total: int | None, policy: Policy
 ) -> tuple[tuple[fmpz_poly, int | None], ...]:
-    """Irreducible factors of h with the multiplicity of their roots as poses; None where it is not determined.
+    """Factors of h with the multiplicity of their roots as poses; None where it is not determined.
 
     Parameters
     ----------
     representation : PoseRepresentation
-        Verified and proved complete.
-    total : int
-        Number of solutions with multiplicity.
+        Verified.
+    total : int or None
+        Number of solutions with multiplicity, if the representation is proved complete.
     """
     h = representation.univariate.primitive_polynomial
-    if total == h.degree():
+    if total == h.degree() or are_isolated(representation, problem, policy):
         return ((h, 1),)
     factors = [factor for factor, _ in h.factor()[1]]
+    if total is None:
+        return tuple((factor, None) for factor in factors)
     singular = [factor for factor in factors if not are_isolated(representation, problem, policy, factor)]
     left = total - sum(int(factor.degree()) for factor in factors if factor not in singular)
     shared = left // int(singular[0].degree()) if len(singular) == 1 else None

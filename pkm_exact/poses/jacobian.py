@@ -16,6 +16,7 @@ from math import isqrt
 import mpmath
 from flint import arb, arb_mat, ctx
 
+from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.poses.boxes import ordinary_coordinates
@@ -26,11 +27,14 @@ from pkm_exact.roots.isolation import real_root_enclosures
 LEAST_PRECISION = 192
 """Bits in which Jacobians are enclosed first."""
 GREATEST_PRECISION = 1 << 13
-"""Bits after which an undecided Jacobian stays undecided; only poses not proved simple get there."""
+"""Bits that suffice for any Jacobian that is regular; singular ones are known beforehand, exactly."""
 OUTPUT_BITS = 40
 """Significant bits of the intervals returned."""
 FINEST_EXPONENT = 256
 """Intervals returned lie on the grid 2^-256 at the finest: a bound that close to 0 says enough."""
+
+
+_ZERO = Interval(Fraction(0), Fraction(0))
 
 
 @dataclass(frozen=True)
@@ -39,22 +43,21 @@ class LegJacobian:
 
     Attributes
     ----------
-    det_sign : int or None
-        Sign of the determinant, 0 if it is 0 exactly, None if undecided: assembly modes of different sign are separated
-        by singularities.
-    rank : int or None
-        None if the enclosures leave it open (only possible at a pose not proved simple).
-    sigma_min : Interval or None
-        Smallest singular value; None if the enclosures leave it open.
+    det_sign : int
+        Sign of the determinant, 0 if it is 0 exactly: assembly modes of different sign are separated by singularities.
+    rank : int
+        Exact rank; less than the number of legs at a singular pose.
+    sigma_min : Interval
+        Smallest singular value, exactly 0 at a singular pose.
     condition : Interval or None
-        Largest singular value by the smallest; None where the smallest is not proved positive.
+        Largest singular value by the smallest; None at a singular pose.
     length : Fraction
         The scaling length L, in the robot's unit.
     """
 
-    det_sign: int | None
-    rank: int | None
-    sigma_min: Interval | None
+    det_sign: int
+    rank: int
+    sigma_min: Interval
     condition: Interval | None
     length: Fraction
 
@@ -85,47 +88,45 @@ def characteristic_length(problem: ForwardProblem) -> Fraction:
 
 
 def pose_jacobians(
-    representation: PoseRepresentation, problem: ForwardProblem, multiplicities: Sequence[int | None]
+    representation: PoseRepresentation, problem: ForwardProblem, ranks: Sequence[int | None]
 ) -> list[LegJacobian]:
     """The Jacobians at the real poses, in the order of the roots of h; the precision rises until each is decided.
 
     Parameters
     ----------
-    multiplicities : sequence of int or None
-        Proved multiplicities of the poses: 1 means a regular Jacobian, more a singular one.
+    ranks : sequence of int or None
+        Exact ranks where they are known (``singularity``); None at poses that are proved simple.
     """
-    found: list[LegJacobian | None] = [None] * len(multiplicities)
+    length, full = characteristic_length(problem), len(problem.legs)
+    found: list[LegJacobian | None] = [
+        None if rank is None or rank == full else LegJacobian(0, rank, _ZERO, None, length) for rank in ranks
+    ]
     precision = LEAST_PRECISION
     while None in found:
+        if precision > GREATEST_PRECISION:
+            raise InternalContradictionError("a regular Jacobian is not confirmed by its enclosures")
         roots = real_root_enclosures(representation.univariate.primitive_polynomial, precision)
         with ctx.workprec(precision):
-            for index, (root, multiplicity) in enumerate(zip(roots, multiplicities, strict=True)):
+            for index, root in enumerate(roots):
                 if found[index] is None:
                     values = ordinary_coordinates(representation, problem.metric, root)
-                    last = precision >= GREATEST_PRECISION
-                    found[index] = _leg_jacobian(problem, values[:3], values[3:12], multiplicity, last)
+                    found[index] = _regular_jacobian(problem, values[:3], values[3:12], length)
         precision *= 2
     return [jacobian for jacobian in found if jacobian is not None]
 
 
-def _leg_jacobian(
-    problem: ForwardProblem, position: Sequence[arb], rotation: Sequence[arb], multiplicity: int | None, last: bool
+def _regular_jacobian(
+    problem: ForwardProblem, position: Sequence[arb], rotation: Sequence[arb], length: Fraction
 ) -> LegJacobian | None:
-    """The Jacobian at an enclosed pose; None if the enclosures are too wide, unless this is the last try."""
-    length = characteristic_length(problem)
+    """The Jacobian at an enclosed pose where it is regular; None if the enclosures are too wide to show it."""
     matrix = _matrix(problem, position, [rotation[0:3], rotation[3:6], rotation[6:9]], length)
-    spectrum = _spectrum(matrix)
-    if spectrum is None:
-        return LegJacobian(None, None, None, None, length) if last else None
-    if multiplicity is not None and multiplicity > 1:
-        if spectrum.second_is_positive:
-            return LegJacobian(0, matrix.ncols() - 1, Interval(Fraction(0), Fraction(0)), None, length)
-        return LegJacobian(0, None, Interval(Fraction(0), Fraction(0)), None, length) if last else None
-    determinant, smallest = matrix.det(), _outward(spectrum.smallest)
-    if spectrum.smallest > 0 and (determinant > 0 or determinant < 0) and 2 * smallest.lo >= smallest.hi:
-        condition = _outward(spectrum.largest / spectrum.smallest)
-        return LegJacobian(1 if determinant > 0 else -1, matrix.ncols(), smallest, condition, length)
-    return LegJacobian(None, None, smallest, None, length) if last else None
+    bounds, determinant = _extreme_singular_values(matrix), matrix.det()
+    if bounds is None or not (bounds[0] > 0 and (determinant > 0 or determinant < 0)):
+        return None
+    smallest, condition = _outward(bounds[0]), _outward(bounds[1] / bounds[0])
+    if 2 * smallest.lo < smallest.hi:
+        return None
+    return LegJacobian(1 if determinant > 0 else -1, len(problem.legs), smallest, condition, length)
 
 
 def _matrix(
@@ -148,22 +149,12 @@ def _matrix(
     return arb_mat(rows)
 
 
-@dataclass(frozen=True)
-class _Spectrum:
-    """Enclosures of the smallest, second smallest (from below only) and largest singular values."""
+def _extreme_singular_values(matrix: arb_mat) -> tuple[arb, arb] | None:
+    """Enclosures of the smallest and the largest singular value; None if the entries are too wide for any bound.
 
-    smallest: arb
-    second_is_positive: bool
-    largest: arb
-
-
-def _spectrum(matrix: arb_mat) -> _Spectrum | None:
-    """Bounds for the singular values: the eigenvalues of J^T J, symmetric, without a need to tell them apart.
-
-    None if the enclosures are too wide for any bound.
-
-    With an approximate eigenvector matrix V, floating but exact as it stands, V^-1 (J^T J) V is similar to J^T J and
-    nearly diagonal: all eigenvalues lie in its Gershgorin discs. Rayleigh quotients bound the extreme ones from inside.
+    With an approximate eigenvector matrix V of J^T J, floating but exact as it stands, V^-1 (J^T J) V is similar to it
+    and nearly diagonal: all eigenvalues lie in its Gershgorin discs. Rayleigh quotients bound the extreme ones from
+    inside. Eigenvalues need not be told apart.
     """
     symmetric = matrix.transpose() * matrix
     size = symmetric.nrows()
@@ -180,7 +171,6 @@ def _spectrum(matrix: arb_mat) -> _Spectrum | None:
         discs.append((similar[i, i] - radius, similar[i, i] + radius))
     if not all(end.is_finite() for disc in discs for end in disc):
         return None
-    discs.sort(key=lambda disc: _ends(disc[0])[0])
     columns = [arb_mat(size, 1, [basis[i, j] for i in range(size)]) for j in range(size)]
     quotients = [
         (column.transpose() * symmetric * column)[0, 0] / (column.transpose() * column)[0, 0] for column in columns
@@ -189,9 +179,7 @@ def _spectrum(matrix: arb_mat) -> _Spectrum | None:
     high = max(_ends(disc[1])[1] for disc in discs)
     smallest = _hull(max(Fraction(0), low), min(_ends(value)[1] for value in quotients))
     largest = _hull(max(_ends(value)[0] for value in quotients), high)
-    # A first disc apart from the others holds one eigenvalue, and the others lie in theirs.
-    apart = all(discs[0][1] < disc[0] and disc[0] > 0 for disc in discs[1:])
-    return _Spectrum(smallest.nonnegative_part().sqrt(), apart, largest.sqrt())
+    return smallest.nonnegative_part().sqrt(), largest.sqrt()
 
 
 def _hull(low: Fraction, high: Fraction) -> arb:
