@@ -1,6 +1,6 @@
 """The exact rank of the leg Jacobian at the roots of an irreducible factor of the eliminant.
 
-The six leg lines (d, b x d), with d = C + R B - A the leg and b = R B its arm, are computed in the field Q[T] / f. There
+The leg lines (d, b x d), with d = C + R B - A the leg and b = R B its arm, are computed in the field Q[T] / f. There
 every element is 0 or a unit, so that elimination decides each entry. Rational coordinates change the columns by
 factors other than 0; a planar robot has three lines with three coordinates.
 """
