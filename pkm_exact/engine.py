@@ -18,8 +18,9 @@ from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.base import FormulatedProblem
 from pkm_exact.formulations.registry import formulation as formulation_of
 from pkm_exact.formulations.registry import formulation_codes, formulation_for
-from pkm_exact.formulations.turned import Turn, candidate_turns, formulate_turned
+from pkm_exact.formulations.turned import candidate_turns, formulate_turned
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.notes import motion_note, open_question, turn_notes
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import exponent_for_width, pose_boxes
 from pkm_exact.poses.completeness import (
@@ -29,7 +30,8 @@ from pkm_exact.poses.completeness import (
     prove_inconsistent,
 )
 from pkm_exact.poses.jacobian import pose_jacobians
-from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms, modular_poses
+from pkm_exact.poses.modular import ModularPoses, modular_poses
+from pkm_exact.poses.parameters import Parameters, choose_parameters
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.self_motion import (
@@ -40,7 +42,7 @@ from pkm_exact.poses.self_motion import (
     translational_motion,
 )
 from pkm_exact.poses.singularity import jacobian_rank
-from pkm_exact.poses.study_equations import Chart, StudyEquations, free_coordinates
+from pkm_exact.poses.study_equations import StudyEquations, free_coordinates
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.verdict import Claim
@@ -103,7 +105,7 @@ class _Run:
         self._enter("self-motion")
         motion = self._self_motion()
         if motion is not None:
-            result = self._result(Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, _motion_note(motion))
+            result = self._result(Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, motion_note(motion))
             return replace(result, self_motion=motion)
         start = self._started()
         statistics = partial(self._statistics, start.elimination, start.image)
@@ -141,7 +143,7 @@ class _Run:
             representation=representation,
             box_exponent=exponent,
             poses=poses,
-            notes=start.notes if proof else (*start.notes, _open_question(start.poses.count, degree)),
+            notes=start.notes if proof else (*start.notes, open_question(start.poses.count, degree)),
             statistics=statistics(),
         )
 
@@ -190,7 +192,7 @@ class _Run:
                 expected = self._reference_count()
             count = None if poses is None else poses.count
             if not formulated.is_chart or count == expected:
-                return _Start(formulated, elimination, image, poses, _turn_notes(turn, attempt))
+                return _Start(formulated, elimination, image, poses, turn_notes(turn, attempt))
             self.retries += 1
         raise OutOfReachError(
             f"{self.code} misses poses in every frame of the platform that was tried: they have no finite coordinates"
@@ -219,7 +221,7 @@ class _Run:
         poses = start.poses
         for attempt in range(self.policy.attempts):
             self._enter("separating form")
-            chosen = None if poses is None else _choose_parameters(poses, self.problem, self.policy)
+            chosen = None if poses is None else choose_parameters(poses, self.problem, self.policy)
             if chosen is not None:
                 lifted = self._lifted(start, chosen, attempt)
                 self._enter("verification")
@@ -233,7 +235,7 @@ class _Run:
             f"no representation of the poses passed verification in {self.policy.attempts} attempts"
         )
 
-    def _lifted(self, start: _Start, chosen: _Parameters, attempt: int) -> PoseRepresentation | None:
+    def _lifted(self, start: _Start, chosen: Parameters, attempt: int) -> PoseRepresentation | None:
         equations = StudyEquations(self.problem, chosen.chart, self.policy.seed + attempt)
         form = [chosen.form[k] for k in equations.free]
         try:
@@ -250,7 +252,9 @@ class _Run:
                     parts.append(lift_by_newton(equations, form, modular, self.policy.lifting_bits))
                 else:
                     self._enter("lifting by primes")
-                    images = _parts(_further_images(start, chosen, self.problem), multiplicity, start)
+                    images = _parts(
+                        _further_images(start, chosen, self.problem), multiplicity, start, self.policy.attempts
+                    )
                     parts.append(lift_by_primes(form, images, self.policy.lifting_bits))
             univariate = union(parts)
         except UnluckyPrimeError:
@@ -308,30 +312,7 @@ class _Start:
     notes: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class _Parameters:
-    """A chart that holds all poses, a form that separates them, and the representation modulo the first prime."""
-
-    chart: Chart
-    form: Form
-    modular: ModularRepresentation
-
-
-def _choose_parameters(poses: ModularPoses, problem: ForwardProblem, policy: Policy) -> _Parameters | None:
-    """The first chart that misses no pose, and the first form that takes as many values as there are poses."""
-    for chart in islice(candidate_charts(policy.seed), policy.attempts):
-        coordinates = poses.coordinates(chart)
-        if coordinates is None:
-            continue
-        count = poses.distinct_poses(coordinates, policy.seed)
-        for form in islice(candidate_forms(chart, policy.seed), policy.attempts):
-            modular = poses.representation(coordinates, form, free_coordinates(chart, problem))
-            if modular.degree == count:
-                return _Parameters(chart, form, modular)
-    return None
-
-
-def _further_images(start: _Start, chosen: _Parameters, problem: ForwardProblem) -> Iterator[ModularRepresentation]:
+def _further_images(start: _Start, chosen: Parameters, problem: ForwardProblem) -> Iterator[ModularRepresentation]:
     """The representation in the chosen chart and form at one prime after another."""
     while True:
         poses = modular_poses(start.formulated, start.elimination.following().algebra, problem.metric)
@@ -341,44 +322,21 @@ def _further_images(start: _Start, chosen: _Parameters, problem: ForwardProblem)
 
 
 def _parts(
-    images: Iterator[ModularRepresentation], multiplicity: int, start: _Start
+    images: Iterator[ModularRepresentation], multiplicity: int, start: _Start, misses_allowed: int
 ) -> Iterator[ModularRepresentation]:
-    """Of every image the solutions of one multiplicity; primes at which there are none are left out."""
+    """Of every image the solutions of one multiplicity.
+
+    Raises
+    ------
+    UnluckyPrimeError
+        If too many primes have none: the multiplicity was an accident of the first prime.
+    """
+    misses = 0
     for image in images:
         part = image.parts(start.formulated.fibre).get(multiplicity)
         if part is not None:
             yield part
-
-
-def _turn_notes(turn: Turn, attempt: int) -> tuple[str, ...]:
-    if attempt == 0:
-        return ()
-    words = ", ".join(map(str, turn))
-    note = (
-        "in the given frame of the platform some pose has no finite coordinates in this formulation; it was solved in "
-        f"the frame turned by the quaternion ({words}), and the poses were turned back"
-    )
-    return (note,)
-
-
-def _motion_note(motion: SelfMotion | TranslationalMotion) -> str:
-    if isinstance(motion, TranslationalMotion):
-        return (
-            "self-motion: base and platform are congruent and the legs equal, so that the platform moves on a sphere "
-            "without turning"
-        )
-    return (
-        f"architecture singularity: the legs give only {6 - motion.dimension} independent conditions on rigid motions, "
-        f"and the robot moves with its legs locked, in dimension {motion.dimension} at least"
-    )
-
-
-def _open_question(count: int, distinct: int) -> str:
-    if distinct < count:
-        return (
-            f"{count} complex solutions with multiplicity, {distinct} distinct; multiple ones are not certified as "
-            "such, and that there is no other is not proved"
-        )
-    return (
-        f"{count} finite solutions were found; each one listed is certified, but that there is no other is not proved"
-    )
+            continue
+        misses += 1
+        if misses > misses_allowed:
+            raise UnluckyPrimeError(f"solutions of multiplicity {multiplicity} appear at the first prime only")

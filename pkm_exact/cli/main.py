@@ -1,8 +1,8 @@
 """Entry point of ``certify-poses``: exit codes, and errors as one sentence on stderr.
 
-Exit codes: 0 done, and the claim is "complete" (or every certificate was accepted); 1 a certificate was rejected;
-2 input or usage that cannot be used; 3 done, but the claim is weaker than complete; 4 no answer, the engine gave up or
-contradicted itself; 130 interrupted; 141 the reader of the output went away.
+Exit codes: 0 done, and the claim is "complete" or "inconsistent" (or every certificate was accepted); 1 a certificate
+was rejected; 2 input or usage that cannot be used; 3 done, but the claim is weaker than complete; 4 no answer, the
+engine gave up or contradicted itself; 130 interrupted; 141 the reader of the output went away.
 """
 
 from __future__ import annotations

@@ -1,0 +1,35 @@
+"""The choice of a chart of rotations and of a separating form, tested modulo a prime."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import islice
+
+from pkm_exact.algebra.rur import ModularRepresentation
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.policy import Policy
+from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms
+from pkm_exact.poses.study_equations import Chart, free_coordinates
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """A chart that holds all poses, a form that separates them, and the representation modulo the first prime."""
+
+    chart: Chart
+    form: Form
+    modular: ModularRepresentation
+
+
+def choose_parameters(poses: ModularPoses, problem: ForwardProblem, policy: Policy) -> Parameters | None:
+    """The first chart that misses no pose, and the first form that takes as many values as there are poses."""
+    for chart in islice(candidate_charts(policy.seed), policy.attempts):
+        coordinates = poses.coordinates(chart)
+        if coordinates is None:
+            continue
+        count = poses.distinct_poses(coordinates, policy.seed)
+        for form in islice(candidate_forms(chart, policy.seed), policy.attempts):
+            modular = poses.representation(coordinates, form, free_coordinates(chart, problem))
+            if modular.degree == count:
+                return Parameters(chart, form, modular)
+    return None
