@@ -25,6 +25,7 @@ from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import exponent_for_width, pose_boxes
 from pkm_exact.poses.completeness import (
     CompletenessProof,
+    are_isolated,
     multiplicities,
     prove_complete,
     prove_inconsistent,
@@ -102,6 +103,7 @@ class _Run:
 
     def solution(self, width: Fraction) -> Solution:
         exponent = exponent_for_width(width)
+        formulation_for(self.code, self.problem)  # an unknown code is refused whatever the robot
         self._enter("self-motion")
         motion = self._self_motion()
         if motion is not None:
@@ -169,7 +171,12 @@ class _Run:
         """The poses with the multiplicities that are proved, and what is certified of their Jacobians."""
         total = None if proof is None else proof.total
         found = multiplicities(representation, self.problem, total, self.policy)
-        ranks = [None if count == 1 else jacobian_rank(representation, self.problem, f) for f, count in found]
+        ranks = [
+            None
+            if count == 1 or are_isolated(representation, self.problem, self.policy, factor)
+            else jacobian_rank(representation, self.problem, factor)
+            for factor, count in found
+        ]
         places = [next(k for k, (f, _) in enumerate(found) if has_root(f, pose.parameter)) for pose in poses]
         jacobians = pose_jacobians(representation, self.problem, [ranks[place] for place in places])
         return tuple(

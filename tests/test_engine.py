@@ -331,3 +331,10 @@ def test_stages_are_reported_in_order() -> None:
 def test_an_unknown_formulation_is_refused() -> None:
     with pytest.raises(InputError, match="is unknown"):
         solve(shipped("robocrane-r"), formulation="AFD9")
+
+
+def test_an_unknown_formulation_is_refused_even_where_none_is_needed() -> None:
+    origin = (Fraction(0),) * 3
+    problem = ForwardProblem(tuple(Leg(origin, origin, Fraction(1)) for _ in range(6)))
+    with pytest.raises(InputError, match="is unknown"):
+        solve(problem, formulation="AFD9")

@@ -26,6 +26,7 @@ from pkm_exact.algebra.exact_quotient import exact_quotient
 from pkm_exact.algebra.newton import is_regular
 from pkm_exact.algebra.primes import primes_below
 from pkm_exact.algebra.quotient import standard_monomials
+from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.motion_variety import SE3
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
@@ -93,14 +94,24 @@ def multiplicities(
         Number of solutions with multiplicity, if the representation is proved complete.
     """
     h = representation.univariate.primitive_polynomial
-    if total == h.degree() or are_isolated(representation, problem, policy):
+    if total == h.degree():
+        return ((h, 1),)
+    if are_isolated(representation, problem, policy):
+        if total is not None:
+            raise InternalContradictionError(
+                "all poses are simple, but there are fewer than solutions with multiplicity"
+            )
         return ((h, 1),)
     factors = [factor for factor, _ in h.factor()[1]]
     if total is None:
         return tuple((factor, None) for factor in factors)
     singular = [factor for factor in factors if not are_isolated(representation, problem, policy, factor)]
     left = total - sum(int(factor.degree()) for factor in factors if factor not in singular)
-    shared = left // int(singular[0].degree()) if len(singular) == 1 else None
+    if len(singular) != 1:
+        return tuple((factor, None if factor in singular else 1) for factor in factors)
+    shared, rest = divmod(left, int(singular[0].degree()))
+    if rest or shared < 2:
+        raise InternalContradictionError("the multiplicities do not sum to the number of solutions")
     return tuple((factor, shared if factor in singular else 1) for factor in factors)
 
 
