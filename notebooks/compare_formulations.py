@@ -122,19 +122,20 @@ figure.tight_layout()
 # ## What makes a basis hard
 #
 # The elimination treats critical pairs degree by degree, each batch in one matrix. The recorded trace shows the
-# matrices that brought something new: their degree and their number of columns.
+# matrices that brought something new: their degree and their rank.
 
 # %%
 traces = {}
 for code in codes:
     branch = formulated[code].branches[0]
     steps = Elimination(branch, policy).image(record=True).basis.trace.steps
-    traces[code] = [(branch.monomials.degree(step.columns[0]), len(step.rows), len(step.columns)) for step in steps]
+    degree = branch.monomials.degree
+    traces[code] = [(max(map(degree, step.leading)), len(step.rows), len(step.leading)) for step in steps]
 
 
 def volume(steps):
-    """Rows times columns, summed."""
-    return sum(rows * columns for _, rows, columns in steps)
+    """Rows times rank, summed."""
+    return sum(rows * rank for _, rows, rank in steps)
 
 
 def falls(steps):
@@ -154,8 +155,8 @@ hardest_first = sorted(codes, key=lambda code: volume(traces[code]), reverse=Tru
 figure, (left, right) = plt.subplots(1, 2, figsize=(10, 3.6), sharey=True)
 left.barh(hardest_first, [volume(traces[code]) for code in hardest_first])
 left.set(xscale="log", title="entries of all matrices")
-right.barh(hardest_first, [max(columns for _, _, columns in traces[code]) for code in hardest_first])
-right.set(title="columns of the largest matrix")
+right.barh(hardest_first, [max(rank for _, _, rank in traces[code]) for code in hardest_first])
+right.set(title="rank of the largest matrix")
 figure.tight_layout()
 
 # %% [markdown]

@@ -15,6 +15,7 @@ from pkm_exact.algebra.groebner import (
 )
 from pkm_exact.algebra.primes import primes_below
 from pkm_exact.algebra.quotient import normal_set
+from pkm_exact.algebra.reduction import FIRST_COMBINATIONS, new_rows, read_row, row_echelon, row_matrix
 from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring
 
 SMALL_PRIME = 32003
@@ -110,3 +111,33 @@ def test_a_prime_that_moves_a_generator_is_unlucky() -> None:
 def test_a_degree_beyond_the_limit_is_out_of_reach() -> None:
     with pytest.raises(OutOfReachError, match="exceeds the limit 3"):
         _learn(cyclic(5), BIG_PRIME, degree_limit=3)
+
+
+@pytest.mark.parametrize("prime", [101, SMALL_PRIME, BIG_PRIME])
+@pytest.mark.parametrize(("leads", "others", "rank"), [(3, 5, 2), (60, 9, 9), (120, 150, 12), (55, 260, 70), (1, 0, 0)])
+def test_new_rows_are_those_of_the_whole_echelon_form(leads: int, others: int, rank: int, prime: int) -> None:
+    random = Random(leads)
+    width = leads + rank + 20
+    tops = sorted(random.sample(range(20, width), leads), reverse=True)
+
+    def polynomial(lead: int, support: list[int]) -> tuple[list[int], list[int]]:
+        below = sorted({monomial for monomial in support if monomial < lead}, reverse=True)
+        return [lead, *below], [1, *(random.randrange(1, prime) for _ in below)]
+
+    known = [polynomial(lead, random.sample(range(width), 9)) for lead in tops]
+    sources = [polynomial(random.choice(tops), random.sample(range(width), 9)) for _ in range(rank)]
+    known += [random.choice(sources) for _ in range(others)] if rank else []
+    rows = [(index, 0) for index in range(len(known))]
+    random.shuffle(rows)
+    columns = list(range(width - 1, -1, -1))
+    echelon, pivots = row_echelon(row_matrix(rows, known, columns, prime))
+    new = [row for row, pivot in enumerate(pivots) if columns[pivot] not in set(tops)]
+    assert new_rows(rows, known, prime) == [read_row(echelon, row, columns, pivots[row]) for row in new]
+
+
+def test_combinations_are_tried_and_do_not_suffice_at_once() -> None:
+    # As many new rows as there are combinations at first: that they span everything cannot be concluded.
+    size = FIRST_COMBINATIONS
+    known = [([100], [1])] + [([100, index % size], [1, 1]) for index in range(5 * size)]
+    found = new_rows([(index, 0) for index in range(len(known))], known, BIG_PRIME)
+    assert found == [([index], [1]) for index in range(size - 1, -1, -1)]

@@ -1,7 +1,11 @@
 """Systems of any kind are lifted to Q: both ways give the same representation, and it satisfies the system."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import pytest
-from samples import images, katsura, random_quadrics, system
+from flint import nmod_poly
+from samples import images, katsura, random_quadrics, shipped, solved, system
 
 from pkm_exact.algebra.elimination import Elimination
 from pkm_exact.algebra.equations import SystemEquations
@@ -11,6 +15,7 @@ from pkm_exact.algebra.rur import ModularRepresentation, modular_representation
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.errors import ReconstructionError
 from pkm_exact.policy import Policy
+from pkm_exact.poses.study_equations import StudyEquations
 
 CASES = {
     "circle and hyperbola": (system("x y", "x**2 + y**2 - 5", "3*x*y - 7"), (1, 2)),
@@ -97,3 +102,63 @@ def test_squares_are_not_squarefree() -> None:
     double = UnivariateRepresentation((1,), (4, -4, 1), ((0,),))
     assert not double.is_squarefree
     assert not are_coprime(double.polynomial, double.polynomial.derivative())
+
+
+@dataclass(frozen=True)
+class Graph:
+    """z = x^2 / 7 - y, of which there is nothing but squares of numerators; or no answer at all."""
+
+    known: int
+    answers: bool
+
+    def modulo(self, eliminant: nmod_poly, numerators: Sequence[nmod_poly]) -> list[nmod_poly] | None:
+        if not self.answers:
+            return None
+        x, y = numerators
+        prime = int(eliminant.modulus())
+        inverse = eliminant.derivative().xgcd(eliminant)[1]
+        return [(x * x * inverse * pow(7, -1, prime) - y) % eliminant]
+
+
+@dataclass(frozen=True)
+class CompletedEquations(SystemEquations):
+    """Equations of which the last coordinate follows from the first two."""
+
+    answers: bool = True
+
+    def completion(self, form: Sequence[int]) -> Graph:  # type: ignore[override]
+        assert form[2] == 0
+        return Graph(2, self.answers)
+
+
+@pytest.mark.parametrize("answers", [True, False])
+def test_a_completion_gives_what_lifting_gives(answers: bool) -> None:
+    polynomials = system("x y z", "x**3 + 5*y**2 - 13*x + 2", "x*y - 97*y + 31", "7*z - x**2 + 7*y")
+    form = (1, 2, 0)
+    modular = _modular(Elimination(polynomials, Policy()).image(), form)
+    expected = lift_by_newton(SystemEquations(polynomials, 1), form, modular, 1 << 16)
+    assert satisfies(expected, polynomials)
+    assert lift_by_newton(CompletedEquations(polynomials, 1, answers), form, modular, 1 << 16) == expected
+
+
+@pytest.mark.parametrize("name", ["rolland-6-6", "mssm", "3-rpr-merlet-p", "ssm-exact"])
+def test_translations_follow_from_rotations(name: str) -> None:
+    found = solved(name).representation
+    assert found is not None
+    problem, univariate = shipped(name), found.univariate
+    equations = StudyEquations(problem, found.chart, seed=3)
+    form = [univariate.form[k] for k in equations.free]
+    translation = equations.completion(form)
+    assert translation is not None
+    assert translation.known == sum(k < 4 for k in equations.free)
+    prime = 2**61 - 1
+    h = nmod_poly(univariate.polynomial, prime)
+    scale = pow(int(h.leading_coefficient()), -1, prime)
+    numerators = [nmod_poly(univariate.numerator_polynomials[k], prime) * scale for k in equations.free]
+    assert translation.modulo(h * scale, numerators[: translation.known]) == numerators[translation.known :]
+
+
+def test_a_form_in_the_translation_leaves_nothing_to_follow() -> None:
+    equations = StudyEquations(shipped("rolland-6-6"), (1, 0, 0, 0), seed=1)
+    assert equations.completion((0, 0, 1, 0, 0, 0, 0)) is not None
+    assert equations.completion((0, 0, 1, 0, 0, 5, 0)) is None

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy.polys.orderings import grevlex
 
-from pkm_exact.algebra.monomials import FIELD_BITS, MonomialRing
+from pkm_exact.algebra.monomials import FIELD_BITS, MonomialRing, divides, exponent_fields
 
 SIZE = 4
 RING = MonomialRing(SIZE)
@@ -36,3 +36,13 @@ def test_a_degree_beyond_the_field_is_refused() -> None:
     assert RING.unpack(RING.pack((2**FIELD_BITS - 1, 0, 0, 0)))[0] == 2**FIELD_BITS - 1
     with pytest.raises(OverflowError, match="packing limit"):
         RING.pack((2**FIELD_BITS - 1, 1, 0, 0))
+
+
+LARGEST = 2**FIELD_BITS - 1
+wide = st.tuples(*[st.integers(0, 3) | st.integers(LARGEST - 3, LARGEST)] * SIZE)
+
+
+@given(wide, wide)
+def test_divisibility_is_that_of_every_exponent(left: tuple[int, ...], right: tuple[int, ...]) -> None:
+    expected = all(a <= b for a, b in zip(left, right, strict=True))
+    assert divides(exponent_fields(left), exponent_fields(right)) == expected

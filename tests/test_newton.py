@@ -63,6 +63,14 @@ def test_each_step_lifts_the_one_before(polynomials: PolynomialSystem, form: tup
             assert [value % coarse.modulus for value in padded[1]] == padded[0]
 
 
+def test_every_step_has_the_precision_that_it_needs() -> None:
+    reached, previous = 1, 1
+    for target, factored in precision_schedule(5000):
+        assert previous <= factored <= reached < target <= reached + factored
+        reached, previous = target, factored
+    assert reached > 3500
+
+
 def test_a_multiple_solution_is_not_lifted() -> None:
     # (x - y)^2 = 0 on the circle: two double points, of equal multiplicity.
     polynomials = system("x y", "(x - y)**2", "x**2 + y**2 - 3")

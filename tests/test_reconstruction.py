@@ -66,3 +66,14 @@ def test_many_numerators_need_little_more_than_their_own_size() -> None:
     found = common_fraction(_residues(values, denominator), MODULUS)
     assert found is not None
     assert [Fraction(value, found[1]) for value in found[0]] == [Fraction(value, denominator) for value in values]
+
+
+def test_a_right_guess_of_the_weight_needs_less_modulus() -> None:
+    random = Random(6)
+    denominator = 2 * random.getrandbits(60) + 1
+    values = [random.getrandbits(460) for _ in range(16)]
+    residues = _residues(values, denominator)
+    found = common_fraction(residues, MODULUS, 1, 400)
+    assert found is not None
+    assert [Fraction(value, found[1]) for value in found[0]] == [Fraction(value, denominator) for value in values]
+    assert common_fraction(residues, MODULUS) is None

@@ -58,6 +58,10 @@ class SystemEquations:
         values = _MonomialValues(ring, point)
         return [[values.evaluate(polynomial) for polynomial in row] for row in self.derivatives]
 
+    def completion(self, form: Sequence[int]) -> None:  # noqa: ARG002  # the protocol names it
+        """None: no coordinates are known to follow from others."""
+        return
+
 
 class _MonomialValues:
     """Monomials at a point, each multiplied out once."""

@@ -14,8 +14,9 @@ from math import gcd
 
 from flint import fmpz_mat
 
-from pkm_exact.algebra.groebner import Row, Trace
+from pkm_exact.algebra.groebner import Trace
 from pkm_exact.algebra.monomials import MonomialRing
+from pkm_exact.algebra.reduction import Row
 from pkm_exact.algebra.system import PolynomialSystem
 
 ExactPolynomial = tuple[tuple[int, int], ...]

@@ -11,17 +11,13 @@ A Groebner basis modulo one prime is a guide, not a proof: what it suggests over
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from flint import nmod_mat
-
-from pkm_exact.algebra.monomials import MonomialRing
+from pkm_exact.algebra.monomials import MonomialRing, divides, exponent_fields
+from pkm_exact.algebra.reduction import Row, new_rows, read_row, row_echelon, row_matrix
 from pkm_exact.algebra.system import ModularPolynomial
 from pkm_exact.errors import PkmExactError
-
-Row = tuple[int, int]
-"""A row of a reduction matrix: index of a basis element and the monomial that multiplies it."""
 
 
 class OutOfReachError(PkmExactError):
@@ -34,11 +30,10 @@ class UnluckyPrimeError(PkmExactError):
 
 @dataclass(frozen=True)
 class Step:
-    """One matrix: the rows that span its row space, its columns, its pivots, and the pivots that are new."""
+    """One matrix: the rows that span its row space, all its leading monomials, and those of them that are new."""
 
     rows: tuple[Row, ...]
-    columns: tuple[int, ...]
-    pivots: tuple[int, ...]
+    leading: frozenset[int]
     new: tuple[int, ...]
 
 
@@ -129,71 +124,39 @@ def apply(trace: Trace, polynomials: list[ModularPolynomial], ring: MonomialRing
     if tuple(polynomial[0][0] for polynomial in known) != trace.start:
         raise UnluckyPrimeError(f"the generators have other leading monomials modulo {prime}")
     for step in trace.steps:
-        reduced, pivots = row_echelon(_matrix(step.rows, known, step.columns, prime))
-        if tuple(pivots) != step.pivots:
+        found = new_rows(step.rows, known, prime)
+        if _leading(step.rows, known) | {polynomial[0][0] for polynomial in found} != step.leading:
             raise UnluckyPrimeError(f"a pivot is lost modulo {prime}")
-        known.extend(_read_row(reduced, row, step.columns, step.pivots[row]) for row in step.new)
+        known.extend(polynomial for polynomial in found if polynomial[0][0] in step.new)
     elements = tuple(known[index] for index in trace.basis)
     return GroebnerBasis(prime, ring, elements, trace)
 
 
-def _matrix(rows: Iterable[Row], known: list[ModularPolynomial], columns: tuple[int, ...], prime: int) -> nmod_mat:
-    position = {monomial: index for index, monomial in enumerate(columns)}
-    width = len(columns)
-    entries: list[int] = []
-    count = 0
-    for index, multiplier in rows:
-        row = [0] * width
-        for monomial, coefficient in zip(*known[index], strict=True):
-            row[position[monomial + multiplier]] = coefficient
-        entries += row
-        count += 1
-    return nmod_mat(count, width, entries, prime)
-
-
-def row_echelon(matrix: nmod_mat) -> tuple[nmod_mat, list[int]]:
-    """Reduced row echelon form and the columns of its pivots."""
-    reduced, rank = matrix.rref()
-    pivots = []
-    column = 0
-    for row in range(rank):
-        while not reduced[row, column]:
-            column += 1
-        pivots.append(column)
-        column += 1
-    return reduced, pivots
-
-
-def _read_row(matrix: nmod_mat, row: int, columns: tuple[int, ...], start: int) -> ModularPolynomial:
-    monomials = []
-    coefficients = []
-    for column in range(start, len(columns)):
-        value = int(matrix[row, column])
-        if value:
-            monomials.append(columns[column])
-            coefficients.append(value)
-    return monomials, coefficients
+def _leading(rows: Sequence[Row], known: list[ModularPolynomial]) -> frozenset[int]:
+    return frozenset(known[index][0][0] + multiplier for index, multiplier in rows)
 
 
 def _interreduced(polynomials: list[ModularPolynomial], prime: int) -> list[ModularPolynomial]:
     """Row echelon form of the generators, smallest leading monomial last."""
-    columns = tuple(sorted({monomial for polynomial in polynomials for monomial in polynomial[0]}, reverse=True))
+    columns = sorted({monomial for polynomial in polynomials for monomial in polynomial[0]}, reverse=True)
     if not columns:
         return []
     rows = [(index, 0) for index in range(len(polynomials))]
-    reduced, pivots = row_echelon(_matrix(rows, polynomials, columns, prime))
-    return [_read_row(reduced, row, columns, pivot) for row, pivot in enumerate(pivots)]
+    reduced, pivots = row_echelon(row_matrix(rows, polynomials, columns, prime))
+    return [read_row(reduced, row, columns, pivot) for row, pivot in enumerate(pivots)]
 
 
-def _spanning_rows(matrix: nmod_mat) -> list[int]:
-    """Indices of rows that form a basis of the row space."""
-    return row_echelon(matrix.transpose())[1]
+def _spanning_rows(rows: list[Row], known: list[ModularPolynomial], prime: int) -> list[Row]:
+    """The first rows that form a basis of the row space."""
+    columns = sorted({monomial + multiplier for index, multiplier in rows for monomial in known[index][0]})
+    return [rows[index] for index in row_echelon(row_matrix(rows, known, columns, prime).transpose())[1]]
 
 
 @dataclass(frozen=True)
 class _Pair:
     degree: int
     lcm: tuple[int, ...]
+    fields: int
     first: int
     second: int
 
@@ -206,6 +169,7 @@ class _Elimination:
         self.prime = prime
         self.known: list[ModularPolynomial] = []
         self.exponents: list[tuple[int, ...]] = []
+        self.fields: list[int] = []
         self.active: list[int] = []
         self.pairs: list[_Pair] = []
         self._divisor_cache: dict[int, tuple[int, int]] = {}
@@ -232,14 +196,13 @@ class _Elimination:
         return [
             index
             for index in self.active
-            if not any(
-                other != index and _divides(self.exponents[other], self.exponents[index]) for other in self.active
-            )
+            if not any(other != index and divides(self.fields[other], self.fields[index]) for other in self.active)
         ]
 
     def _append(self, polynomial: ModularPolynomial) -> None:
         self.known.append(polynomial)
         self.exponents.append(self.ring.unpack(polynomial[0][0]))
+        self.fields.append(exponent_fields(self.exponents[-1]))
 
     def _reduce(self, selected: list[_Pair], record: bool) -> Step:
         chosen = set(selected)
@@ -249,21 +212,20 @@ class _Elimination:
             top = self.ring.pack(pair.lcm)
             for index in (pair.first, pair.second):
                 halves[(index, top - self.known[index][0][0])] = None
-        rows, columns = self._with_reducers(list(halves))
-        matrix = _matrix(rows, self.known, columns, self.prime)
-        reduced, pivots = row_echelon(matrix)
-        leading = {self.known[index][0][0] + multiplier for index, multiplier in rows}
-        new = [row for row, pivot in enumerate(pivots) if columns[pivot] not in leading]
-        if record and new:
-            rows = [rows[index] for index in _spanning_rows(matrix)]
+        rows = self._with_reducers(list(halves))
+        found = new_rows(rows, self.known, self.prime)
+        new = tuple(polynomial[0][0] for polynomial in found)
+        leading = _leading(rows, self.known).union(new)
+        if record and found:
+            rows = _spanning_rows(rows, self.known, self.prime)
         first = len(self.known)
-        for row in new:
-            self._append(_read_row(reduced, row, columns, pivots[row]))
+        for polynomial in found:
+            self._append(polynomial)
         for index in range(len(self.known) - 1, first - 1, -1):
             self._update(index)
-        return Step(tuple(rows), columns, tuple(pivots), tuple(new))
+        return Step(tuple(rows), leading, new)
 
-    def _with_reducers(self, rows: list[Row]) -> tuple[list[Row], tuple[int, ...]]:
+    def _with_reducers(self, rows: list[Row]) -> list[Row]:
         """Symbolic preprocessing: a reducer for every monomial that some leading monomial divides."""
         seen: set[int] = set()
         led = {self.known[index][0][0] + multiplier for index, multiplier in rows}
@@ -283,48 +245,41 @@ class _Elimination:
                 if divisor >= 0:
                     led.add(product)
                     rows.append((divisor, product - self.known[divisor][0][0]))
-        return rows, tuple(sorted(seen, reverse=True))
+        return rows
 
     def _divisor(self, monomial: int) -> int:
         """Index of a basis element whose leading monomial divides ``monomial``, or -1."""
         found, checked = self._divisor_cache.get(monomial, (-1, 0))
         if found >= 0 or checked == len(self.known):
             return found
-        exponents = self.ring.unpack(monomial)
-        for index in range(checked, len(self.known)):
-            if all(a <= b for a, b in zip(self.exponents[index], exponents, strict=True)):
-                found = index
-                break
+        fields = exponent_fields(self.ring.unpack(monomial))
+        divisors = (index for index in range(checked, len(self.known)) if divides(self.fields[index], fields))
+        found = next(divisors, -1)
         self._divisor_cache[monomial] = (found, len(self.known))
         return found
 
     def _update(self, index: int) -> None:
         """Add a basis element: form its pairs, prune by the criteria of Gebauer and Moeller."""
-        new = self.exponents[index]
-        lcms = {other: tuple(map(max, self.exponents[other], new)) for other in self.active}
-        self.pairs = [pair for pair in self.pairs if not self._superseded(pair, new)]
+        new, fields = self.exponents[index], self.fields[index]
+        self.pairs = [pair for pair in self.pairs if not (divides(fields, pair.fields) and self._superseded(pair, new))]
         classes: dict[tuple[int, ...], list[int]] = {}
-        for other, lcm in lcms.items():
-            classes.setdefault(lcm, []).append(other)
-        kept: list[tuple[int, ...]] = []
+        for other in self.active:
+            classes.setdefault(tuple(map(max, self.exponents[other], new)), []).append(other)
+        kept: list[int] = []
         for lcm in sorted(classes, key=sum):
-            if any(_divides(smaller, lcm) for smaller in kept):
+            multiple = exponent_fields(lcm)
+            if any(divides(smaller, multiple) for smaller in kept):
                 continue
-            kept.append(lcm)
+            kept.append(multiple)
             if any(sum(lcm) == sum(new) + sum(self.exponents[other]) for other in classes[lcm]):
                 continue
-            self.pairs.append(_Pair(sum(lcm), lcm, classes[lcm][0], index))
-        self.active = [other for other in self.active if not _divides(new, self.exponents[other])]
+            self.pairs.append(_Pair(sum(lcm), lcm, multiple, classes[lcm][0], index))
+        self.active = [other for other in self.active if not divides(fields, self.fields[other])]
         self.active.append(index)
 
     def _superseded(self, pair: _Pair, new: tuple[int, ...]) -> bool:
-        """Whether the pairs of the new element with both members make this pair superfluous."""
+        """Whether the pairs of a new element that divides the pair's multiple with both members replace the pair."""
         return (
-            _divides(new, pair.lcm)
-            and tuple(map(max, self.exponents[pair.first], new)) != pair.lcm
+            tuple(map(max, self.exponents[pair.first], new)) != pair.lcm
             and tuple(map(max, self.exponents[pair.second], new)) != pair.lcm
         )
-
-
-def _divides(divisor: tuple[int, ...], multiple: tuple[int, ...]) -> bool:
-    return all(a <= b for a, b in zip(divisor, multiple, strict=True))

@@ -1,13 +1,17 @@
-"""From representations modulo primes or prime powers to one over Q."""
+"""From representations modulo primes or prime powers to one over Q.
+
+Fractions that fit all residues may still be wrong: where the coefficients are nearly dependent, as beside a multiple
+solution, short ones fit long before the right ones do. So a caller says what it accepts, and lifting goes on otherwise.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from math import log2
+from typing import TypeAlias
 
-from flint import nmod_poly
-
+from pkm_exact.algebra.completion import CommonFractions, complete, padded
 from pkm_exact.algebra.newton import Equations, PadicRepresentation, lift
 from pkm_exact.algebra.reconstruction import common_fraction
 from pkm_exact.algebra.representation import UnivariateRepresentation, from_common_fractions
@@ -15,11 +19,20 @@ from pkm_exact.algebra.residue_ring import ResidueRing, coefficients
 from pkm_exact.algebra.rur import ModularRepresentation
 from pkm_exact.errors import ReconstructionError
 
+Acceptance: TypeAlias = Callable[[UnivariateRepresentation], bool]
+"""Whether a representation over Q is right, exactly."""
+
 
 def lift_by_newton(
-    equations: Equations, form: Sequence[int], modular: ModularRepresentation, limit_bits: int
+    equations: Equations,
+    form: Sequence[int],
+    modular: ModularRepresentation,
+    limit_bits: int,
+    accept: Acceptance | None = None,
 ) -> UnivariateRepresentation:
     """The representation over Q of which ``modular`` is the image modulo p, for simple solutions.
+
+    It is the first one that fits and is accepted.
 
     Raises
     ------
@@ -29,18 +42,36 @@ def lift_by_newton(
         If ``limit_bits`` of precision do not suffice.
     """
     prime = int(modular.eliminant.modulus())
+    completion = equations.completion(form)
     steps = lift(equations, form, modular.eliminant, modular.shape(), int(limit_bits / log2(prime)))
     for step in steps:
-        found = _reconstructed(form, step.modulus, step.eliminant, partial(_numerators, step))
-        if found is not None:
-            return found
+        count = len(form) if completion is None else completion.known
+        found = _reconstructed(step.modulus, step.eliminant, partial(_numerators, step, 0, count))
+        if found is not None and completion is not None:
+            missing = [value for numerator in _numerators(step, count, len(form)) for value in numerator]
+            found = complete(found, completion, (step.modulus, missing), limit_bits)
+            if found is None:
+                completion = None
+                found = _reconstructed(step.modulus, step.eliminant, partial(_numerators, step, 0, len(form)))
+        lifted = _accepted(form, found, accept)
+        if lifted is not None:
+            return lifted
     raise ReconstructionError(f"no representation over Q appeared within {limit_bits} bits")
 
 
+def _accepted(
+    form: Sequence[int], found: CommonFractions | None, accept: Acceptance | None
+) -> UnivariateRepresentation | None:
+    if found is None:
+        return None
+    lifted = from_common_fractions(form, found.eliminant, found.denominator, found.numerators, found.scale)
+    return lifted if accept is None or accept(lifted) else None
+
+
 def lift_by_primes(
-    form: Sequence[int], images: Iterator[ModularRepresentation], limit_bits: int
+    form: Sequence[int], images: Iterator[ModularRepresentation], limit_bits: int, accept: Acceptance | None = None
 ) -> UnivariateRepresentation:
-    """The representation over Q from its images modulo many primes (Chinese remainders).
+    """The representation over Q from its images modulo many primes: the first that fits and is accepted.
 
     Raises
     ------
@@ -69,9 +100,10 @@ def lift_by_primes(
         if count == attempt_at:
             attempt_at += 1 + attempt_at // 8
             lists = [residues[start : start + degree] for start in range(0, len(residues), degree)]
-            found = _reconstructed(form, modulus, [*lists[0], 1], partial(tuple, lists[1:]))
-            if found is not None:
-                return found
+            found = _reconstructed(modulus, [*lists[0], 1], partial(tuple, lists[1:]))
+            lifted = _accepted(form, found, accept)
+            if lifted is not None:
+                return lifted
         if modulus.bit_length() > limit_bits:
             break
     raise ReconstructionError(f"no representation over Q appeared within {limit_bits} bits")
@@ -80,26 +112,27 @@ def lift_by_primes(
 def _image_vector(image: ModularRepresentation) -> list[int]:
     """Coefficients of h without the leading 1, then of the numerators over h', each padded to the degree."""
     derivative = image.eliminant.derivative()
-    vector = _padded(image.eliminant, image.degree)
+    vector = padded(image.eliminant, image.degree + 1)[:-1]
     for coordinate in image.shape():
-        vector += _padded(coordinate * derivative % image.eliminant, image.degree)
+        vector += padded(coordinate * derivative % image.eliminant, image.degree)
     return vector
 
 
-def _padded(polynomial: nmod_poly, size: int) -> list[int]:
-    values = [int(value) for value in polynomial.coeffs()][:size]
-    return values + [0] * (size - len(values))
-
-
-def _numerators(step: PadicRepresentation) -> list[list[int]]:
+def _numerators(step: PadicRepresentation, start: int, end: int) -> list[list[int]]:
+    """Numerators over h' of the coordinates from ``start`` to ``end``, padded to the degree."""
     ring = ResidueRing(step.modulus, step.eliminant)
     derivative = ring.relation.derivative()
-    return [coefficients(ring.multiply(ring.convert(coordinate), derivative)) for coordinate in step.coordinates]
+    degree = len(step.eliminant) - 1
+    numerators = []
+    for coordinate in step.coordinates[start:end]:
+        values = coefficients(ring.multiply(ring.convert(coordinate), derivative))
+        numerators.append(values + [0] * (degree - len(values)))
+    return numerators
 
 
 def _reconstructed(
-    form: Sequence[int], modulus: int, eliminant: Sequence[int], numerators: Callable[[], Sequence[Sequence[int]]]
-) -> UnivariateRepresentation | None:
+    modulus: int, eliminant: Sequence[int], numerators: Callable[[], Sequence[Sequence[int]]]
+) -> CommonFractions | None:
     """The representation over Q, or None if the modulus is too small; the numerators are asked for late."""
     found = common_fraction(eliminant, modulus)
     if found is None:
@@ -110,6 +143,4 @@ def _reconstructed(
     if flat is None:
         return None
     values, scale = iter(flat[0]), flat[1]
-    return from_common_fractions(
-        form, h, denominator, [[next(values) for _ in numerator] for numerator in lists], scale
-    )
+    return CommonFractions(h, denominator, [[next(values) for _ in numerator] for numerator in lists], scale)

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 FIELD_BITS = 12
 _FIELD_MASK = (1 << FIELD_BITS) - 1
+_MOST_UNKNOWNS = 64
+_SPARE_BITS = sum(1 << (FIELD_BITS + (FIELD_BITS + 1) * position) for position in range(_MOST_UNKNOWNS))
 
 
 @dataclass(frozen=True)
@@ -57,3 +59,24 @@ class MonomialRing:
     def unknown(self, index: int) -> int:
         """The monomial x_index."""
         return self.pack(tuple(int(position == index) for position in range(self.size)))
+
+
+def exponent_fields(exponents: tuple[int, ...]) -> int:
+    """The exponents side by side in one integer, for ``divides``."""
+    fields = 0
+    for exponent in exponents:
+        fields = fields << (FIELD_BITS + 1) | exponent
+    return fields
+
+
+def divides(divisor: int, multiple: int) -> bool:
+    """Whether no exponent of the first monomial exceeds that of the second, both by their fields.
+
+    No field of the difference then borrows from the next: the spare bit above each stays 0.
+
+    Examples
+    --------
+    >>> [divides(exponent_fields(divisor), exponent_fields((1, 2))) for divisor in ((1, 0), (0, 3))]
+    [True, False]
+    """
+    return divisor <= multiple and not (multiple - divisor) & _SPARE_BITS

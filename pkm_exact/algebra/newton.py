@@ -10,10 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain, count
 from typing import Protocol
 
 from flint import fmpz_mod_poly, nmod_poly
 
+from pkm_exact.algebra.completion import Completion
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.residue_ring import ResidueRing, coefficients, combination
 
@@ -31,6 +33,10 @@ class Equations(Protocol):
         """The matrix of partial derivatives at a point, reduced; every leading principal minor a unit."""
         ...
 
+    def completion(self, form: Sequence[int]) -> Completion | None:
+        """A way from the first coordinates to all, if there is one for the separating form."""
+        ...
+
 
 @dataclass(frozen=True)
 class PadicRepresentation:
@@ -41,8 +47,10 @@ class PadicRepresentation:
     coordinates: tuple[tuple[int, ...], ...]
 
 
-STEPS_PER_FACTORISATION = 4
-"""Newton steps that use one factorisation of the Jacobian; a step is cheap beside a factorisation."""
+FACTORED = ((1, 4), (4, 20))
+"""First precisions of the Jacobian, each with the last exponent it serves: a step is cheap beside a factorisation."""
+STEADY = (10, 60)
+"""The same, to be doubled from there on: fine steps, because what lies beyond the precision needed is wasted."""
 
 
 def precision_schedule(limit: int) -> Iterator[tuple[int, int]]:
@@ -52,17 +60,16 @@ def precision_schedule(limit: int) -> Iterator[tuple[int, int]]:
 
     Examples
     --------
-    >>> list(precision_schedule(40))
-    [(2, 1), (3, 1), (4, 1), (8, 4), (12, 4), (16, 4), (20, 4), (40, 20)]
+    >>> list(precision_schedule(50))
+    [(2, 1), (3, 1), (4, 1), (8, 4), (12, 4), (16, 4), (20, 4), (30, 10), (40, 10), (50, 10)]
     """
-    factored, steps = 1, STEPS_PER_FACTORISATION - 1
-    while True:
-        for step in range(2, steps + 2):
-            if step * factored > limit:
+    reached = 1
+    for factored, last in chain(FACTORED, ((STEADY[0] << k, STEADY[1] << k) for k in count())):
+        for target in range(reached - reached % factored + factored, last + 1, factored):
+            if target > limit:
                 return
-            yield step * factored, factored
-        factored *= steps + 1
-        steps = STEPS_PER_FACTORISATION
+            yield target, factored
+        reached = last
 
 
 def lift(

@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from operator import mul
 
 from flint import nmod, nmod_mat
 
-from pkm_exact.algebra.groebner import GroebnerBasis, OutOfReachError, row_echelon
+from pkm_exact.algebra.groebner import GroebnerBasis, OutOfReachError
 from pkm_exact.algebra.monomials import MonomialRing
+from pkm_exact.algebra.reduction import row_echelon
 from pkm_exact.algebra.system import ModularPolynomial
 
 
@@ -256,10 +258,9 @@ class _BorderReduction:
             if exponent and smaller not in self.position:
                 break
         unknown = self.unknowns[index]
-        total = [0] * len(self.normal)
-        prime = self.prime
-        for coefficient, factor in zip(self._form(smaller), self.normal, strict=True):
-            if coefficient:
-                image = self._form(factor + unknown)
-                total = [a + coefficient * b for a, b in zip(total, image, strict=True)]
-        return [value % prime for value in total]
+        terms = [(value, factor) for value, factor in zip(self._form(smaller), self.normal, strict=True) if value]
+        if not terms:
+            return [0] * len(self.normal)
+        coefficients = [value for value, _ in terms]
+        images = [self._form(factor + unknown) for _, factor in terms]
+        return [sum(map(mul, coefficients, column)) % self.prime for column in zip(*images, strict=True)]

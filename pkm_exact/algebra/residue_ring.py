@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
-from flint import fmpz_mod_ctx, fmpz_mod_poly, fmpz_mod_poly_ctx
+from flint import fmpz_mod_ctx, fmpz_mod_poly, fmpz_mod_poly_ctx, fmpz_poly
 
 
 @lru_cache(maxsize=8)
@@ -56,6 +56,11 @@ class ResidueRing:
 def coefficients(value: fmpz_mod_poly) -> list[int]:
     """Coefficients as integers in [0, modulus), lowest degree first."""
     return [int(coefficient) for coefficient in value.coeffs()]
+
+
+def integer_polynomial(value: fmpz_mod_poly) -> fmpz_poly:
+    """The polynomial over Z with coefficients in [0, modulus)."""
+    return fmpz_poly(coefficients(value))
 
 
 def combination(scalars: Sequence[int], values: Sequence[fmpz_mod_poly]) -> fmpz_mod_poly:

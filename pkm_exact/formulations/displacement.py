@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import lcm
 
-from flint import fmpq
+from flint import fmpq, fmpz_mat, fmpz_poly
 
 from pkm_exact.formulations.base import (
     Expression,
@@ -173,19 +174,30 @@ class AFD5:
 
 
 def reduced(polynomials: Sequence[Expression]) -> list[Expression]:
-    """Reduced row echelon form of polynomials with respect to their monomials: a basis of their span."""
-    from flint import fmpq_mat
+    """Reduced row echelon form of polynomials with respect to their monomials: a basis of their span.
 
+    Each has coprime integer coefficients, the leading one positive.
+    """
     context = polynomials[0].context()
     terms = [polynomial.to_dict() for polynomial in polynomials]
-    order = {exponents: context.from_dict({exponents: 1}) for row in terms for exponents in row}
     columns = sorted(
-        order, key=lambda exponents: (sum(exponents), [-value for value in reversed(exponents)]), reverse=True
+        {exponents for row in terms for exponents in row},
+        key=lambda exponents: (sum(exponents), [-value for value in reversed(exponents)]),
+        reverse=True,
     )
-    matrix = fmpq_mat(len(terms), len(columns), [row.get(column, 0) for row in terms for column in columns])
-    echelon, rank = matrix.rref()
-    table = echelon.table()
-    return [
-        context.from_dict({column: value for column, value in zip(columns, table[row], strict=True) if value})
-        for row in range(rank)
-    ]
+    rows = []
+    for row in terms:
+        denominator = lcm(*(int(value.q) for value in row.values()))
+        rows.append([(row[column] * denominator).p if column in row else 0 for column in columns])
+    echelon, _, rank = fmpz_mat(rows).rref()
+    basis = []
+    for values in echelon.table()[:rank]:
+        content = fmpz_poly(values).content()
+        if next(value for value in values if value) < 0:
+            content = -content
+        basis.append(
+            context.from_dict(
+                {column: fmpq(value // content) for column, value in zip(columns, values, strict=True) if value}
+            )
+        )
+    return basis

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from flint import fmpz_poly
+from flint import fmpz, fmpz_poly
 
 from pkm_exact.algebra.representation import UnivariateRepresentation, are_coprime
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import evaluate, motion_quadrics, pose_quadrics, support
+from pkm_exact.geometry.study import Quadric, motion_quadrics, pose_quadrics, support
 from pkm_exact.poses.study_equations import Chart, dependent_coordinate, free_coordinates
 
 
@@ -63,13 +64,32 @@ class PoseRepresentation:
             return False
         if not (self.univariate.is_squarefree and self.univariate.is_separated):
             return False
-        products = [[left * right if m >= k else left for m, right in enumerate(x)] for k, left in enumerate(x)]
-        norm = evaluate(motion_quadrics(problem.metric)[-1], products)
         if any(numerator for k, numerator in enumerate(x) if k not in support(problem)):
             return False
-        return are_coprime(self.univariate.primitive_polynomial, norm) and all(
-            self.univariate.vanishes(evaluate(quadric, products)) for quadric in pose_quadrics(problem)
-        )
+        *values, norm = _values([*pose_quadrics(problem), motion_quadrics(problem.metric)[-1]], x)
+        return are_coprime(self.univariate.primitive_polynomial, norm) and all(map(self.univariate.vanishes, values))
+
+
+def _values(quadrics: Sequence[Quadric], x: Sequence[fmpz_poly]) -> list[fmpz_poly]:
+    """The quadratic forms at x; each product is formed once, of polynomials freed of their contents."""
+    contents = [value.content() if value else fmpz(1) for value in x]
+    shorter = [_divided(value, content) for value, content in zip(x, contents, strict=True)]
+    products = {(k, m): shorter[k] * shorter[m] for k, m in sorted({pair for form in quadrics for pair in form})}
+    values = []
+    for quadric in quadrics:
+        parts: dict[fmpz, fmpz_poly] = {}
+        for (k, m), coefficient in quadric.items():
+            content = contents[k] * contents[m]
+            parts[content] = parts.get(content, fmpz_poly()) + products[k, m] * coefficient
+        total = fmpz_poly()
+        for content, part in parts.items():
+            total += part * content
+        values.append(total)
+    return values
+
+
+def _divided(polynomial: fmpz_poly, divisor: fmpz) -> fmpz_poly:
+    return fmpz_poly([value // divisor for value in polynomial.coeffs()])
 
 
 def pose_representation(chart: Chart, problem: ForwardProblem, lifted: UnivariateRepresentation) -> PoseRepresentation:

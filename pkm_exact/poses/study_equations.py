@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from random import Random
 
-from flint import fmpz_mod_poly
+from flint import fmpz, fmpz_mat, fmpz_mod_poly, fmpz_poly
 
-from pkm_exact.algebra.residue_ring import ResidueRing, combination
+from pkm_exact.algebra.residue_ring import ResidueRing, integer_polynomial
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import Quadric, evaluate, pose_quadrics, support
+from pkm_exact.geometry.study import Quadric, pose_quadrics, support
+from pkm_exact.poses.translation import LinearTranslation, linear_translation
 
 Chart = tuple[int, int, int, int]
 """Weights w: coordinates are scaled so that w.e = 1. The last non-zero weight is 1; its coordinate is not free."""
@@ -56,52 +57,73 @@ class StudyEquations:
         return free_coordinates(self.chart, self.problem)
 
     @cached_property
-    def quadrics(self) -> tuple[Quadric, ...]:
-        """The combined quadratic forms."""
-        forms = pose_quadrics(self.problem)
+    def _forms(self) -> list[Quadric]:
+        return pose_quadrics(self.problem)
+
+    @cached_property
+    def products(self) -> tuple[tuple[int, int], ...]:
+        """Pairs of coordinates whose products occur in the equations."""
+        return tuple(sorted({pair for form in self._forms for pair in form}))
+
+    @cached_property
+    def coefficients(self) -> fmpz_mat:
+        """The combined quadratic forms, one a row, by their coefficients on the products."""
         random = Random(self.seed)
-        combined = []
-        for _ in self.free:
-            weights = [random.randrange(1, 1 << 16) for _ in forms]
-            total: Quadric = {}
-            for weight, form in zip(weights, forms, strict=True):
-                for key, value in form.items():
-                    total[key] = total.get(key, 0) + weight * value
-            combined.append(total)
-        return tuple(combined)
+        weights = fmpz_mat([[random.randrange(1, 1 << 16) for _ in self._forms] for _ in self.free])
+        return weights * fmpz_mat([[form.get(pair, 0) for pair in self.products] for form in self._forms])
+
+    @cached_property
+    def gradients(self) -> fmpz_mat:
+        """Partial derivatives of the forms by the free coordinates, one a row, as linear forms in the coordinates."""
+        dependent = dependent_coordinate(self.chart)
+        rows = []
+        for equation in range(len(self.free)):
+            symmetric = [[0] * 8 for _ in range(8)]
+            for (k, m), coefficient in zip(self.products, self.coefficients.table()[equation], strict=True):
+                symmetric[k][m] += int(coefficient)
+                symmetric[m][k] += int(coefficient)
+            for k in self.free:
+                slope = self.chart[k] if k < 4 else 0
+                rows.append([a - slope * b for a, b in zip(symmetric[k], symmetric[dependent], strict=True)])
+        return fmpz_mat(rows)
 
     def values(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
         """Left-hand sides at the free coordinates."""
-        x = self._coordinates(ring, point)
-        products = [[left * right if m >= k else left for m, right in enumerate(x)] for k, left in enumerate(x)]
-        return [ring.reduce(evaluate(quadric, products)) for quadric in self.quadrics]
+        x = self._coordinates(point)
+        values = _combined(self.coefficients, [x[k] * x[m] for k, m in self.products])
+        return [ring.reduce(ring.polynomials(value)) for value in values]
 
     def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
         """Partial derivatives by the free coordinates; linear in the coordinates."""
-        x = self._coordinates(ring, point)
-        dependent = dependent_coordinate(self.chart)
-        rows = []
-        for quadric in self.quadrics:
-            gradient = [_derivative(quadric, k, x) for k in range(8)]
-            rows.append(
-                [gradient[k] - gradient[dependent] * self.chart[k] if k < 4 else gradient[k] for k in self.free]
-            )
-        return rows
+        values = _combined(self.gradients, self._coordinates(point))
+        size = len(self.free)
+        return [[ring.polynomials(value) for value in values[size * i : size * (i + 1)]] for i in range(size)]
 
-    def _coordinates(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
-        coordinates = [ring.one * 0] * 8
+    def completion(self, form: Sequence[int]) -> LinearTranslation | None:
+        """The linear equations of the translation, if the separating form on the free coordinates leaves it out."""
+        rotation = [k for k in self.free if k < 4]
+        if any(form[len(rotation) :]):
+            return None
+        return linear_translation(self.problem, self.chart, dependent_coordinate(self.chart), self.seed)
+
+    def _coordinates(self, point: Sequence[fmpz_mod_poly]) -> list[fmpz_poly]:
+        """All eight coordinates, with integer coefficients."""
+        coordinates = [fmpz_poly()] * 8
         for k, value in zip(self.free, point, strict=True):
-            coordinates[k] = value
-        weights = [0 if k == dependent_coordinate(self.chart) else self.chart[k] for k in range(4)]
-        coordinates[dependent_coordinate(self.chart)] = ring.one - combination(weights, coordinates[:4])
+            coordinates[k] = integer_polynomial(value)
+        last = fmpz_poly([1])
+        for k in self.free:
+            if k < 4:
+                last -= self.chart[k] * coordinates[k]
+        coordinates[dependent_coordinate(self.chart)] = last
         return coordinates
 
 
-def _derivative(quadric: Quadric, index: int, x: Sequence[fmpz_mod_poly]) -> fmpz_mod_poly:
-    total = x[0] * 0
-    for (k, m), coefficient in quadric.items():
-        if k == index:
-            total += x[m] * coefficient
-        if m == index:
-            total += x[k] * coefficient
-    return total
+def _combined(rows: fmpz_mat, values: Sequence[fmpz_poly]) -> list[fmpz_poly]:
+    """The combinations of polynomials that the rows stand for."""
+    width = max(value.length() for value in values)
+    table = []
+    for value in values:
+        coefficients = value.coeffs()
+        table.append(coefficients + [fmpz(0)] * (width - len(coefficients)))
+    return [fmpz_poly(row) for row in (rows * fmpz_mat(table)).table()]
