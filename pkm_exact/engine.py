@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import islice
-from time import perf_counter
+
+from flint import fmpz_poly
 
 from pkm_exact.algebra.elimination import Elimination, ModularImage
 from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
-from pkm_exact.algebra.lifting import lift_by_newton, lift_by_primes
-from pkm_exact.algebra.representation import union
+from pkm_exact.algebra.lifting import Acceptance, lift_by_newton, lift_by_primes
+from pkm_exact.algebra.representation import UnivariateRepresentation, union
 from pkm_exact.algebra.rur import ModularRepresentation
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.base import FormulatedProblem
@@ -20,37 +21,33 @@ from pkm_exact.formulations.registry import formulation as formulation_of
 from pkm_exact.formulations.registry import formulation_codes, formulation_for
 from pkm_exact.formulations.turned import candidate_turns, formulate_turned
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.notes import motion_note, open_question, turn_notes
+from pkm_exact.notes import isolated_note, motion_note, open_question, singular_notes, turn_notes
 from pkm_exact.policy import Policy
-from pkm_exact.poses.boxes import exponent_for_width, pose_boxes
-from pkm_exact.poses.completeness import (
-    CompletenessProof,
-    are_isolated,
-    multiplicities,
-    prove_complete,
-    prove_inconsistent,
-)
+from pkm_exact.poses.boxes import exponent_for_width, in_order, pose_boxes, root_enclosures
+from pkm_exact.poses.completeness import CompletenessProof, prove_complete, prove_inconsistent
 from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.modular import ModularPoses, modular_poses
 from pkm_exact.poses.parameters import Parameters, choose_parameters
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.self_motion import (
+    Mobility,
     SelfMotion,
     TranslationalMotion,
     extended_problems,
-    leg_rank,
+    mobility,
     translational_motion,
 )
-from pkm_exact.poses.singularity import jacobian_rank
+from pkm_exact.poses.singularity import are_isolated, singularity
 from pkm_exact.poses.study_equations import StudyEquations, free_coordinates
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
+from pkm_exact.stages import Stages
 from pkm_exact.verdict import Claim
 
 DEFAULT_WIDTH = Fraction(1, 10**9)
 SELF_MOTION_ATTEMPTS = 2
-"""Lists of further legs tried on a robot with dependent legs; if its poses are all at infinity, none has a solution."""
+"""Lists of further legs tried on a robot that can only move; if its poses are all at infinity, none has a solution."""
 
 
 def solve(
@@ -85,7 +82,7 @@ def solve(
     InternalContradictionError
         If a step contradicts another; no answer is given.
     """
-    run = _Run(problem, formulation, policy or Policy(), progress)
+    run = _Run(problem, formulation, policy or Policy(), Stages(progress))
     return run.solution(width)
 
 
@@ -96,19 +93,18 @@ class _Run:
     problem: ForwardProblem
     code: str
     policy: Policy
-    progress: Callable[[str], None] | None
+    stages: Stages
     retries: int = 0
-    seconds: dict[str, float] = field(default_factory=dict)
-    _stage: tuple[str, float] | None = None
 
     def solution(self, width: Fraction) -> Solution:
         exponent = exponent_for_width(width)
         formulation_for(self.code, self.problem)  # an unknown code is refused whatever the robot
-        self._enter("self-motion")
+        self.stages.enter("self-motion")
         motion = self._self_motion()
         if motion is not None:
-            result = self._result(Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, motion_note(motion))
-            return replace(result, self_motion=motion)
+            note = motion_note(motion, self.problem)
+            result = self._result(Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, note)
+            return self._with_isolated(replace(result, self_motion=motion), width)
         start = self._started()
         statistics = partial(self._statistics, start.elimination, start.image)
         if start.poses is None:
@@ -116,9 +112,10 @@ class _Run:
                 "the solutions form a set of positive dimension at two primes: the robot can move with its legs "
                 "locked, or solutions run together at infinity"
             )
-            return replace(self._result(Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note), statistics=statistics())
+            result = self._result(Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note)
+            return self._with_isolated(replace(result, statistics=statistics()), width)
         if start.poses.count == 0:
-            self._enter("completeness")
+            self.stages.enter("completeness")
             proof = prove_inconsistent(self.problem, self.policy)
             if proof is not None:
                 note = "no pose, real or complex, has these leg lengths"
@@ -126,14 +123,14 @@ class _Run:
             note = "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
             return replace(self._result(Claim.NOT_PROVEN_COMPLETE, exponent, note), statistics=statistics())
         representation = self._representation(start)
-        self._enter("completeness")
+        self.stages.enter("completeness")
         proof = prove_complete(representation, self.problem, self.policy)
-        self._enter("real roots and boxes")
+        self.stages.enter("real roots and boxes")
         exponent, poses = pose_boxes(representation, self.problem.metric, width)
-        self._enter("Jacobians")
-        poses = self._with_jacobians(poses, representation, proof)
-        self._leave()
-        degree = representation.univariate.degree
+        self.stages.enter("Jacobians")
+        poses, singular = self._with_jacobians(poses, representation, proof)
+        question = () if proof else (open_question(start.poses.count, representation.univariate.degree),)
+        self.stages.leave()
         return Solution(
             problem=self.problem,
             formulation=self.code,
@@ -141,12 +138,33 @@ class _Run:
             claim=Claim.COMPLETE if proof else Claim.NOT_PROVEN_COMPLETE,
             completeness=proof,
             complex_solutions=proof.total if proof else start.poses.count,
-            distinct_solutions=degree,
+            distinct_solutions=representation.univariate.degree,
             representation=representation,
             box_exponent=exponent,
             poses=poses,
-            notes=start.notes if proof else (*start.notes, open_question(start.poses.count, degree)),
+            notes=(*start.notes, *singular, *question),
             statistics=statistics(),
+        )
+
+    def _with_isolated(self, result: Solution, width: Fraction) -> Solution:
+        """The solution with the isolated poses beside a set of positive dimension, as far as they can be certified."""
+        # Floating point is needed for this alone.
+        from pkm_exact.numeric.poses import isolated_poses
+
+        self.stages.enter("isolated poses")
+        found = isolated_poses(self.problem, width)
+        self.stages.leave()
+        if found is None:
+            return result
+        isolated, exponent, poses = found
+        return replace(
+            result,
+            complex_solutions=isolated.count,
+            distinct_solutions=isolated.count,
+            isolated=isolated,
+            box_exponent=exponent,
+            poses=poses,
+            notes=(*result.notes, isolated_note(isolated.count)),
         )
 
     def _self_motion(self) -> SelfMotion | TranslationalMotion | None:
@@ -154,44 +172,60 @@ class _Run:
         translation = translational_motion(self.problem)
         if translation is not None:
             return translation
-        missing = len(self.problem.legs) - leg_rank(self.problem)
-        if missing == 0 or self.problem.planar:
-            return None
-        for extended in islice(extended_problems(self.problem, missing, self.policy.seed), SELF_MOTION_ATTEMPTS):
-            run = _Run(extended, formulation_codes()[0], self.policy, None)
-            start = run._started()
-            if start.poses is not None and start.poses.count > 0:
-                representation = run._representation(start)
-                return SelfMotion(missing, extended.legs[len(self.problem.legs) :], representation)
+        bound = mobility(self.problem)
+        return None if bound is None else self._witnessed(bound)
+
+    def _witnessed(self, bound: Mobility) -> SelfMotion | None:
+        """A pose, found by joining legs until finitely many are left, or None if there seems to be none."""
+        legs = len(self.problem.legs)
+        for count in range(bound.dimension, 7):
+            for extended in islice(extended_problems(self.problem, count, self.policy.seed), SELF_MOTION_ATTEMPTS):
+                run = _Run(extended, formulation_codes()[0], self.policy, Stages())
+                start = run._started()
+                if start.poses is None:
+                    break
+                if start.poses.count > 0:
+                    return SelfMotion(bound, extended.legs[legs:], run._representation(start))
+            else:
+                return None
         return None
 
     def _with_jacobians(
         self, poses: tuple[Pose, ...], representation: PoseRepresentation, proof: CompletenessProof | None
-    ) -> tuple[Pose, ...]:
-        """The poses with the multiplicities that are proved, and what is certified of their Jacobians."""
-        total = None if proof is None else proof.total
-        found = multiplicities(representation, self.problem, total, self.policy)
-        ranks = [
+    ) -> tuple[tuple[Pose, ...], tuple[str, ...]]:
+        """The poses with the multiplicities that are proved and what is certified of their Jacobians, and notes."""
+        h = representation.univariate.primitive_polynomial
+        found: Sequence[tuple[fmpz_poly, int | None]] = ((h, 1),)
+        if proof is not None:
+            found = proof.multiplicities or found
+        elif not are_isolated(representation, self.problem, self.policy):
+            found = [(factor, None) for factor, _ in h.factor()[1]]
+        singular = [
             None
-            if count == 1 or are_isolated(representation, self.problem, self.policy, factor)
-            else jacobian_rank(representation, self.problem, factor)
+            if count == 1 or (count is None and are_isolated(representation, self.problem, self.policy, factor))
+            else singularity(representation, self.problem, factor)
             for factor, count in found
         ]
-        places = [next(k for k, (f, _) in enumerate(found) if has_root(f, pose.parameter)) for pose in poses]
-        jacobians = pose_jacobians(representation, self.problem, [ranks[place] for place in places])
-        return tuple(
-            replace(pose, multiplicity=found[place][1], jacobian=jacobian)
+        parameters = [pose.parameter for pose in poses if pose.parameter is not None]
+        places = [next(k for k, (f, _) in enumerate(found) if has_root(f, parameter)) for parameter in parameters]
+        enclosures = root_enclosures(representation, self.problem.metric)
+        ranks = [None if kind is None else kind.rank for kind in (singular[place] for place in places)]
+        jacobians = pose_jacobians(enclosures, self.problem, ranks)
+        known = {
+            replace(pose, multiplicity=found[place][1], jacobian=jacobian): singular[place]
             for pose, place, jacobian in zip(poses, places, jacobians, strict=True)
-        )
+        }
+        ordered = in_order(known)
+        return ordered, singular_notes([known[pose] for pose in ordered], len(self.problem.legs))
 
     def _started(self) -> _Start:
         """The poses modulo a prime, in a platform frame in which the formulation has coordinates for all of them."""
         formulation = formulation_for(self.code, self.problem)
         expected: int | None = None
         for attempt, turn in enumerate(islice(candidate_turns(self.policy.seed), self.policy.attempts)):
-            self._enter("formulation")
+            self.stages.enter("formulation")
             formulated = formulate_turned(formulation, self.problem, turn)
-            self._enter("Groebner basis")
+            self.stages.enter("Groebner basis")
             elimination = Elimination(formulated.branches[0], self.policy)
             image = self._confirmed_image(elimination)
             poses = modular_poses(formulated, image.algebra, self.problem.metric)
@@ -227,15 +261,14 @@ class _Run:
         """The verified representation of all poses over Q."""
         poses = start.poses
         for attempt in range(self.policy.attempts):
-            self._enter("separating form")
+            self.stages.enter("separating form")
             chosen = None if poses is None else choose_parameters(poses, self.problem, self.policy)
             if chosen is not None:
                 lifted = self._lifted(start, chosen, attempt)
-                self._enter("verification")
-                if lifted is not None and lifted.is_verified(self.problem):
+                if lifted is not None:
                     return lifted
             self.retries += 1
-            self._enter("Groebner basis")
+            self.stages.enter("Groebner basis")
             image = self._confirmed_image(start.elimination)
             poses = modular_poses(start.formulated, image.algebra, self.problem.metric)
         raise InternalContradictionError(
@@ -243,34 +276,46 @@ class _Run:
         )
 
     def _lifted(self, start: _Start, chosen: Parameters, attempt: int) -> PoseRepresentation | None:
+        """The poses of each multiplicity over Q, verified, and all of them together; None after an unlucky choice."""
         equations = StudyEquations(self.problem, chosen.chart, self.policy.seed + attempt)
         form = [chosen.form[k] for k in equations.free]
+        multimodular = self.policy.lifting == "multimodular"
+        parts = []
         try:
-            if self.policy.lifting == "multimodular":
-                self._enter("lifting by primes")
-                images = _further_images(start, chosen, self.problem)
-                return pose_representation(
-                    chosen.chart, self.problem, lift_by_primes(form, images, self.policy.lifting_bits)
-                )
-            parts = []
             for multiplicity, modular in chosen.modular.parts(start.formulated.fibre).items():
-                if multiplicity == 1:
-                    self._enter("p-adic lifting")
-                    parts.append(lift_by_newton(equations, form, modular, self.policy.lifting_bits))
-                else:
-                    self._enter("lifting by primes")
-                    images = _parts(
-                        _further_images(start, chosen, self.problem), multiplicity, start, self.policy.attempts
-                    )
-                    parts.append(lift_by_primes(form, images, self.policy.lifting_bits))
-            univariate = union(parts)
+                if multiplicity == 1 and not multimodular:
+                    accept = self._acceptance(chosen, "p-adic lifting")
+                    parts.append(lift_by_newton(equations, form, modular, self.policy.lifting_bits, accept))
+                    continue
+                images = _further_images(start, chosen, self.problem)
+                accept = self._acceptance(chosen, "lifting by primes")
+                if not multimodular:
+                    images = _parts(images, multiplicity, start, self.policy.attempts)
+                parts.append(lift_by_primes(form, images, self.policy.lifting_bits, accept))
+                if multimodular:
+                    break
         except UnluckyPrimeError:
             return None
-        return pose_representation(chosen.chart, self.problem, univariate)
+        self.stages.enter("verification")
+        lifted = pose_representation(chosen.chart, self.problem, union(parts))
+        return lifted if len(parts) == 1 or lifted.is_verified(self.problem) else None
+
+    def _acceptance(self, chosen: Parameters, stage: str) -> Acceptance:
+        """Enters the stage, and tells whether what it lifts are poses, exactly."""
+
+        def accept(lifted: UnivariateRepresentation) -> bool:
+            self.stages.enter("verification")
+            verified = pose_representation(chosen.chart, self.problem, lifted).is_verified(self.problem)
+            if not verified:
+                self.stages.enter(stage)
+            return verified
+
+        self.stages.enter(stage)
+        return accept
 
     def _result(self, claim: Claim, exponent: int, note: str, proof: CompletenessProof | None = None) -> Solution:
         """A solution without a representation of poses."""
-        self._leave()
+        self.stages.leave()
         return Solution(
             problem=self.problem,
             formulation=self.code,
@@ -292,20 +337,8 @@ class _Run:
             self.retries,
             len(image.basis.elements),
             image.dimension,
-            dict(self.seconds),
+            dict(self.stages.seconds),
         )
-
-    def _enter(self, stage: str) -> None:
-        self._leave()
-        self._stage = (stage, perf_counter())
-        if self.progress is not None:
-            self.progress(stage)
-
-    def _leave(self) -> None:
-        if self._stage is not None:
-            stage, start = self._stage
-            self.seconds[stage] = self.seconds.get(stage, 0.0) + perf_counter() - start
-            self._stage = None
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from pkm_exact.formulations.turned import Turn
-from pkm_exact.poses.self_motion import SelfMotion, TranslationalMotion
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.poses.self_motion import Cause, SelfMotion, TranslationalMotion
+from pkm_exact.poses.singularity import Singularity
 
 
 def turn_notes(turn: Turn, attempt: int) -> tuple[str, ...]:
@@ -18,17 +22,68 @@ def turn_notes(turn: Turn, attempt: int) -> tuple[str, ...]:
     return (note,)
 
 
-def motion_note(motion: SelfMotion | TranslationalMotion) -> str:
+_CAUSES = {
+    Cause.PLATFORM_LINE: "the platform joints are collinear, and the platform turns about their line",
+    Cause.BASE_LINE: "the base joints are collinear, and the platform turns about their line",
+    Cause.PLATFORM_POINT: "all platform joints coincide, and the platform turns freely about that point",
+    Cause.BASE_POINT: "all base joints coincide, and the platform turns freely about that point",
+    Cause.DEPENDENT_LEGS: "the leg forms are dependent, of rank {rank} (an architecture singularity)",
+    Cause.SIMILAR_ON_CONIC: (
+        "base and platform are similar and their joints lie on a conic, so that the leg forms are dependent, of rank "
+        "{rank} (an architecture singularity)"
+    ),
+}
+
+
+def motion_note(motion: SelfMotion | TranslationalMotion, problem: ForwardProblem) -> str:
     """Names a self-motion."""
     if isinstance(motion, TranslationalMotion):
+        path = "a circle" if problem.planar else "a sphere"
         return (
-            "self-motion: base and platform are congruent and the legs equal, so that the platform moves on a sphere "
+            f"self-motion: base and platform are congruent and the legs equal, so that the platform moves on {path} "
             "without turning"
         )
-    return (
-        f"architecture singularity: the legs give only {6 - motion.dimension} independent conditions on rigid motions, "
-        f"and the robot moves with its legs locked, in dimension {motion.dimension} at least"
-    )
+    bound = motion.mobility
+    causes = "; ".join(_CAUSES[cause].format(rank=bound.rank) for cause in bound.causes)
+    return f"self-motion: {causes}; the robot moves with its legs locked, in dimension {bound.dimension} at least"
+
+
+def singular_notes(found: Sequence[Singularity | None], legs: int) -> tuple[str, ...]:
+    """Says of singular poses how many degrees of freedom the legs do not hold there, and why, equal ones together.
+
+    Parameters
+    ----------
+    found : sequence of Singularity or None
+        In the order of the poses; None at a pose that is not singular.
+    legs : int
+        Number of legs.
+
+    Examples
+    --------
+    >>> singular_notes([None, Singularity(4)], 6)
+    ('pose 2 is singular, rank 4 of 6: the legs lose control of 2 degrees of freedom, which the platform gains',)
+    """
+    places: dict[Singularity, list[int]] = {}
+    for place, singularity in enumerate(found, 1):
+        if singularity is not None and singularity.rank < legs:
+            places.setdefault(singularity, []).append(place)
+    notes = []
+    for singularity, numbers in places.items():
+        poses = f"pose {numbers[0]} is" if len(numbers) == 1 else f"poses {', '.join(map(str, numbers))} are"
+        gained = legs - singularity.rank
+        freedom = "1 degree of freedom" if gained == 1 else f"{gained} degrees of freedom"
+        reasons = "".join(f"; {special}" for special in singularity.special)
+        notes.append(
+            f"{poses} singular, rank {singularity.rank} of {legs}: the legs lose control of {freedom}, which the "
+            f"platform gains{reasons}"
+        )
+    return tuple(notes)
+
+
+def isolated_note(count: int) -> str:
+    """Says what is listed beside a set of positive dimension."""
+    solutions = "1 complex solution is" if count == 1 else f"{count} complex solutions are"
+    return f"beside it {solutions} certified to be isolated, the real ones are listed; others are not excluded"
 
 
 def open_question(count: int, distinct: int) -> str:

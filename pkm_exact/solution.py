@@ -10,6 +10,7 @@ from pkm_exact.poses.pose import Pose
 from pkm_exact.verdict import Claim, CompletenessRoute
 
 if TYPE_CHECKING:
+    from pkm_exact.numeric.certification import IsolatedSolutions
     from pkm_exact.poses.completeness import CompletenessProof
     from pkm_exact.poses.representation import PoseRepresentation
     from pkm_exact.poses.self_motion import SelfMotion, TranslationalMotion
@@ -53,7 +54,7 @@ class Solution:
     formulation : str
         Code of the formulation whose Groebner basis was used.
     method : str
-        "exact".
+        "exact" or "krawczyk".
     claim : Claim
         What is proved about the list of poses.
     completeness : CompletenessProof or None
@@ -63,15 +64,18 @@ class Solution:
     distinct_solutions : int
         Distinct complex poses in the representation, each verified over Q.
     representation : PoseRepresentation or None
-        The univariate representation of all of them.
+        The univariate representation of all of them, if the method is exact.
     box_exponent : int
         Boxes lie on the grid of spacing 2^-box_exponent.
     poses : tuple of Pose
-        The real poses, increasing in the parameter.
+        The real poses, by their boxes from left to right (``poses.boxes.in_order``).
     notes : tuple of str
         What else the user should know.
     self_motion : SelfMotion or TranslationalMotion or None
         The proof, if the claim is that the poses form a set of positive dimension.
+    isolated : IsolatedSolutions or None
+        Boxes around solutions, each with exactly one, if the method is Krawczyk's: the real ones in the order of the
+        poses. Beside a self-motion, those of isolated poses.
     statistics : Statistics
     """
 
@@ -87,6 +91,7 @@ class Solution:
     poses: tuple[Pose, ...]
     notes: tuple[str, ...] = ()
     self_motion: SelfMotion | TranslationalMotion | None = None
+    isolated: IsolatedSolutions | None = None
     statistics: Statistics = field(default_factory=Statistics, repr=False, compare=False)
 
     @property

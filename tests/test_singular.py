@@ -1,5 +1,6 @@
 """Poses at singularities, and poses that a chart of rotations cannot hold: exact robots built around them."""
 
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
@@ -84,17 +85,76 @@ def test_a_multiple_pose_is_counted_and_singular(name: str, multiplicity: int, t
     assert check_bytes(lie).status == "rejected"
 
 
-def test_two_multiple_poses_that_are_not_conjugate_share_what_is_known() -> None:
-    """Similar planar robots, at a pose without rotation: two poses hold all 16 solutions, each an open share.
-
-    All legs meet in the centre of similarity, and lines through a point have rank 3."""
-    base = ((0, 0), (4, 0), (7, 3), (4, 8), (0, 7), (-2, 3))
+def _at_home(base: Sequence[Sequence[Fraction | int]], platform: Sequence[Sequence[Fraction | int]]) -> ForwardProblem:
+    """The robot, planar if it has three legs, at the pose C = 0, R = 1."""
     legs = []
-    for x, y in base:
-        square = (Fraction(1, 2) - Fraction(x, 2)) ** 2 + (Fraction(1, 3) - Fraction(y, 2)) ** 2 + 25
-        legs.append(Leg((Fraction(x), Fraction(y), Fraction(0)), (Fraction(x, 2), Fraction(y, 2), Fraction(0)), square))
-    solution = solve(ForwardProblem(tuple(legs)))
-    assert (solution.claim, solution.complex_solutions, solution.distinct_solutions) == (Claim.COMPLETE, 16, 2)
-    assert [pose.multiplicity for pose in solution.poses] == [None, None]
-    jacobians = [pose.jacobian for pose in solution.poses]
-    assert all(found is not None and (found.det_sign, found.rank) == (0, 3) for found in jacobians), jacobians
+    for a, b in zip(base, platform, strict=True):
+        foot, tip = ((Fraction(x), Fraction(y), Fraction(z)) for x, y, z in (a, b))
+        legs.append(Leg(foot, tip, sum(((x - y) ** 2 for x, y in zip(foot, tip, strict=True)), Fraction(0))))
+    return ForwardProblem(tuple(legs), planar=len(legs) == 3)
+
+
+def _between(start: Sequence[int], end: Sequence[int], part: Fraction) -> list[Fraction]:
+    return [a + part * (b - a) for a, b in zip(start, end, strict=True)]
+
+
+PARTS = tuple(map(Fraction, ("1/2", "1/3", "2/3", "1/4", "3/4", "2/5")))
+FLAT = ((0, 0, 0), (4, 0, 0), (7, 3, 0), (4, 8, 0), (0, 7, 0), (-2, 3, 0))
+FLAT_PLATFORM = ((1, 0, 0), (2, 1, 0), (3, 3, 0), (1, 4, 0), (-1, 2, 0), (0, -1, 0))
+TRIANGLE = ((3, 0, 1), (3, 0, 1), (-1, 2, 2), (-1, 2, 2), (-1, -3, 0), (-1, -3, 0))
+AXIS = [(0, 0, height) for height in (5, -1, 3, 7, -2, 4)]
+AXIAL = [_between(joint, point, 3 * part) for joint, point, part in zip(TRIANGLE, AXIS, PARTS, strict=True)]
+SPECIAL = {
+    "all joints in a plane": (FLAT, FLAT_PLATFORM, 3, "; all joints lie in one plane"),
+    "legs that meet an axis": (AXIAL, TRIANGLE, 5, ""),
+    "planar legs to a point": (
+        FLAT[:3],
+        [_between(a, (2, 5, 0), part) for a, part in zip(FLAT[:3], PARTS[:3], strict=True)],
+        2,
+        "; all leg lines meet in one point",
+    ),
+    "planar parallel legs": (FLAT[:3], ((0, 3, 0), (4, 4, 0), (7, 8, 0)), 2, "; all leg lines are parallel"),
+    "planar legs on a line": (
+        ((0, 0, 0), (1, 0, 0), (5, 0, 0)),
+        ((2, 0, 0), (4, 0, 0), (6, 0, 0)),
+        1,
+        "; all leg lines are parallel",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SPECIAL)
+def test_a_singular_pose_says_what_is_special(name: str) -> None:
+    base, platform, rank, special = SPECIAL[name]
+    problem = _at_home(base, platform)
+    solution = solve(problem)
+    assert solution.claim is Claim.COMPLETE
+    places = [
+        place
+        for place, pose in enumerate(solution.poses, 1)
+        if all(pose.rotation[i][i].contains(Fraction(1)) for i in range(3))
+        and all(interval.contains(Fraction(0)) for interval in pose.position)
+    ]
+    (place,) = places
+    jacobian = solution.poses[place - 1].jacobian
+    assert jacobian is not None
+    assert jacobian.rank == rank
+    gained = len(problem.legs) - rank
+    words = f"pose {place} is singular, rank {rank} of {len(problem.legs)}: the legs lose control of {gained} degree"
+    (note,) = solution.notes
+    assert note.startswith(words)
+    assert note.endswith(f"which the platform gains{special}")
+
+
+def test_singular_poses_of_one_kind_share_a_note() -> None:
+    """Similar hexagons without rotation: the legs meet in the centre of similarity, above the base and below it."""
+    platform = [(Fraction(x, 2), Fraction(y, 2), Fraction(4)) for x, y, _ in FLAT]
+    solution = solve(_at_home(FLAT, platform))
+    words = (
+        "poses 1, 2 are singular, rank 3 of 6: the legs lose control of 3 degrees of freedom, which the platform gains"
+    )
+    assert solution.notes == (f"{words}; all leg lines meet in one point",)
+
+
+def test_regular_poses_have_no_notes() -> None:
+    assert solve(_at_home(FLAT[:3], FLAT_PLATFORM[:3])).notes == ()

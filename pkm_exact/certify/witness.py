@@ -17,10 +17,11 @@ if TYPE_CHECKING:
 Lists = list[list[int]]
 
 
-def sphere_witnesses(problem: ForwardProblem, motion: TranslationalMotion) -> dict[str, list[int] | Lists]:
-    """Two opposite poses on the sphere of a robot with congruent base and platform: those along the third axis.
+def translation_witnesses(problem: ForwardProblem, motion: TranslationalMotion) -> dict[str, list[int] | Lists]:
+    """Two opposite poses on the sphere or circle of a robot with congruent base and platform.
 
-    C = d + (0, 0, x) with g3 x^2 = l^2 and the constant rotation; (e, f) = p + x q, and T is an entry of f that moves.
+    They lie along the third axis, C = d + (0, 0, x) with g3 x^2 = l^2, or in the plane along the second one. The
+    rotation is constant; (e, f) = p + x q, and T is an entry of f that moves.
 
     Returns
     -------
@@ -32,11 +33,12 @@ def sphere_witnesses(problem: ForwardProblem, motion: TranslationalMotion) -> di
     unit = next(k for k in range(4) if products[k][k])
     e = [value / products[unit][unit] for value in products[unit]]
     fixed = [*e, *translation_coordinates([[c * x for x in e] for c in motion.offset], g)]
-    axis = (Fraction(0), Fraction(0), Fraction(1))
+    along = 1 if problem.planar else 2
+    axis = [Fraction(int(k == along)) for k in range(3)]
     moved = [*[Fraction(0)] * 4, *translation_coordinates([[c * x for x in e] for c in axis], g)]
     index = next(k for k, value in enumerate(moved) if value)
     center, slope = fixed[index], moved[index]
-    square = problem.legs[0].length_squared / g[2] * slope**2
+    square = problem.legs[0].length_squared / g[along] * slope**2
     monic = [center**2 - square, -2 * center]
     numerators = [_numerator(p - q * center / slope, q / slope, monic) for p, q in zip(fixed, moved, strict=True)]
     eliminant, *rest = _in_lowest_terms([[*monic, Fraction(1)], *numerators])

@@ -8,10 +8,12 @@ import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from pkm_exact.cli.modes import assembly_modes
 from pkm_exact.poses.planar import planar_coordinates
 from pkm_exact.verdict import Claim
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.poses.jacobian import LegJacobian
     from pkm_exact.poses.pose import Interval, Pose
@@ -58,10 +60,10 @@ def report(robot: Robot, configuration: str | None, solution: Solution, layout: 
 
 
 def as_object(robot: Robot, configuration: str | None, solution: Solution) -> dict[str, Any]:
-    """The solution as a JSON object; every bound is an exact rational as a string."""
+    """The solution as a JSON object: bounds are exact rationals as strings, assembly modes indices of poses."""
     return {
         "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
-        "configuration": _configuration(robot, configuration, solution),
+        "configuration": configuration_object(robot, configuration, solution.problem),
         "formulation": solution.formulation,
         "method": solution.method,
         "claim": str(solution.claim),
@@ -70,26 +72,27 @@ def as_object(robot: Robot, configuration: str | None, solution: Solution) -> di
         "distinct_solutions": solution.distinct_solutions,
         "real_poses": len(solution.poses),
         "poses": [_pose(pose, planar=solution.problem.planar) for pose in solution.poses],
+        "assembly_modes": assembly_modes(solution.poses),
         "notes": list(solution.notes),
     }
 
 
-def _configuration(robot: Robot, name: str | None, solution: Solution) -> dict[str, Any]:
+def configuration_object(robot: Robot, name: str | None, problem: ForwardProblem) -> dict[str, Any]:
     """Name and squared lengths; for cranks and slides also the joint values and where they put the rods' lower ends."""
     entry: dict[str, Any] = {
         "name": name,
-        "lengths_squared": [str(leg.length_squared) for leg in solution.problem.legs],
+        "lengths_squared": [str(leg.length_squared) for leg in problem.legs],
     }
     if robot.chains:
         values = robot.configuration(name).joint_values
         entry["joint_values"] = [list(map(str, v)) if isinstance(v, tuple) else str(v) for v in values]
-        entry["knees"] = [list(map(str, leg.base)) for leg in solution.problem.legs]
+        entry["knees"] = [list(map(str, leg.base)) for leg in problem.legs]
     return entry
 
 
 def _pose(pose: Pose, *, planar: bool) -> dict[str, Any]:
     entry: dict[str, Any] = {
-        "parameter": _bounds(pose.parameter),
+        "parameter": None if pose.parameter is None else _bounds(pose.parameter),
         "position": [_bounds(c) for c in pose.position],
         "rotation": [[_bounds(entry) for entry in row] for row in pose.rotation],
         "quaternion": [_bounds(q) for q in pose.quaternion],
@@ -124,6 +127,7 @@ def as_rows(solution: Solution) -> Iterator[list[str]]:
     names += [f"q{k}" for k in range(4)]
     yield ["pose", "claim", "multiplicity", *(f"{name}_{end}" for name in names for end in ("lo", "hi"))]
     for number, pose in enumerate(solution.poses, 1):
-        entries = [pose.parameter, *pose.position, *(entry for row in pose.rotation for entry in row), *pose.quaternion]
-        bounds = [str(end) for entry in entries for end in (entry.lo, entry.hi)]
-        yield [str(number), str(solution.claim), str(pose.multiplicity), *bounds]
+        parameter = ["", ""] if pose.parameter is None else _bounds(pose.parameter)
+        entries = [*pose.position, *(entry for row in pose.rotation for entry in row), *pose.quaternion]
+        bounds = [end for entry in entries for end in _bounds(entry)]
+        yield [str(number), str(solution.claim), str(pose.multiplicity), *parameter, *bounds]

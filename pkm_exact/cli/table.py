@@ -6,6 +6,8 @@ import sys
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
+from pkm_exact.cli.modes import assembly_modes, summary
+
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.poses.pose import Interval, Pose
@@ -54,12 +56,9 @@ def print_table(robot: Robot, configuration: str | None, solution: Solution, hea
     coordinates = _planar if planar else _spatial
     rows = [_row(number, pose, coordinates(pose)) for number, pose in enumerate(solution.poses, 1)]
     rotation = "angle [degrees]" if planar else "unit quaternion (scalar first)"
-    sys.stdout.write(f"\nposition [{robot.unit}], {rotation}, right to one unit of the last digit\n")
-    header = _PLANAR_HEADER if planar else _HEADER
-    if sys.stdout.isatty():
-        _print_rich(rows, header)
-    else:
-        sys.stdout.write(plain(rows, header))
+    sys.stdout.write(f"\nassembly modes: {summary(assembly_modes(solution.poses))}\n")
+    sys.stdout.write(f"position [{robot.unit}], {rotation}, right to one unit of the last digit\n")
+    print_rows(rows, _PLANAR_HEADER if planar else _HEADER)
 
 
 def _details(robot: Robot, solution: Solution) -> list[str]:
@@ -107,6 +106,14 @@ def _jacobian(pose: Pose) -> tuple[str, str]:
         return "0", "singular"
     condition = pose.jacobian.condition.midpoint
     return "+" if pose.jacobian.det_sign > 0 else "-", f"{Decimal(condition.numerator) / condition.denominator:.4g}"
+
+
+def print_rows(rows: list[tuple[str, ...]], header: tuple[str, ...]) -> None:
+    """Print the rows under the header to stdout, in colours on a terminal."""
+    if sys.stdout.isatty():
+        _print_rich(rows, header)
+    else:
+        sys.stdout.write(plain(rows, header))
 
 
 def plain(rows: list[tuple[str, ...]], header: tuple[str, ...] = _HEADER) -> str:

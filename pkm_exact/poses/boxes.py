@@ -6,8 +6,10 @@ The cell depends on the value alone, not on a precision or a library version: wi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
+from functools import partial
+from typing import TypeAlias
 
 from flint import arb, arb_poly, ctx, fmpz_poly
 
@@ -21,8 +23,13 @@ NEAR_EXPONENT = 32
 """A value within 2^-32 of a grid point gets a box around that point."""
 GUARD_BITS = 48
 """Values are enclosed to 2^-48 of a grid cell before their box is decided."""
+NEAR_LIMIT = 1 << GUARD_BITS - NEAR_EXPONENT
+"""2^-32 of a cell, in units of 2^-48."""
 DOUBLINGS = 4
 """Doublings of the precision before a value that still straddles the nearness limit counts as near."""
+
+Enclosures: TypeAlias = Callable[[int, Sequence[int]], Iterable[Sequence[arb]]]
+"""Given a precision and indices of poses, their ordinary coordinates: position (3), rotation (9), quaternion (4)."""
 
 
 def exponent_for_width(width: Fraction) -> int:
@@ -53,49 +60,66 @@ def pose_boxes(
     width : Fraction
         Largest width of a box in any coordinate.
     """
-    h = representation.univariate.primitive_polynomial
-    roots = isolate_real_roots(h)
+    roots = isolate_real_roots(representation.univariate.primitive_polynomial)
+    exponent, cells = disjoint_cells(root_enclosures(representation, metric), len(roots), width)
+    return exponent, tuple(
+        pose_in_cells(row, Interval(root.lo, root.hi)) for root, row in zip(roots, cells, strict=True)
+    )
+
+
+def root_enclosures(representation: PoseRepresentation, metric: Sequence[int]) -> Enclosures:
+    """Enclosures of the real poses, in the order of the roots of h."""
+    return partial(_at_roots, representation, metric)
+
+
+def _at_roots(
+    representation: PoseRepresentation, metric: Sequence[int], precision: int, indices: Sequence[int]
+) -> Iterator[list[arb]]:
+    roots = real_root_enclosures(representation.univariate.primitive_polynomial, precision)
+    if not set(indices) <= set(range(len(roots))):
+        raise InternalContradictionError("the number of real roots changed with the precision")
+    with ctx.workprec(precision):
+        for index in indices:
+            yield ordinary_coordinates(study_coordinates(representation, roots[index]), metric)
+
+
+def disjoint_cells(enclosures: Enclosures, count: int, width: Fraction) -> tuple[int, list[list[Interval]]]:
+    """The grid exponent and the cells of all coordinates of the poses; no two poses have overlapping boxes."""
     exponent = exponent_for_width(width)
     while True:
-        cells = _cells(representation, metric, exponent, len(roots))
-        poses = tuple(_pose(Interval(root.lo, root.hi), row) for root, row in zip(roots, cells, strict=True))
-        if _are_disjoint(poses):
-            return exponent, poses
+        cells = _cells(enclosures, exponent, count)
+        if _are_disjoint(cells):
+            return exponent, cells
         exponent += 8
 
 
-def _cells(
-    representation: PoseRepresentation, metric: Sequence[int], exponent: int, count: int
-) -> list[list[Interval]]:
+def _cells(enclosures: Enclosures, exponent: int, count: int) -> list[list[Interval]]:
     """Position (3), rotation (9) and quaternion (4) of every real pose as grid intervals."""
-    h = representation.univariate.primitive_polynomial
     precision = exponent + 128
     decided: list[list[Interval | None]] = [[None] * 16 for _ in range(count)]
     late = 0
-    while True:
-        enclosures = real_root_enclosures(h, precision)
-        if len(enclosures) != count:
-            raise InternalContradictionError("the number of real roots changed with the precision")
+    while left := [index for index, row in enumerate(decided) if None in row]:
         fine = True
         with ctx.workprec(precision):
-            for row, root in zip(decided, enclosures, strict=True):
-                if None not in row:
-                    continue
-                values = ordinary_coordinates(representation, metric, root)
-                for index, value in enumerate(values):
-                    if row[index] is None:
+            for index, values in zip(left, enclosures(precision, left), strict=True):
+                row = decided[index]
+                for place, value in enumerate(values):
+                    if row[place] is None:
                         fine = fine and _radius_fits(value, exponent)
-                        row[index] = _grid_interval(value, exponent, near_if_undecided=late > DOUBLINGS)
-        if all(entry is not None for row in decided for entry in row):
-            return [[entry for entry in row if entry is not None] for row in decided]
+                        row[place] = _grid_interval(value, exponent, near_if_undecided=late > DOUBLINGS)
         late += fine
         precision *= 2
+    return [[entry for entry in row if entry is not None] for row in decided]
 
 
-def ordinary_coordinates(representation: PoseRepresentation, metric: Sequence[int], root: arb) -> list[arb]:
-    """Position, rotation matrix and unit quaternion, in ordinary coordinates, at an enclosed root of h."""
+def study_coordinates(representation: PoseRepresentation, root: arb) -> list[arb]:
+    """(e, f) at an enclosed root of h."""
     slope = _at(representation.denominator, root)
-    x = [_at(numerator, root) / slope for numerator in representation.univariate.numerator_polynomials]
+    return [_at(numerator, root) / slope for numerator in representation.univariate.numerator_polynomials]
+
+
+def ordinary_coordinates(x: Sequence[arb], metric: Sequence[int]) -> list[arb]:
+    """Position, rotation matrix and unit quaternion, in ordinary coordinates, of a pose (e, f)."""
     products = [[left * right for right in x] for left in x]
     quadrics = [evaluate(quadric, products) for quadric in motion_quadrics(metric)]
     norm = quadrics[-1]
@@ -122,23 +146,29 @@ def _grid_interval(value: arb, exponent: int, *, near_if_undecided: bool) -> Int
     """The grid interval of an enclosed value, or None if the enclosure does not decide it."""
     if not _radius_fits(value, exponent):
         return None
+    fine = exponent + GUARD_BITS
     mantissa, power = value.mid().man_exp()
-    middle = Fraction(int(mantissa)) * Fraction(2) ** (int(power) + exponent)
-    mantissa, power = value.rad().man_exp()
-    radius = Fraction(int(mantissa)) * Fraction(2) ** (int(power) + exponent)
-    nearest = (middle + Fraction(1, 2)).__floor__()
-    distance = abs(middle - nearest)
-    limit = Fraction(1, 1 << NEAR_EXPONENT)
-    scale = 1 << exponent
-    if distance + radius < limit or (near_if_undecided and distance - radius <= limit):
-        return Interval(Fraction(nearest - 1, scale), Fraction(nearest + 1, scale))
-    if distance - radius > limit:
-        cell = middle.__floor__()
-        return Interval(Fraction(cell, scale), Fraction(cell + 1, scale))
+    middle = _shifted(int(mantissa), int(power) + fine)
+    nearest = (middle + (1 << GUARD_BITS - 1)) >> GUARD_BITS
+    distance = abs(middle - (nearest << GUARD_BITS))
+    # Of the three units one is the radius, and one each may have been lost by rounding and by the distance.
+    if distance + 3 < NEAR_LIMIT or (near_if_undecided and distance - 3 <= NEAR_LIMIT):
+        return _cell(nearest - 1, nearest + 1, exponent)
+    if distance - 3 > NEAR_LIMIT:
+        return _cell(middle >> GUARD_BITS, (middle >> GUARD_BITS) + 1, exponent)
     return None
 
 
-def _pose(parameter: Interval, row: Sequence[Interval]) -> Pose:
+def _shifted(mantissa: int, shift: int) -> int:
+    return mantissa << shift if shift >= 0 else mantissa >> -shift
+
+
+def _cell(low: int, high: int, exponent: int) -> Interval:
+    return Interval(Fraction(low, 1 << exponent), Fraction(high, 1 << exponent))
+
+
+def pose_in_cells(row: Sequence[Interval], parameter: Interval | None) -> Pose:
+    """The pose with these intervals of position, rotation and quaternion."""
     return Pose(
         parameter,
         (row[0], row[1], row[2]),
@@ -147,10 +177,22 @@ def _pose(parameter: Interval, row: Sequence[Interval]) -> Pose:
     )
 
 
-def _are_disjoint(poses: Sequence[Pose]) -> bool:
-    vectors = [[*pose.position, *(entry for row in pose.rotation for entry in row)] for pose in poses]
+def in_order(poses: Iterable[Pose]) -> tuple[Pose, ...]:
+    """The poses as they are listed: by the boxes of position and rotation, from left to right.
+
+    The order is the same whatever method found them.
+    """
+    return tuple(sorted(poses, key=_key))
+
+
+def _key(pose: Pose) -> list[tuple[Fraction, Fraction]]:
+    box = [*pose.position, *(entry for row in pose.rotation for entry in row)]
+    return [(interval.lo, interval.hi) for interval in box]
+
+
+def _are_disjoint(cells: Sequence[Sequence[Interval]]) -> bool:
     return all(
-        any(not a.overlaps(b) for a, b in zip(vectors[i], vectors[j], strict=True))
-        for i in range(len(vectors))
+        any(not a.overlaps(b) for a, b in zip(cells[i][:12], cells[j][:12], strict=True))
+        for i in range(len(cells))
         for j in range(i)
     )

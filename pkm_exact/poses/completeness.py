@@ -9,29 +9,26 @@ another pose nor a self-motion.
 Exact elimination. Robots with symmetries have fewer finite solutions, the rest at infinity. An elimination over Q in
 the affine coordinates of the section yields members of the ideal of the poses, and the monomials that none of their
 leading monomials divide span its quotient algebra. If these are as many as the poses listed, there is no other. If
-they are more, the trace form over Q counts the distinct ones (``algebra.exact_quotient``): as many as listed, and again
-there is no other. A pose with a regular Jacobian is simple; if the others are conjugate, they share what is left.
+they are more, some poses are multiple. A pose at which the Jacobian has corank c counts 2^c times at least
+(``poses.multiplicity``): if these numbers sum to the bound, again there is no other. Or else the trace form over Q
+counts the distinct ones (``algebra.exact_quotient``), and there must be as many as listed.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import islice
-
-from flint import fmpz_poly, nmod_poly
 
 from pkm_exact.algebra.elimination import Elimination
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
-from pkm_exact.algebra.newton import is_regular
-from pkm_exact.algebra.primes import primes_below
 from pkm_exact.algebra.quotient import standard_monomials
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.motion_variety import SE3
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
+from pkm_exact.poses.multiplicity import Multiplicities, exact_multiplicities, least_multiplicities, total_of
 from pkm_exact.poses.representation import PoseRepresentation
-from pkm_exact.poses.study_equations import StudyEquations
+from pkm_exact.poses.singularity import are_isolated
 from pkm_exact.verdict import CompletenessRoute
 
 MOTION_DEGREE = 40
@@ -50,11 +47,15 @@ class CompletenessProof:
     elimination : tuple of tuple of (int, tuple of int)
         For exact elimination: the rows of every matrix, each an element's index and the exponents that multiply it
         (see ``algebra.exact_basis``), on the section of the variety of rigid motions as ``SE3`` writes it.
+    multiplicities : tuple of (fmpz_poly, int)
+        The irreducible factors of the eliminant with the multiplicity of the poses at their roots, if some are
+        multiple; empty if all are simple.
     """
 
     route: CompletenessRoute
     total: int
     elimination: tuple[tuple[tuple[int, tuple[int, ...]], ...], ...] = ()
+    multiplicities: Multiplicities = ()
 
 
 def prove_complete(
@@ -75,44 +76,15 @@ def prove_complete(
         return None
     if bound == degree:
         return _elimination_proof(basis, bound)
-    quotient = exact_quotient(basis, policy.dimension_limit)
-    if quotient is not None and quotient.commutes and quotient.distinct_solutions == degree:
-        return _elimination_proof(basis, bound)
-    return None
-
-
-def multiplicities(
-    representation: PoseRepresentation, problem: ForwardProblem, total: int | None, policy: Policy
-) -> tuple[tuple[fmpz_poly, int | None], ...]:
-    """Factors of h with the multiplicity of their roots as poses; None where it is not determined.
-
-    Parameters
-    ----------
-    representation : PoseRepresentation
-        Verified.
-    total : int or None
-        Number of solutions with multiplicity, if the representation is proved complete.
-    """
-    h = representation.univariate.primitive_polynomial
-    if total == h.degree():
-        return ((h, 1),)
-    if are_isolated(representation, problem, policy):
-        if total is not None:
-            raise InternalContradictionError(
-                "all poses are simple, but there are fewer than solutions with multiplicity"
-            )
-        return ((h, 1),)
-    factors = [factor for factor, _ in h.factor()[1]]
-    if total is None:
-        return tuple((factor, None) for factor in factors)
-    singular = [factor for factor in factors if not are_isolated(representation, problem, policy, factor)]
-    left = total - sum(int(factor.degree()) for factor in factors if factor not in singular)
-    if len(singular) != 1:
-        return tuple((factor, None if factor in singular else 1) for factor in factors)
-    shared, rest = divmod(left, int(singular[0].degree()))
-    if rest or shared < 2:
+    found = least_multiplicities(representation, problem, policy)
+    if total_of(found) < bound:
+        quotient = exact_quotient(basis, policy.dimension_limit)
+        if quotient is None or not quotient.commutes or quotient.distinct_solutions != degree:
+            return None
+        found = exact_multiplicities(representation, problem, quotient, policy)
+    if total_of(found) != bound:
         raise InternalContradictionError("the multiplicities do not sum to the number of solutions")
-    return tuple((factor, shared if factor in singular else 1) for factor in factors)
+    return _elimination_proof(basis, bound, found)
 
 
 def prove_inconsistent(problem: ForwardProblem, policy: Policy) -> CompletenessProof | None:
@@ -136,32 +108,6 @@ def solution_bound(basis: ExactBasis, policy: Policy) -> int | None:
     return None if found is None else len(found)
 
 
-def _elimination_proof(basis: ExactBasis, total: int) -> CompletenessProof:
+def _elimination_proof(basis: ExactBasis, total: int, found: Multiplicities = ()) -> CompletenessProof:
     steps = tuple(tuple((index, basis.ring.unpack(monomial)) for index, monomial in step) for step in basis.steps)
-    return CompletenessProof(CompletenessRoute.EXACT_ELIMINATION, total, steps)
-
-
-def are_isolated(
-    representation: PoseRepresentation, problem: ForwardProblem, policy: Policy, factor: fmpz_poly | None = None
-) -> bool:
-    """Whether the Jacobian of the legs is proved regular at every pose, by its image modulo some prime.
-
-    "No" means that no proof was found at the primes tried. With a ``factor`` of h only its roots are looked at.
-    """
-    h = representation.univariate.polynomial
-    looked_at = h if factor is None else factor
-    usable = (prime for prime in primes_below(policy.prime_bits) if int(h.leading_coefficient()) % prime)
-    for attempt, prime in enumerate(islice(usable, policy.attempts)):
-        eliminant = nmod_poly([int(value) % prime for value in looked_at.coeffs()], prime)
-        slope = nmod_poly([int(value) % prime for value in h.derivative().coeffs()], prime)
-        divisor, inverse, _ = slope.xgcd(eliminant)
-        if divisor.degree() != 0:
-            continue
-        equations = StudyEquations(problem, representation.chart, policy.seed + attempt)
-        numerators = [representation.univariate.numerators[k] for k in equations.free]
-        point = [
-            nmod_poly([value % prime for value in numerator], prime) * inverse % eliminant for numerator in numerators
-        ]
-        if is_regular(equations, eliminant / eliminant.leading_coefficient(), point):
-            return True
-    return False
+    return CompletenessProof(CompletenessRoute.EXACT_ELIMINATION, total, steps, found)

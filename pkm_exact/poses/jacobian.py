@@ -11,24 +11,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from math import isqrt
 
-import mpmath
+import numpy as np
 from flint import arb, arb_mat, ctx
 
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
-from pkm_exact.poses.boxes import ordinary_coordinates
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.boxes import Enclosures
 from pkm_exact.roots.interval import Interval
-from pkm_exact.roots.isolation import real_root_enclosures
 
 LEAST_PRECISION = 192
 """Bits in which Jacobians are enclosed first."""
 GREATEST_PRECISION = 1 << 13
 """Bits that suffice for any Jacobian that is regular; singular ones are known beforehand, exactly."""
-OUTPUT_BITS = 40
+OUTPUT_BITS = 32
 """Significant bits of the intervals returned."""
 FINEST_EXPONENT = 256
 """Intervals returned lie on the grid 2^-256 at the finest: a bound that close to 0 says enough."""
@@ -87,10 +86,8 @@ def characteristic_length(problem: ForwardProblem) -> Fraction:
     return Fraction(isqrt(scaled.numerator // scaled.denominator)) / scale
 
 
-def pose_jacobians(
-    representation: PoseRepresentation, problem: ForwardProblem, ranks: Sequence[int | None]
-) -> list[LegJacobian]:
-    """The Jacobians at the real poses, in the order of the roots of h; the precision rises until each is decided.
+def pose_jacobians(enclosures: Enclosures, problem: ForwardProblem, ranks: Sequence[int | None]) -> list[LegJacobian]:
+    """The Jacobians at the real poses; the precision rises until each is decided.
 
     Parameters
     ----------
@@ -105,12 +102,10 @@ def pose_jacobians(
     while None in found:
         if precision > GREATEST_PRECISION:
             raise InternalContradictionError("a regular Jacobian is not confirmed by its enclosures")
-        roots = real_root_enclosures(representation.univariate.primitive_polynomial, precision)
         with ctx.workprec(precision):
-            for index, root in enumerate(roots):
-                if found[index] is None:
-                    values = ordinary_coordinates(representation, problem.metric, root)
-                    found[index] = _regular_jacobian(problem, values[:3], values[3:12], length)
+            left = [index for index, jacobian in enumerate(found) if jacobian is None]
+            for index, values in zip(left, enclosures(precision, left), strict=True):
+                found[index] = _regular_jacobian(problem, values[:3], values[3:12], length)
         precision *= 2
     return [jacobian for jacobian in found if jacobian is not None]
 
@@ -120,10 +115,16 @@ def _regular_jacobian(
 ) -> LegJacobian | None:
     """The Jacobian at an enclosed pose where it is regular; None if the enclosures are too wide to show it."""
     matrix = _matrix(problem, position, [rotation[0:3], rotation[3:6], rotation[6:9]], length)
-    bounds, determinant = _extreme_singular_values(matrix), matrix.det()
-    if bounds is None or not (bounds[0] > 0 and (determinant > 0 or determinant < 0)):
+    determinant = matrix.det()
+    if not (determinant > 0 or determinant < 0):
         return None
-    smallest, condition = _outward(bounds[0]), _outward(bounds[1] / bounds[0])
+    try:
+        largest, inverse = _largest_singular_value(matrix), _largest_singular_value(matrix.inv())
+    except ZeroDivisionError:
+        return None
+    if largest is None or inverse is None:
+        return None
+    smallest, condition = _outward(1 / inverse), _outward(largest * inverse)
     if 2 * smallest.lo < smallest.hi:
         return None
     return LegJacobian(1 if determinant > 0 else -1, len(problem.legs), smallest, condition, length)
@@ -133,59 +134,64 @@ def _matrix(
     problem: ForwardProblem, position: Sequence[arb], rotation: Sequence[Sequence[arb]], length: Fraction
 ) -> arb_mat:
     axes = [arb(g).sqrt() for g in problem.metric]
-    scale = arb(length.numerator) / length.denominator
+    scale = arb(length.denominator) / length.numerator
+    base, arms = (
+        arb_mat(
+            [
+                [axis * joint.numerator / joint.denominator for axis, joint in zip(axes, row, strict=True)]
+                for row in side
+            ]
+        )
+        for side in ([leg.base for leg in problem.legs], [leg.platform for leg in problem.legs])
+    )
+    turned = arms * arb_mat([list(row) for row in rotation]).transpose()
     rows = []
-    for leg in problem.legs:
-        base = [axis * value.numerator / value.denominator for axis, value in zip(axes, leg.base, strict=True)]
-        joint = [axis * value.numerator / value.denominator for axis, value in zip(axes, leg.platform, strict=True)]
-        arm = [sum((r * b for r, b in zip(row, joint, strict=True)), arb(0)) for row in rotation]
-        line = [c + b - a for c, b, a in zip(position, arm, base, strict=True)]
-        norm = sum((value * value for value in line), arb(0)).sqrt()
-        unit = [value / norm for value in line]
-        if problem.planar:
-            rows.append([unit[0], unit[1], (arm[0] * unit[1] - arm[1] * unit[0]) / scale])
-            continue
-        rows.append([*unit, *((arm[j] * unit[k] - arm[k] * unit[j]) / scale for _, j, k in CYCLIC)])
+    for arm, start in zip(turned.tolist(), base.tolist(), strict=True):
+        line = [c + b - a for c, b, a in zip(position, arm, start, strict=True)]
+        factor = (line[0] * line[0] + line[1] * line[1] + line[2] * line[2]).rsqrt()
+        unit = [value * factor for value in line]
+        turns = [(arm[j] * unit[k] - arm[k] * unit[j]) * scale for _, j, k in CYCLIC]
+        rows.append([unit[0], unit[1], turns[2]] if problem.planar else [*unit, *turns])
     return arb_mat(rows)
 
 
-def _extreme_singular_values(matrix: arb_mat) -> tuple[arb, arb] | None:
-    """Enclosures of the smallest and the largest singular value; None if the entries are too wide for any bound.
+def _largest_singular_value(matrix: arb_mat) -> arb | None:
+    """An enclosure of the largest singular value; None if the entries are too wide for one.
 
-    With an approximate eigenvector matrix V of J^T J, floating but exact as it stands, V^-1 (J^T J) V is similar to it
-    and nearly diagonal: all eigenvalues lie in its Gershgorin discs. Rayleigh quotients bound the extreme ones from
-    inside. Eigenvalues need not be told apart.
+    With approximate singular vectors U, V, floating but exact as they stand, U^T A V is nearly diagonal: its singular
+    values differ from the diagonal by the norm of the rest at most (Weyl). Those of A are these times factors between
+    the extreme singular values of U^-1 and V^-1, and these are near 1: |U^T U - 1| bounds how near.
     """
-    symmetric = matrix.transpose() * matrix
-    size = symmetric.nrows()
-    if not all(entry.is_finite() for entry in symmetric.entries()):
+    size, exponent = matrix.nrows(), _exponent(matrix)
+    matrix = matrix * arb(2) ** -exponent
+    middle = np.array([float(entry.mid()) for entry in matrix.entries()]).reshape(size, size)
+    if not np.isfinite(middle).all():
         return None
-    with mpmath.workprec(ctx.prec):
-        middle = mpmath.matrix([[mpmath.mpf(symmetric[i, j].mid()._mpf_) for j in range(size)] for i in range(size)])
-        vectors = mpmath.eigsy((middle + middle.T) / 2)[1]
-        basis = arb_mat([[arb(vectors[i, j]) for j in range(size)] for i in range(size)])
-    similar = basis.inv() * symmetric * basis
-    discs = []
-    for i in range(size):
-        radius = sum((abs(similar[i, j]) for j in range(size) if j != i), arb(0))
-        discs.append((similar[i, i] - radius, similar[i, i] + radius))
-    if not all(end.is_finite() for disc in discs for end in disc):
-        return None
-    columns = [arb_mat(size, 1, [basis[i, j] for i in range(size)]) for j in range(size)]
-    quotients = [
-        (column.transpose() * symmetric * column)[0, 0] / (column.transpose() * column)[0, 0] for column in columns
-    ]
-    low = min(_ends(disc[0])[0] for disc in discs)
-    high = max(_ends(disc[1])[1] for disc in discs)
-    smallest = _hull(max(Fraction(0), low), min(_ends(value)[1] for value in quotients))
-    largest = _hull(max(_ends(value)[0] for value in quotients), high)
-    return smallest.nonnegative_part().sqrt(), largest.sqrt()
+    left, _, right = np.linalg.svd(middle)
+    u, v = arb_mat(left.tolist()), arb_mat(right.T.tolist())
+    entries = (u.transpose() * matrix * v).entries()
+    largest = reduce(arb.max, [abs(entry) for entry in entries[:: size + 1]])
+    largest += arb(0, _norm([entry for place, entry in enumerate(entries) if place % (size + 1)]))
+    for basis in (u, v):
+        unit = arb_mat(size, size, [int(place % (size + 1) == 0) for place in range(size * size)])
+        defect = _norm((basis.transpose() * basis - unit).entries())
+        if not defect < 1:
+            return None
+        largest /= (1 + arb(0, defect)).sqrt()
+    return largest * arb(2) ** exponent if largest > 0 else None
 
 
-def _hull(low: Fraction, high: Fraction) -> arb:
-    """A ball that contains both ends."""
-    ends = [arb(end.numerator) / end.denominator for end in (low, max(low, high))]
-    return ends[0].union(ends[1])
+def _exponent(matrix: arb_mat) -> int:
+    """The binary exponent of the largest entry, roughly."""
+    sizes = [abs(entry) for entry in matrix.entries() if entry.is_finite()]
+    mantissa, power = reduce(arb.max, sizes, arb(0)).mid().man_exp()
+    return int(power) + int(mantissa).bit_length() if mantissa else 0
+
+
+def _norm(entries: Sequence[arb]) -> arb:
+    """An upper bound of the root of the sum of squares."""
+    row = arb_mat(1, len(entries), entries)
+    return (row * row.transpose())[0, 0].sqrt().abs_upper()
 
 
 def _outward(value: arb) -> Interval:

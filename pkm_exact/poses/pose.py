@@ -19,8 +19,9 @@ class Pose:
 
     Attributes
     ----------
-    parameter : Interval
-        Isolating interval of the eliminant's real root that parametrises the pose; alone in it.
+    parameter : Interval or None
+        Isolating interval of the eliminant's real root that parametrises the pose; alone in it. None if the pose was
+        found without an eliminant.
     position : tuple of 3 Interval
         The mobile frame's origin C in the fixed frame, in the robot's unit of length.
     rotation : 3 x 3 tuple of Interval
@@ -34,7 +35,7 @@ class Pose:
         What is certified of the leg Jacobian there.
     """
 
-    parameter: Interval
+    parameter: Interval | None
     position: tuple[Interval, Interval, Interval]
     rotation: tuple[tuple[Interval, ...], ...]
     quaternion: tuple[Interval, Interval, Interval, Interval]

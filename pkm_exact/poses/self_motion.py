@@ -1,18 +1,24 @@
 """Proofs that a robot moves although its legs are locked.
 
-Rigid motions form a variety of dimension 6 on which each leg is a hyperplane. If the six leg forms have rank r < 6 (an
-architecture singularity), every component of the set of poses has dimension at least 6 - r; one finite pose, real or
-complex, then proves a self-motion through it. Such a pose is found by joining 6 - r further legs, chosen at random, and
-solving: every pose of the longer list of legs is one of the robot's.
+Dependent legs. Rigid motions form a variety of dimension 6 on which each leg is a hyperplane. If the six leg forms have
+rank r < 6 (an architecture singularity), every component of the set of poses has dimension at least 6 - r; one finite
+pose, real or complex, then proves a self-motion through it. Planar motions have dimension 3, and three legs.
 
-If base and platform are congruent, A_i = d + R B_i for one rotation R, and all legs are equal, the platform can move on
-a sphere without turning: every pose (C, R) with |C - d| = l has these leg lengths.
+Collinear joints. If the platform joints lie on a line, the platform turns about it, whatever the pose; if they lie in
+one point, it turns about that point in any way. The same holds for the base. Again one finite pose is enough.
+
+Such a pose is found by joining further legs, chosen at random, until finitely many poses are left, and solving: every
+pose of the longer list of legs is one of the robot's.
+
+Congruent halves. If A_i = d + R B_i for one rotation R, and all legs are equal, the platform can move on a sphere (a
+planar one on a circle) without turning: every pose (C, R) with |C - d| = l has these leg lengths.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from fractions import Fraction
 from itertools import combinations
 from random import Random
@@ -20,10 +26,42 @@ from random import Random
 from flint import fmpq, fmpq_mat
 
 from pkm_exact.formulations.base import rational
-from pkm_exact.formulations.motion_variety import leg_hyperplane
+from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, leg_hyperplane, planar_hyperplanes
+from pkm_exact.geometry.inverse import dot
+from pkm_exact.geometry.planar import turn_of
 from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.poses.representation import PoseRepresentation
+
+
+class Cause(StrEnum):
+    """Why every pose lies on a curve or surface of poses."""
+
+    DEPENDENT_LEGS = "dependent leg forms"
+    SIMILAR_ON_CONIC = "similar base and platform on a conic"
+    PLATFORM_LINE = "platform joints on a line"
+    BASE_LINE = "base joints on a line"
+    PLATFORM_POINT = "coincident platform joints"
+    BASE_POINT = "coincident base joints"
+
+
+@dataclass(frozen=True)
+class Mobility:
+    """That the set of poses, if there are any, has at least a certain dimension everywhere, and why.
+
+    Attributes
+    ----------
+    dimension : int
+        At least 1.
+    rank : int
+        Of the leg forms.
+    causes : tuple of Cause
+        All that apply; each proves a self-motion by itself, the dimension is the greatest that one of them gives.
+    """
+
+    dimension: int
+    rank: int
+    causes: tuple[Cause, ...]
 
 
 @dataclass(frozen=True)
@@ -32,23 +70,80 @@ class SelfMotion:
 
     Attributes
     ----------
-    dimension : int
-        The set of poses has at least this dimension at each of the poses below.
+    mobility : Mobility
+        The set of poses has at least its dimension at each of the poses below.
     legs : tuple of Leg
         Further legs.
     representation : PoseRepresentation
         Complex poses, verified, in which the robot's legs and the further ones have their lengths.
     """
 
-    dimension: int
+    mobility: Mobility
     legs: tuple[Leg, ...]
     representation: PoseRepresentation
 
 
+def mobility(problem: ForwardProblem) -> Mobility | None:
+    """What the joints alone tell of the dimension of the set of poses, or None if it may be 0.
+
+    Examples
+    --------
+    >>> zero = Fraction(0)
+    >>> base = [(Fraction(x), Fraction(x * x), Fraction(x**3)) for x in range(6)]
+    >>> legs = tuple(Leg(joint, (Fraction(n * n), zero, zero), Fraction(99)) for n, joint in enumerate(base))
+    >>> mobility(ForwardProblem(legs))
+    Mobility(dimension=1, rank=6, causes=(<Cause.PLATFORM_LINE: 'platform joints on a line'>,))
+    """
+    found: dict[Cause, int] = {}
+    for joints, point, line in (
+        ([leg.platform for leg in problem.legs], Cause.PLATFORM_POINT, Cause.PLATFORM_LINE),
+        ([leg.base for leg in problem.legs], Cause.BASE_POINT, Cause.BASE_LINE),
+    ):
+        spanned = affine_dimension(joints)
+        if spanned == 0:
+            found[point] = 1 if problem.planar else 3
+        elif spanned == 1 and not problem.planar:
+            found[line] = 1
+    freedom, rank = 3 if problem.planar else 6, leg_rank(problem)
+    if rank < freedom:
+        found[_dependence(problem)] = freedom - rank
+    return Mobility(max(found.values()), rank, tuple(found)) if found else None
+
+
+def affine_dimension(points: Sequence[Vector]) -> int:
+    """Dimension of the line, plane or space that points span; 0 if they coincide."""
+    return int(fmpq_mat([[rational(x) for x in _difference(point, points[0])] for point in points]).rank())
+
+
 def leg_rank(problem: ForwardProblem) -> int:
-    """Rank over Q of the leg forms on the 17 coordinates of rigid motions."""
+    """Rank over Q of the leg forms on the 17 coordinates of rigid motions, or on the 8 of planar ones."""
     metric = [rational(g) for g in problem.metric]
-    return int(fmpq_mat([leg_hyperplane(leg, metric) for leg in problem.legs]).rank())
+    legs = [leg_hyperplane(leg, metric) for leg in problem.legs]
+    if not problem.planar:
+        return int(fmpq_mat(legs).rank())
+    size = len(MOTION_COORDINATES)
+    places = [MOTION_COORDINATES.index(name) for name in ("r11", "r12", "r21", "r22")]
+    plane = planar_hyperplanes()
+    for values in ((fmpq(1), fmpq(0), fmpq(0), fmpq(-1)), (fmpq(0), metric[0], metric[1], fmpq(0))):
+        entries = dict(zip(places, values, strict=True))
+        plane.append([entries.get(place, fmpq(0)) for place in range(size + 1)])
+    return int(fmpq_mat(legs + plane).rank()) - len(plane)
+
+
+def _dependence(problem: ForwardProblem) -> Cause:
+    """The known kind of dependence, if it is one."""
+    base, platform = [leg.base for leg in problem.legs], [leg.platform for leg in problem.legs]
+    if problem.planar or affine_dimension(base) != 2:
+        return Cause.DEPENDENT_LEGS
+    squares = []
+    for i, j in combinations(range(len(base)), 2):
+        lines = _difference(base[i], base[j]), _difference(platform[i], platform[j])
+        squares.append([rational(dot(line, line, problem.metric)) for line in lines])
+    one = Fraction(1)
+    quadratic = [[one, *point, *(point[i] * point[j] for i in range(3) for j in range(i + 1))] for point in base]
+    conic = fmpq_mat([[rational(value) for value in row] for row in quadratic])
+    similar = fmpq_mat(squares).rank() == 1 and affine_dimension(platform) == 2
+    return Cause.SIMILAR_ON_CONIC if similar and conic.rank() < len(base) else Cause.DEPENDENT_LEGS
 
 
 def extended_problems(problem: ForwardProblem, count: int, seed: int) -> Iterator[ForwardProblem]:
@@ -60,6 +155,8 @@ def extended_problems(problem: ForwardProblem, count: int, seed: int) -> Iterato
         further = []
         for _ in range(count):
             x, y, z, u, v, w = (Fraction(random.randint(-size, size)) for _ in range(6))
+            if problem.planar:
+                z = w = Fraction(0)
             further.append(Leg((x, y, z), (u, v, w), Fraction(random.randint(1, square))))
         yield replace(problem, legs=problem.legs + tuple(further))
 
@@ -67,7 +164,7 @@ def extended_problems(problem: ForwardProblem, count: int, seed: int) -> Iterato
 @dataclass(frozen=True)
 class TranslationalMotion:
     """A sphere of poses: A_i = offset + R B_i for all legs, which have one length l; then C - offset is any vector of
-    that length.
+    that length. In the plane it is a circle.
 
     Attributes
     ----------
@@ -78,16 +175,23 @@ class TranslationalMotion:
 
     rotation: tuple[Vector, Vector, Vector]
     offset: Vector
-    dimension: int = 2
 
 
 def translational_motion(problem: ForwardProblem) -> TranslationalMotion | None:
-    """The sphere of poses of a robot with congruent base and platform and equal legs, or None."""
+    """The sphere or circle of poses of a robot with congruent base and platform and equal legs, or None."""
     legs = problem.legs
-    if problem.planar or len({leg.length_squared for leg in legs}) != 1:
+    if len({leg.length_squared for leg in legs}) != 1:
         return None
-    for first, second, third in combinations(legs, 3):
-        triple = (first, second, third)
+    rotation = _planar_rotation(problem) if problem.planar else _spatial_rotation(problem)
+    if rotation is None:
+        return None
+    offsets = {_difference(leg.base, _image(rotation, leg.platform)) for leg in legs}
+    return TranslationalMotion(rotation, offsets.pop()) if len(offsets) == 1 else None
+
+
+def _spatial_rotation(problem: ForwardProblem) -> tuple[Vector, Vector, Vector] | None:
+    """The rotation that takes the platform's shape to the base's, from three joints that are not on a line."""
+    for triple in combinations(problem.legs, 3):
         u = _axes([leg.platform for leg in triple], problem.metric)
         v = _axes([leg.base for leg in triple], problem.metric)
         if not any(u[2]):
@@ -98,9 +202,19 @@ def translational_motion(problem: ForwardProblem) -> TranslationalMotion | None:
         if matrix.transpose() * gram * matrix != gram:
             return None
         x, y, z = (_vector([matrix[i, j] for j in range(3)]) for i in range(3))
-        rotation = (x, y, z)
-        offsets = {_difference(leg.base, _image(rotation, leg.platform)) for leg in legs}
-        return TranslationalMotion(rotation, offsets.pop()) if len(offsets) == 1 else None
+        return x, y, z
+    return None
+
+
+def _planar_rotation(problem: ForwardProblem) -> tuple[Vector, Vector, Vector] | None:
+    """The rotation of the plane that takes the platform's shape to the base's, from two joints."""
+    for first, second in combinations(problem.legs, 2):
+        u, v = _difference(second.platform, first.platform), _difference(second.base, first.base)
+        square = dot(u, u, problem.metric)
+        if square:
+            if dot(v, v, problem.metric) != square:
+                return None
+            return turn_of((dot(u, v, problem.metric) / square, (u[0] * v[1] - u[1] * v[0]) / square), problem.metric)
     return None
 
 

@@ -3,18 +3,26 @@
 The derivative of |C + R B - A|^2 / 2 along a velocity v and an angular velocity w is d.v + (b x d).w, where
 d = C + R B - A is the leg and b = R B its arm. If the six lines (d, b x d) are independent, no tangent direction keeps
 all lengths: the solution is isolated and simple. If they are not, its multiplicity is at least 2.
+
+How multiple, the algebra of all poses says: see ``multiplicities``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
+from typing import Any, Final
 
-from flint import fmpq_poly, fmpz_poly
+from flint import fmpq_poly, fmpz_poly, nmod_mat, nmod_poly
 
 from pkm_exact.certify.checker.document import Representation
-from pkm_exact.certify.checker.motion import Leg, Metric, leg_lines, motion
-from pkm_exact.certify.checker.solutions import modulo, primitive_part, proved_coprime
+from pkm_exact.certify.checker.motion import Leg, Metric, combination, leg_lines, motion
+from pkm_exact.certify.checker.section import unknowns
+from pkm_exact.certify.checker.solutions import PRIMES, modulo, primitive_part, proved_coprime
+from pkm_exact.certify.checker.traceform import Algebra
+
+BASES: Final = (3, 5, 7)
+"""The unknowns are combined with the powers of one of these numbers; any combination serves that separates."""
 
 
 def are_simple(representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
@@ -42,6 +50,60 @@ def is_multiple(factor: fmpz_poly, representation: Representation, legs: Sequenc
     """Whether the leg lines are dependent at every root of an irreducible factor of h, over Q."""
     numerators = (*representation.quaternion, *representation.translation)
     return not _lines_determinant([fmpq_poly(x) for x in numerators], fmpq_poly(factor), legs, metric)
+
+
+def multiplicities(
+    algebra: Algebra, representation: Representation, legs: Sequence[Leg], metric: Metric
+) -> list[tuple[fmpz_poly, int]] | None:
+    """The irreducible factors f of h, each with the multiplicity of the solutions at its roots; None if not found.
+
+    Over Q, multiplication by u has the characteristic polynomial prod_f g_f^m, with g_f the product of X - u(t) over
+    the roots t of f. It has so modulo p too, and if the g_f are coprime there, m can be read off.
+    """
+    factors = [factor for factor, _ in primitive_part(representation.eliminant).factor()[1]]
+    places = unknowns(legs, metric)
+    for p, base in ((p, base) for base in BASES for p in PRIMES):
+        weights = {place: pow(base, power, p) for power, place in enumerate(places)}
+        whole = algebra.characteristic_polynomial(list(weights.values()), p)
+        parts = [_part(factor, representation, metric, weights, p) for factor in factors]
+        known = [part for part in parts if part is not None]
+        if whole is None or len(known) < len(parts) or any(a.gcd(b).degree() > 0 for a, b in combinations(known, 2)):
+            continue
+        return [(factor, sum(1 for _ in _quotients(whole, part))) for factor, part in zip(factors, known, strict=True)]
+    return None
+
+
+def _part(
+    factor: fmpz_poly, representation: Representation, metric: Metric, weights: Mapping[int, int], p: int
+) -> nmod_poly | None:
+    """g_f modulo p; None if f has not its degree there, or N(e) is not a unit."""
+    modulus = modulo(factor, p)
+    if modulus.degree() < factor.degree():
+        return None
+    x = [
+        _Residue(modulo(value, p) % modulus, modulus)
+        for value in (*representation.quaternion, *representation.translation)
+    ]
+    placed = motion(x[:4], x[4:], metric)
+    rotation = [entry for row in placed.rotation for entry in row]
+    ordered = [*placed.turned, *placed.position, placed.square, *rotation]
+    divisor, inverse, _ = placed.norm.value.xgcd(modulus)
+    if divisor.degree() > 0:
+        return None
+    u = combination(list(weights.values()), [ordered[place] for place in weights]).value * inverse % modulus
+    size = int(modulus.degree())
+    rows = []
+    for _ in range(size):
+        rows += [int(u[power]) for power in range(size)]
+        u = u * nmod_poly([0, 1], p) % modulus
+    return nmod_mat(size, size, rows, p).charpoly()
+
+
+def _quotients(product: nmod_poly, part: nmod_poly) -> Iterator[nmod_poly]:
+    """product / part, product / part^2, .. as long as the division leaves nothing."""
+    while not product % part:
+        product //= part
+        yield product
 
 
 def _lines_determinant(point: Sequence[Any], modulus: Any, legs: Sequence[Leg], metric: Metric) -> Any:

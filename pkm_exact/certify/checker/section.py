@@ -24,8 +24,13 @@ Terms = dict[tuple[int, ...], fmpq]
 """A polynomial: coefficients by exponents."""
 
 
-def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Terms]]:
-    """Number of unknowns, and the quadrics that vanish at the poses (with 1, if no finite pose can exist)."""
+def unknowns(legs: Sequence[Leg], metric: Metric) -> list[int]:
+    """The places in ``ORDER`` of the coordinates that are the unknowns of the section."""
+    return _solved(legs, metric)[2]
+
+
+def _solved(legs: Sequence[Leg], metric: Metric) -> tuple[fmpq_mat, list[int], list[int]]:
+    """The echelon form of the leg equations on ``ORDER`` and 1, the places of its pivots, and the other coordinates."""
     rows = []
     for leg in legs:
         form = leg_form(leg, metric)  # on (1, R, C, u, s)
@@ -35,7 +40,13 @@ def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Terms]]:
     echelon, rank = fmpq_mat(rows).rref()
     size = len(ORDER)
     pivots = [next(j for j in range(size + 1) if echelon[row, j] != 0) for row in range(rank)]
-    free = [j for j in range(size) if j not in pivots]
+    return echelon, pivots, [j for j in range(size) if j not in pivots]
+
+
+def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Terms]]:
+    """Number of unknowns, and the quadrics that vanish at the poses (with 1, if no finite pose can exist)."""
+    echelon, pivots, free = _solved(legs, metric)
+    size = len(ORDER)
     ring = fmpq_mpoly_ctx.get(tuple(ORDER[j] for j in free), Ordering.degrevlex)
     values: list[fmpq_mpoly] = [ring.constant(1)] * size
     for j, unknown in zip(free, ring.gens(), strict=True):

@@ -1,9 +1,11 @@
 """Positive dimension: the solutions in the representation are witnesses, they lie on curves or surfaces of poses.
 
-Two proofs are known. (1) The six leg forms, on the 17 coordinates of rigid motions, have rank r < 6. Rigid motions are
-a variety of dimension 6, so each component of its section by the legs has dimension 6 - r at least, those through the
-witnesses too. (2) At a witness all legs C + R B_i - A_i are the same vector. Then the platform can move on a sphere
-without turning: with R as it is, any C for which this vector keeps its length.
+Three proofs are known. (1) The leg forms, on the 17 coordinates of rigid motions, have rank r < 6. Rigid motions are a
+variety of dimension 6, so each component of its section by the legs has dimension 6 - r at least, those through the
+witnesses too. Planar motions are a variety of dimension 3, and linear in 8 coordinates. (2) The joints of one side lie
+on a line, or in one point: whatever the pose, the platform turns about it. (3) At a witness all legs C + R B_i - A_i
+are the same vector. Then the platform can move on a sphere, in the plane on a circle, without turning: with R as it is,
+any C for which this vector keeps its length.
 """
 
 from __future__ import annotations
@@ -11,28 +13,58 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import lcm
 
-from flint import fmpz_mat
+from flint import fmpq, fmpq_mat, fmpz_mat
 
 from pkm_exact.certify.checker.document import Document, Representation
-from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
+from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, Point, combination, leg_form, motion
 from pkm_exact.certify.checker.solutions import primitive_part, vanishes
 from pkm_exact.certify.checker.verdict import rejected
 
 
 def check_self_motion(document: Document, representation: Representation) -> Iterator[str]:
-    """The witnesses, already checked to be poses, lie on a set of positive dimension; nothing else is claimed."""
-    others = (document.complex_solutions, document.distinct_solutions, len(document.poses), document.route)
-    if others != (0, 0, 0, None) or document.elimination is not None:
-        raise rejected("claim: beside positive dimension, isolated solutions or completeness are claimed")
-    if len(document.legs) == PLANAR_LEGS:
-        raise rejected("claim: positive-dimensional-proved is not proved for planar robots")
-    rank = int(fmpz_mat([leg_form(leg, document.metric) for leg in document.legs]).rank())
-    if rank < 6:
-        yield f"positive dimension: the legs have rank {rank}, the robot moves in dimension {6 - rank} at least"
+    """The witnesses, already checked to be poses, lie on a set of positive dimension; isolated ones need boxes."""
+    numbers = (document.complex_solutions, document.distinct_solutions, len(document.poses))
+    if document.isolated is None and numbers != (0, 0, 0):
+        raise rejected("claim: beside positive dimension, isolated solutions are claimed without boxes")
+    if document.route is not None or document.elimination is not None:
+        raise rejected("claim: beside positive dimension, completeness is claimed")
+    planar = len(document.legs) == PLANAR_LEGS
+    freedom = 3 if planar else 6
+    rank = _planar_rank(document.legs, document.metric) if planar else _rank(document.legs, document.metric)
+    sides = [leg.base for leg in document.legs], [leg.platform for leg in document.legs]
+    turning = max(_turning(joints, planar=planar) for joints in sides)
+    if freedom - rank > turning:
+        yield f"positive dimension: the legs have rank {rank}, the robot moves in dimension {freedom - rank} at least"
+    elif turning:
+        yield f"positive dimension: joints lie on a line or in a point, the robot turns in dimension {turning} at least"
     elif _are_parallel(representation, document.legs, document.metric):
-        yield "positive dimension: all legs are the same vector, the platform moves on a sphere without turning"
+        path = "circle" if planar else "sphere"
+        yield f"positive dimension: all legs are the same vector, the platform moves on a {path} without turning"
     else:
         raise rejected("claim: positive-dimensional-proved is not proved by the witnesses")
+
+
+def _rank(legs: Sequence[Leg], metric: Metric) -> int:
+    return int(fmpz_mat([leg_form(leg, metric) for leg in legs]).rank())
+
+
+def _planar_rank(legs: Sequence[Leg], metric: Metric) -> int:
+    """The rank on 1, r11, r21 / g1, C1, C2, u1, u2, |C|^2: there r22 = r11, r12 = -g2 r21 / g1, and r33 = 1."""
+    rows = []
+    for leg in legs:
+        form = leg_form(leg, metric)
+        cosine, sine = form[1] + form[5], metric[0] * form[4] - metric[1] * form[2]
+        rows.append([form[0], cosine, sine, *form[10:12], *form[13:15], form[16]])
+    return int(fmpz_mat(rows).rank())
+
+
+def _turning(joints: Sequence[Point], *, planar: bool) -> int:
+    """The dimension in which a body turns that is held at these joints: 3 or 1 if they are one point or on a line."""
+    shifts = [[x - y for x, y in zip(joint, joints[0], strict=True)] for joint in joints]
+    spanned = int(fmpq_mat([[fmpq(x.numerator, x.denominator) for x in shift] for shift in shifts]).rank())
+    if planar:
+        return 1 if spanned == 0 else 0
+    return {0: 3, 1: 1}.get(spanned, 0)
 
 
 def _are_parallel(representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:

@@ -1,24 +1,57 @@
-"""The number of distinct solutions of an elimination, by the trace form of the algebra that it defines.
+"""The algebra that an elimination defines: how many distinct solutions it has, and how multiple they are.
 
 On the monomials that an elimination leaves, multiplication by each unknown has a matrix over Q, read off the elements.
 If these matrices commute, exactly, they define an algebra with these monomials as a basis, whose solutions include
 every pose (Mourrain 1999). The number of its distinct solutions is the rank of its trace form (Hermite). If all
-elements are 0 in it, it is the algebra of the poses, and their multiplicities sum to its dimension.
+elements are 0 in it, it is the algebra of the poses, and their multiplicities sum to its dimension: multiplication by
+a combination of unknowns has its values at the poses as eigenvalues, as often as these are multiple (Stickelberger).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq, fmpq_mat, nmod_mat, nmod_poly
 
 from pkm_exact.certify.checker.elimination import Elimination, Monomial
-from pkm_exact.certify.checker.solutions import GREATEST_NUMBER
+from pkm_exact.certify.checker.verdict import GREATEST_NUMBER
 
 
-def distinct_solutions(elimination: Elimination) -> int | None:
-    """The rank of the trace form, or None if the matrices do not commute or an element does not reduce to 0."""
+@dataclass(frozen=True)
+class Algebra:
+    """The algebra of all poses: ``basis``, and row b of the i-th matrix is the i-th unknown times the b-th of it."""
+
+    basis: tuple[Monomial, ...]
+    unknowns: tuple[fmpq_mat, ...]
+
+    def distinct_solutions(self) -> int:
+        """The rank of the trace form."""
+        size = len(self.basis)
+        powers = {self.basis[0]: fmpq_mat([[int(i == j) for j in range(size)] for i in range(size)])}
+        for monomial in self.basis[1:]:
+            axis = next(i for i, exponent in enumerate(monomial) if exponent)
+            powers[monomial] = powers[_shifted(monomial, axis, -1)] * self.unknowns[axis]
+        ordered = [powers[monomial] for monomial in self.basis]
+        traces = [sum((matrix[i, i] for i in range(size)), fmpq(0)) for matrix in ordered]
+        column = fmpq_mat(size, 1, traces)
+        return int(fmpq_mat([[value for (value,) in (matrix * column).table()] for matrix in ordered]).rank())
+
+    def characteristic_polynomial(self, weights: Sequence[int], p: int) -> nmod_poly | None:
+        """Of multiplication by a combination of the unknowns, modulo p; None if p divides a denominator."""
+        size = len(self.basis)
+        total = nmod_mat(size, size, p)
+        for weight, matrix in zip(weights, self.unknowns, strict=True):
+            numerators, denominator = matrix.numer_denom()
+            if int(denominator) % p == 0:
+                return None
+            total += nmod_mat(numerators, p) * (weight * pow(int(denominator), -1, p))
+        return total.charpoly()
+
+
+def quotient_algebra(elimination: Elimination) -> Algebra | None:
+    """The algebra of all poses, or None if the matrices do not commute or an element does not reduce to 0."""
     basis = elimination.standard(GREATEST_NUMBER)
     reduction = _Reduction(elimination, basis)
     matrices = reduction.matrices()
@@ -27,15 +60,7 @@ def distinct_solutions(elimination: Elimination) -> int | None:
         return None
     if any(reduction.combination(element.items()) for element in elimination.elements):
         return None
-    size = len(basis)
-    powers = {basis[0]: fmpq_mat([[int(i == j) for j in range(size)] for i in range(size)])}
-    for monomial in basis[1:]:
-        axis = next(i for i, exponent in enumerate(monomial) if exponent)
-        powers[monomial] = powers[_shifted(monomial, axis, -1)] * matrices[axis]
-    ordered = [powers[monomial] for monomial in basis]
-    traces = [sum((matrix[i, i] for i in range(size)), fmpq(0)) for matrix in ordered]
-    column = fmpq_mat(size, 1, traces)
-    return int(fmpq_mat([[value for (value,) in (matrix * column).table()] for matrix in ordered]).rank())
+    return Algebra(tuple(basis), tuple(matrices))
 
 
 def _shifted(monomial: Monomial, axis: int, step: int) -> Monomial:
