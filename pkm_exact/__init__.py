@@ -27,6 +27,13 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.reader import read_robot as read_robot
     from pkm_exact.geometry.robot import Configuration as Configuration
     from pkm_exact.geometry.robot import Robot as Robot
+    from pkm_exact.geometry.tolerances import Tolerances as Tolerances
+    from pkm_exact.numeric.engine import solve_krawczyk as solve_krawczyk
+    from pkm_exact.numeric.many import ManySolutions as ManySolutions
+    from pkm_exact.numeric.many import solve_many as solve_many
+    from pkm_exact.numeric.tolerance import tolerance_boxes as tolerance_boxes
+    from pkm_exact.numeric.tolerance_result import ToleranceResult as ToleranceResult
+    from pkm_exact.numeric.trajectory import track_branch as track_branch
     from pkm_exact.policy import Policy as Policy
     from pkm_exact.poses.pose import Interval as Interval
     from pkm_exact.poses.pose import Pose as Pose
@@ -44,15 +51,22 @@ _HOME: Final = {
     "InputError": "errors",
     "Interval": "poses.pose",
     "Leg": "geometry.problem",
+    "ManySolutions": "numeric.many",
     "PkmExactError": "errors",
     "Policy": "policy",
     "Pose": "poses.pose",
     "Robot": "geometry.robot",
     "Solution": "solution",
+    "ToleranceResult": "numeric.tolerance_result",
+    "Tolerances": "geometry.tolerances",
     "certificate": "certify.build",
     "check_bytes": "certify.check",
     "read_robot": "geometry.reader",
     "solve": "engine",
+    "solve_krawczyk": "numeric.engine",
+    "solve_many": "numeric.many",
+    "tolerance_boxes": "numeric.tolerance",
+    "track_branch": "numeric.trajectory",
     "write_certificate": "certify.build",
 }
 

@@ -1,0 +1,213 @@
+"""From approximate solutions to boxes, each of which provably holds exactly one, real or not by proof.
+
+An approximation is refined by Newton's method in ball arithmetic and rounded to a grid; its box is tested by the
+Krawczyk operator. What fails on one grid is tried on a finer one, so that precision rises only where it is needed.
+A real box is mapped into itself by conjugation: its only solution is real. A box that is disjoint from its conjugate
+holds no real solution, and the conjugate box holds another one. What is neither stays undecided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from flint import acb, acb_mat, arb, ctx
+
+from pkm_exact.numeric.krawczyk import GUARD_BITS, RADIUS, Balls, Box, ChartSystem, certified, middle
+from pkm_exact.numeric.study_system import Complex
+
+GRIDS = (28, 44, 72, 120, 200, 340, 600, 1000)
+"""Exponents of the grids of e, tried one after another."""
+NEWTON_STEPS = 60
+"""Steps after which an approximation that still moves is given up; Newton's method needs half a dozen."""
+SURELY_CONVERGING = arb(2) ** -20
+"""Relative steps as small as this are not damped any more."""
+GREATEST_DAMPING = 1 << 10
+"""Steps are not made shorter than by this factor."""
+
+
+CLEARLY_COMPLEX = 1e-6
+"""Imaginary parts, relative to the point, from which a point is not taken for its own conjugate."""
+SAME = 1e-10
+"""Points this close to each other, relative to their size, are taken for the same."""
+
+
+@dataclass(frozen=True)
+class IsolatedSolutions:
+    """Boxes in a chart, pairwise disjoint, each with exactly one solution.
+
+    Attributes
+    ----------
+    chart : tuple of 4 int
+        w in w.e = 1.
+    real : tuple of Box
+        Real boxes.
+    pairs : tuple of Box
+        Complex boxes disjoint from their conjugates: each stands for itself and its conjugate.
+    """
+
+    chart: tuple[int, ...]
+    real: tuple[Box, ...]
+    pairs: tuple[Box, ...]
+
+    @property
+    def count(self) -> int:
+        """Number of distinct solutions."""
+        return len(self.real) + 2 * len(self.pairs)
+
+
+def isolated_solutions(system: ChartSystem, points: Complex) -> IsolatedSolutions:
+    """The solutions near the given points, each once; points at which nothing can be proved are left out.
+
+    Parameters
+    ----------
+    system : ChartSystem
+    points : (p, n) complex array
+        Approximate solutions in the system's chart; only the coordinates of its support.
+    """
+    left = [_column(point) for point in _without_conjugates(points)]
+    found: dict[Box, acb_mat] = {}
+    for exponent in GRIDS:
+        limits = (refined(system, point, exponent) for point in left)
+        candidates = {nearest_box(system, point, exponent): point for point in limits if point is not None}
+        good = certified(system, list(candidates))
+        proved = {box for box, is_good in zip(candidates, good, strict=True) if is_good and _is_decided(box)}
+        left = [point for box, point in candidates.items() if box not in proved]
+        found |= {box: candidates[box] for box in candidates if box in proved}
+        # Boxes that meet hold one solution or two; a finer grid tells.
+        doubtful = _meeting(list(found))
+        left += [found.pop(box) for box in doubtful]
+        if not left:
+            break
+    boxes = sorted(found, key=_centre)
+    return IsolatedSolutions(
+        system.chart,
+        tuple(box for box in boxes if box.is_real),
+        tuple(box for box in boxes if not box.is_real),
+    )
+
+
+def _without_conjugates(points: Complex) -> Complex:
+    """The points without those that are clearly complex and the conjugate of an earlier one: a box stands for both."""
+    distances = np.abs(points[:, None] - points[None].conj()).max(axis=2)
+    sizes = np.abs(points).max(axis=1, initial=0)
+    complex_ones = np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes
+    paired = np.triu(distances <= SAME * sizes, 1).any(axis=0)
+    rest: Complex = points[~(paired & complex_ones)]
+    return rest
+
+
+def _is_decided(box: Box) -> bool:
+    """Whether the solution in the box is real, or provably not."""
+    return box.is_real or box.is_disjoint(box.conjugate())
+
+
+def _meeting(boxes: Sequence[Box]) -> list[Box]:
+    """The boxes that meet another one, or its conjugate: neighbours in the real part of e0, which conjugates share."""
+    meeting: set[Box] = set()
+    ends = sorted((_interval(box) for box in boxes), key=lambda entry: entry[:2])
+    for place, (_, high, box) in enumerate(ends):
+        for low, _, other in ends[place + 1 :]:
+            if low > high:
+                break
+            if not (box.is_disjoint(other) and box.is_disjoint(other.conjugate())):
+                meeting |= {box, other}
+    return [box for box in boxes if box in meeting]
+
+
+def _interval(box: Box) -> tuple[Fraction, Fraction, Box]:
+    """The ends of the box in the real part of e0, and the box."""
+    middle, scale = box.centre[0][0], 1 << box.exponents[0]
+    return Fraction(middle - RADIUS, scale), Fraction(middle + RADIUS, scale), box
+
+
+def _centre(box: Box) -> list[tuple[Fraction, Fraction]]:
+    """The centre as a key to sort by."""
+    return [
+        (Fraction(real, 1 << box.exponent(index)), Fraction(imaginary, 1 << box.exponent(index)))
+        for index, (real, imaginary) in enumerate(box.centre)
+    ]
+
+
+def _column(point: Sequence[complex]) -> acb_mat:
+    return acb_mat(len(point), 1, [acb(float(value.real), float(value.imag)) for value in point])
+
+
+def refined(system: ChartSystem, point: Balls, exponent: int) -> Balls | None:
+    """The limit of Newton's method, well within the grid of the exponent; None without convergence.
+
+    Steps are halved until the next one, with the same matrix, is smaller (Deuflhard's natural monotonicity test): the
+    iteration then follows the path from the point to its solution, however small the basin of the full method is.
+    """
+    with ctx.workprec(2 * exponent + GUARD_BITS):
+        jacobian = system.jacobians(point)[0]
+        values = system.values(jacobian, point)
+        for _ in range(NEWTON_STEPS):
+            step = _approximate(jacobian, values)
+            if step is None:
+                return None
+            length, damping = _size(step), 1
+            while True:
+                moved = middle(point - step / damping)
+                relative = length / (damping * _size(moved))
+                if damping == 1 and relative < arb(2) ** -(exponent + 8):
+                    return moved
+                matrix = system.jacobians(moved)[0]
+                values = system.values(matrix, moved)
+                if relative < SURELY_CONVERGING:
+                    break
+                following = _approximate(jacobian, values)
+                if following is not None and _size(following) * 4 * damping < length * (4 * damping - 1):
+                    break
+                damping *= 2
+                if damping > GREATEST_DAMPING:
+                    return None
+            point, jacobian = moved, matrix
+    return None
+
+
+def _approximate(jacobian: Balls, values: Balls) -> Balls | None:
+    try:
+        return middle(jacobian.solve(values, algorithm="approx"))
+    except ZeroDivisionError:
+        return None
+
+
+def _size(column: acb_mat) -> arb:
+    """The largest entry in absolute value, roughly."""
+    return max((abs(entry).mid() for entry in column.entries()), default=arb(0))
+
+
+def nearest_box(system: ChartSystem, point: acb_mat, exponent: int) -> Box:
+    """The box around the grid point nearest to a point; of it and its conjugate, the one whose first coordinate that is
+    not real has a positive imaginary part."""
+    values = dict(zip(system.support, point.entries(), strict=True))
+    sizes = [max(_exponent(values[i]) for i in half if i in values) for half in (range(4), range(4, 8))]
+    exponents = (exponent, max(0, exponent - max(0, sizes[1] - sizes[0])))
+    centre = [
+        (_rounded(values[i].real, exponents[i // 4]), _rounded(values[i].imag, exponents[i // 4]))
+        if i in values
+        else (0, 0)
+        for i in range(8)
+    ]
+    sign = next((-1 if imaginary < 0 else 1 for _, imaginary in centre if imaginary), 1)
+    return Box(exponents, tuple((real, sign * imaginary) for real, imaginary in centre))
+
+
+def _exponent(value: acb) -> int:
+    """The binary exponent of a number's size, roughly; that of 0 is very small."""
+    exponents = [-GRIDS[-1]]
+    for part in (value.real, value.imag):
+        mantissa, exponent = part.mid().man_exp()
+        if mantissa:
+            exponents.append(int(exponent) + int(mantissa).bit_length())
+    return max(exponents)
+
+
+def _rounded(value: arb, exponent: int) -> int:
+    """The integer nearest to the midpoint times 2^exponent."""
+    mantissa, power = value.mid().man_exp()
+    shift = int(power) + exponent
+    return int(mantissa) << shift if shift >= 0 else ((int(mantissa) >> (-shift - 1)) + 1) >> 1

@@ -1,0 +1,319 @@
+"""One robot with many length vectors: arrays in, arrays out, every row certified by itself.
+
+The numeric engine solves each row from one start section near the robot (``nearby``). Lengths are exact numbers; poses
+come out as floating-point midpoints with half-widths that are rounded upwards, so that the exact value of each
+coordinate provably lies within its half-width of the midpoint.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import inf, nextafter
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pkm_exact.engine import DEFAULT_WIDTH, solve
+from pkm_exact.errors import InputError, PkmExactError
+from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.rational import parse_positive
+from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.numeric.engine import solve_krawczyk
+from pkm_exact.numeric.nearby import nearby_start
+from pkm_exact.numeric.start import StartSection
+from pkm_exact.policy import Policy
+from pkm_exact.poses.pose import Interval, Pose
+from pkm_exact.solution import Solution
+
+if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
+
+ERROR: Final = "error"
+"""In place of the claim of a row that could not be solved."""
+UNKNOWN_SIGN: Final = 2
+"""In place of the sign of a determinant that was not decided."""
+SHARED_START: Final = 3
+"""Rows from which a start section of their own pays."""
+
+Record: TypeAlias = np.void
+Problems: TypeAlias = list[ForwardProblem | str]
+"""Of each row the problem, or what is wrong with it."""
+
+ROW: Final = np.dtype(
+    [("claim", "U32"), ("method", "U8"), ("count", "i8"), ("complex_solutions", "i8"), ("note", object)]
+)
+POSE: Final = np.dtype(
+    [
+        ("row", "i8"),
+        ("position", "f8", (3,)),
+        ("position_half_width", "f8", (3,)),
+        ("rotation", "f8", (3, 3)),
+        ("rotation_half_width", "f8", (3, 3)),
+        ("quaternion", "f8", (4,)),
+        ("quaternion_half_width", "f8", (4,)),
+        ("det_sign", "i1"),
+    ]
+)
+
+
+@dataclass(frozen=True, eq=False)
+class ManySolutions:
+    """The poses of one robot at many length vectors.
+
+    Attributes
+    ----------
+    rows : structured array, one entry per length vector
+        ``claim`` as in ``Claim``, or "error"; ``method``, "krawczyk" or "exact"; ``count`` of real poses;
+        ``complex_solutions``; ``note``, which says why the exact engine answered, or what the error is.
+    poses : structured array, one entry per real pose
+        ``row`` from 0, then ``position`` (3), ``rotation`` (3, 3) and ``quaternion`` (4, real part first), each with
+        its ``.._half_width``: the exact value lies within it of the midpoint. ``det_sign`` of the leg Jacobian, 0 at a
+        singular pose, 2 if it was not decided.
+    """
+
+    rows: NDArray[Record]
+    poses: NDArray[Record]
+
+    @property
+    def fallbacks(self) -> int:
+        """Number of rows that the exact engine answered in place of the numeric one."""
+        return int(np.count_nonzero(self.rows["method"] == "exact"))
+
+    @property
+    def errors(self) -> int:
+        """Number of rows without an answer."""
+        return int(np.count_nonzero(self.rows["claim"] == ERROR))
+
+    def rotations(self) -> Rotation:
+        """The rotations of all poses, in their order, for scipy; it must be installed.
+
+        Raises
+        ------
+        PkmExactError
+            If scipy is not installed.
+        """
+        try:
+            from scipy.spatial.transform import Rotation
+        except ImportError:
+            raise PkmExactError(
+                'rotations: scipy is not installed; install it, for instance with pip install "pkm_exact[scipy]", or '
+                "use the fields rotation and quaternion"
+            ) from None
+        return Rotation.from_quat(self.poses["quaternion"][:, [1, 2, 3, 0]])
+
+    def __str__(self) -> str:
+        claims, counts = np.unique(self.rows["claim"], return_counts=True)
+        parts = [f"{count} {claim.replace('-', ' ')}" for claim, count in zip(claims, counts, strict=True)]
+        return (
+            f"{len(self.rows)} length vectors, {len(self.poses)} real poses; rows: {', '.join(parts) or 'none'}; "
+            f"answered by the exact engine: {self.fallbacks}"
+        )
+
+    def __repr__(self) -> str:
+        return f"ManySolutions({len(self.rows)} rows, {len(self.poses)} poses)"
+
+
+def solve_many(
+    robot: Robot | str | Path,
+    lengths: ArrayLike | Sequence[Sequence[object]],
+    *,
+    squared: bool = False,
+    doubles_are_exact: bool = False,
+    width: Fraction = DEFAULT_WIDTH,
+    policy: Policy | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> ManySolutions:
+    """All real poses of a robot at each of many length vectors; an error in one row does not stop the others.
+
+    Parameters
+    ----------
+    robot : Robot or path
+        Actuated by its leg lengths; or the path of its model file.
+    lengths : (n, 6) array, or (n, 3) of a planar robot
+        Exact: integers, fractions, decimals, or strings such as "1250.5" or "2501/2".
+    squared : bool
+        Whether they are squared lengths.
+    doubles_are_exact : bool
+        Floating-point numbers are refused, unless this says that each is meant to be the rational number that it is
+        in binary.
+    width : Fraction
+        Largest width of a box, in every coordinate (unit of length, or 1 for rotations).
+    policy : Policy, optional
+        Limits and random choices.
+    progress : callable, optional
+        Gets the number of rows that are done, after each.
+
+    Raises
+    ------
+    InputError
+        If the robot is not actuated by its lengths, or the array has the wrong shape or is of floating-point numbers.
+
+    Examples
+    --------
+    >>> joints = lambda *rows: tuple(tuple(map(Fraction, row)) for row in rows)
+    >>> corners = joints((0, 0), (10, 0), (3, 10)), joints((0, 0), (4, 0), (2, 2))
+    >>> found = solve_many(Robot("example", "3-RPR", "m", "made up", *corners), [[7, 5, 5], ["7.5", 5, "-1"]])
+    >>> [(str(row["claim"]), int(row["count"])) for row in found.rows], found.poses["det_sign"].tolist()
+    ([('complete', 2), ('error', 0)], [-1, 1])
+    >>> found.rows["note"][1]
+    "lengths, row 2, leg 3: '-1' is not positive; give a number greater than 0"
+    """
+    if not isinstance(robot, Robot):
+        robot = read_robot(Path(robot))
+    policy = policy or Policy()
+    problems = [
+        _problem(robot, row, number, squared, doubles_are_exact)
+        for number, row in enumerate(_table(robot, lengths, doubles_are_exact), 1)
+    ]
+    solver = _Solver.of(problems, width, policy)
+    rows, poses = np.zeros(len(problems), ROW), []
+    for number, problem in enumerate(problems):
+        rows[number], found = solver.row(number, problem)
+        poses.append(found)
+        if progress is not None:
+            progress(number + 1)
+    return ManySolutions(rows, np.concatenate([np.zeros(0, POSE), *poses]))
+
+
+def _table(robot: Robot, lengths: Any, doubles_are_exact: bool) -> list[list[object]]:
+    """The rows of the array, entries as Python's own numbers and strings."""
+    if robot.chains:
+        raise InputError(f"lengths: the rods of a {robot.kind} robot have fixed lengths; solve its configurations")
+    try:
+        # Not the type that numpy would choose: it turns large integers into floating-point numbers.
+        array = lengths if isinstance(lengths, np.ndarray) else np.array(lengths, dtype=object)
+    except ValueError:
+        raise InputError("lengths: the rows are not equally long; give one length per leg in each") from None
+    legs = KINDS[robot.kind].legs
+    if array.ndim != 2 or array.shape[1] != legs:
+        raise InputError(f"lengths: an array of shape {array.shape}; give rows of {legs} numbers, one per leg")
+    if array.dtype.kind == "f" and not doubles_are_exact:
+        raise InputError(
+            'lengths: binary floats are not exact; give strings such as "1250.5", or say that each float is meant to '
+            "be the rational number that it is in binary (doubles_are_exact=True)"
+        )
+    rows: list[list[object]] = array.tolist()
+    return rows
+
+
+def _problem(
+    robot: Robot, row: Sequence[object], number: int, squared: bool, doubles_are_exact: bool
+) -> ForwardProblem | str:
+    try:
+        values = [
+            _exact(value, f"lengths, row {number}, leg {leg}", doubles_are_exact) for leg, value in enumerate(row, 1)
+        ]
+        return robot.problem(values if squared else [value * value for value in values])
+    except PkmExactError as error:
+        return str(error)
+
+
+def _exact(value: object, where: str, doubles_are_exact: bool) -> Fraction:
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and doubles_are_exact:
+        if not -inf < value < inf:
+            raise InputError(f"{where}: {value!r} is not a finite number; give one")
+        value = Fraction(value)
+    return parse_positive(value, where)
+
+
+@dataclass(frozen=True)
+class _Solver:
+    """How rows are solved: from which start, or that the numeric engine need not be tried."""
+
+    width: Fraction
+    policy: Policy
+    start: StartSection | None
+    is_numeric: bool
+
+    @classmethod
+    def of(cls, problems: Problems, width: Fraction, policy: Policy) -> _Solver:
+        middle = _middle([problem for problem in problems if isinstance(problem, ForwardProblem)])
+        if middle is None:
+            return cls(width, policy, None, is_numeric=True)
+        start = nearby_start(middle, policy.seed)
+        return cls(width, policy, start, is_numeric=start is not None)
+
+    def row(self, number: int, problem: ForwardProblem | str) -> tuple[tuple[Any, ...], NDArray[Record]]:
+        """The entries of one row and of its poses."""
+        if isinstance(problem, str):
+            return (ERROR, "", 0, 0, problem), np.zeros(0, POSE)
+        try:
+            solution = self._solution(problem)
+            poses = np.array([_entry(number, pose) for pose in solution.poses], POSE)
+        except PkmExactError as error:
+            return (ERROR, "", 0, 0, f"lengths, row {number + 1}: {error}"), np.zeros(0, POSE)
+        return (
+            solution.claim.value,
+            solution.method,
+            len(poses),
+            solution.complex_solutions,
+            "; ".join(solution.notes),
+        ), poses
+
+    def _solution(self, problem: ForwardProblem) -> Solution:
+        if self.is_numeric:
+            return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start)
+        note = (
+            "the numeric engine finds fewer solutions than would prove the list complete, whatever the lengths of this "
+            "robot; the exact engine answered"
+        )
+        solution = solve(problem, width=self.width, policy=self.policy)
+        return replace(solution, notes=(*solution.notes, note))
+
+
+def _middle(problems: Sequence[ForwardProblem]) -> ForwardProblem | None:
+    """The row nearest to the mean of all; None if they are too few or too large for a start section of their own."""
+    if len(problems) < SHARED_START:
+        return None
+    try:
+        squares = np.array([[float(leg.length_squared) for leg in problem.legs] for problem in problems])
+        [float(value) for leg in problems[0].legs for value in (*leg.base, *leg.platform)]
+    except OverflowError:
+        return None
+    with np.errstate(all="ignore"):
+        distances = np.linalg.norm(squares - squares.mean(axis=0), axis=1)
+    return problems[int(np.argmin(distances))]
+
+
+def _entry(number: int, pose: Pose) -> tuple[Any, ...]:
+    """A pose as an entry of the array ``poses``."""
+    sign = UNKNOWN_SIGN if pose.jacobian is None else pose.jacobian.det_sign
+    rotation = [_balls(row) for row in pose.rotation]
+    matrices = [middles for middles, _ in rotation], [widths for _, widths in rotation]
+    return (number, *_balls(pose.position), *matrices, *_balls(pose.quaternion), sign)
+
+
+def _balls(intervals: Iterable[Interval]) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    middles, widths = zip(*(ball_of(interval) for interval in intervals), strict=True)
+    return middles, widths
+
+
+def ball_of(interval: Interval) -> tuple[float, float]:
+    """Midpoint and half-width in floating point: the interval is covered, exactly.
+
+    Raises
+    ------
+    PkmExactError
+        If the interval is out of reach of floating point.
+
+    Examples
+    --------
+    >>> middle, half_width = ball_of(Interval(Fraction(1, 3), Fraction(1, 3)))
+    >>> middle, 0 < half_width < 1e-16
+    (0.3333333333333333, True)
+    """
+    try:
+        middle = float(interval.midpoint)
+        exact = max(interval.hi - Fraction(middle), Fraction(middle) - interval.lo)
+        half_width = float(exact)
+    except OverflowError:
+        raise PkmExactError("a coordinate is too large for floating point; solve this row by itself") from None
+    return middle, half_width if Fraction(half_width) >= exact else nextafter(half_width, inf)

@@ -1,0 +1,68 @@
+"""A start section close to one robot: many length vectors are then solved along short paths.
+
+The section has the robot's own joints, in the robot's own frames, and complex squared lengths around given ones: it is
+generic among the sections of this robot. Its solutions are tracked once from the generic start. From there to real
+lengths only the constants of the legs move, along a line that meets no singular robot, with probability one.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric.start import DEGREES, StartSection, generic_start, joined, start_quadrics
+from pkm_exact.numeric.study_system import numeric_section, section_quadrics
+from pkm_exact.numeric.tracker import TrackerPolicy, polished, track
+
+OFFSET: Final = 0.15
+"""How far the complex squared lengths are from the real ones, for a robot of size 1."""
+ATTEMPTS: Final = 3
+"""Times that paths are tracked, each time others, before the robot counts as one with fewer solutions."""
+GREATEST_CHANGE: Final = 1e-5
+"""An end point that Newton's method still moves by more than this is not taken for a solution."""
+POLICY: Final = TrackerPolicy(steps=500)
+"""Paths that need more steps than this lead to no start."""
+
+
+def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
+    """A section of the same robot with complex lengths, and all its solutions; None if there are fewer than usual.
+
+    Parameters
+    ----------
+    problem : ForwardProblem
+        The robot, with lengths in the midst of those that are to be solved.
+    seed : int
+        Of the complex lengths.
+
+    Raises
+    ------
+    OverflowError
+        If a number of the robot is too large for floating point.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from pkm_exact.geometry.problem import Leg
+    >>> joints = [((0, 0), (0, 0), 50), ((10, 0), (4, 0), 26), ((3, 10), (2, 2), 25)]
+    >>> rows = [[tuple(map(Fraction, (*a, 0))), tuple(map(Fraction, (*b, 0))), Fraction(l)] for a, b, l in joints]
+    >>> start = nearby_start(ForwardProblem(tuple(Leg(*row) for row in rows), planar=True))
+    >>> start.solutions.shape
+    (6, 4)
+    """
+    section, start = numeric_section(problem), generic_start(planar=problem.planar)
+    legs = section.legs.copy()
+    legs[:, -1] += OFFSET * np.exp(2j * np.pi * np.random.default_rng(seed).random(len(legs)))
+    quadrics = section_quadrics(legs, planar=problem.planar)
+    solutions = start.solutions[:0]
+    for attempt in range(ATTEMPTS):
+        with np.errstate(all="ignore"):
+            ends, arrived = track(
+                start.solutions, start_quadrics(start, seed + attempt, planar=problem.planar), quadrics, POLICY
+            )
+            ends, change = polished(ends[arrived], quadrics)
+        solutions = joined(solutions, ends[change < GREATEST_CHANGE])
+        if len(solutions) == DEGREES[problem.planar]:
+            return StartSection(legs, solutions, section.frames)
+    return None

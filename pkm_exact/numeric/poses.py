@@ -1,0 +1,183 @@
+"""All isolated solutions of a robot by path tracking and Krawczyk's operator, and the boxes of the real ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Final
+
+import numpy as np
+from flint import arb, ctx
+
+from pkm_exact.errors import InternalContradictionError
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import support
+from pkm_exact.numeric.certification import IsolatedSolutions, isolated_solutions
+from pkm_exact.numeric.krawczyk import GUARD_BITS, Balls, Box, ChartSystem, ball, krawczyk_image, middle
+from pkm_exact.numeric.start import DEGREES, StartSection, generic_start, start_quadrics
+from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates
+from pkm_exact.numeric.tracker import polished, track
+from pkm_exact.poses.boxes import Enclosures, disjoint_cells, in_order, ordinary_coordinates, pose_in_cells
+from pkm_exact.poses.jacobian import LEAST_PRECISION, pose_jacobians
+from pkm_exact.poses.pose import Pose
+
+CHARTS: Final = ((3, -1, 2, 1), (1, 2, -1, 3), (2, 3, 1, -1), (-1, 1, 3, 2), (5, -3, 1, 4), (1, 4, -5, -2))
+"""Charts w.e = 1, of which the first is taken that comes close to none of the solutions."""
+CLEARANCES: Final = (0.03, 0.01, 0.001, 0.0)
+"""How far, relative to |w| |e|, solutions should stay away from w.e = 0; the next smaller one if no chart does."""
+GREATEST_CHANGE: Final = 1e-3
+"""An end point that Newton's method still moves by more than this is not taken for a solution."""
+NARROWINGS: Final = 64
+"""Times that an enclosure is narrowed; its width is about squared each time."""
+
+
+@dataclass(frozen=True)
+class Approximations:
+    """Approximate solutions of a robot, real and complex.
+
+    Attributes
+    ----------
+    section : Section
+    points : (p, n) complex array
+        Study coordinates of the normalised robot, of norm 1.
+    """
+
+    section: Section
+    points: Complex
+
+
+def approximations(problem: ForwardProblem, start: StartSection | None = None, seed: int = 0) -> Approximations:
+    """The ends of all paths from a start section to the robot.
+
+    Parameters
+    ----------
+    problem : ForwardProblem
+    start : StartSection, optional
+        By default the generic one; see ``start``.
+    seed : int
+        Other seeds take other paths; see ``start_quadrics``.
+
+    Raises
+    ------
+    OverflowError
+        If a number of the robot is too large for floating point.
+    """
+    start = start or generic_start(planar=problem.planar)
+    section = numeric_section(problem, start.frames)
+    with np.errstate(all="ignore"):
+        ends, arrived = track(start.solutions, start_quadrics(start, seed, planar=problem.planar), section.quadrics)
+        ends, change = polished(ends[arrived], section.quadrics)
+    return Approximations(section, ends[change < GREATEST_CHANGE])
+
+
+def certified_solutions(problem: ForwardProblem, found: Approximations) -> tuple[ChartSystem, IsolatedSolutions]:
+    """The chart's equations, and what can be certified of approximate solutions."""
+    points = rational_coordinates(found.points, found.section)
+    used = support(problem)
+    chart = _chart(points[:, :4], [int(k in used) for k in range(4)])
+    system = ChartSystem(problem, chart)
+    values = points[:, :4] @ np.array(chart, dtype=float)
+    good = values != 0
+    return system, isolated_solutions(system, (points[good] / values[good, None])[:, list(used)])
+
+
+def _chart(e: Complex, used: Sequence[int]) -> tuple[int, int, int, int]:
+    """A chart on the coordinates that are used."""
+    charts = [(w[0] * used[0], w[1] * used[1], w[2] * used[2], w[3] * used[3]) for w in CHARTS]
+    if not len(e):
+        return charts[0]
+    weights = np.array(charts, dtype=float)
+    sizes = np.linalg.norm(e, axis=1)[:, None] * np.linalg.norm(weights, axis=1)
+    closest = np.min(np.abs(e @ weights.T) / np.maximum(sizes, 1e-300), axis=0)
+    return next(chart for least in CLEARANCES for chart, value in zip(charts, closest, strict=True) if value >= least)
+
+
+def motion_degree(problem: ForwardProblem) -> int:
+    """Degree of the variety of the robot's motions: 40, or 6 if it is planar."""
+    return DEGREES[problem.planar]
+
+
+def real_poses(
+    system: ChartSystem, isolated: IsolatedSolutions, width: Fraction
+) -> tuple[IsolatedSolutions, int, tuple[Pose, ...]]:
+    """The poses in the real boxes, certified and in order; the list of solutions with its real boxes in the same order.
+
+    Parameters
+    ----------
+    system : ChartSystem
+    isolated : IsolatedSolutions
+        In the chart of the system.
+    width : Fraction
+        Largest width of a pose's box, in any coordinate.
+
+    Returns
+    -------
+    IsolatedSolutions, int, tuple of Pose
+        The second is the exponent of the boxes' grid.
+    """
+    enclosures = box_enclosures(system, isolated.real)
+    exponent, cells = disjoint_cells(enclosures, len(isolated.real), width)
+    jacobians = pose_jacobians(enclosures, system.problem, [None] * len(isolated.real))
+    poses = [
+        replace(pose_in_cells(row, None), jacobian=jacobian) for row, jacobian in zip(cells, jacobians, strict=True)
+    ]
+    listed = in_order(poses)
+    order = [next(k for k, pose in enumerate(poses) if pose is entry) for entry in listed]
+    return replace(isolated, real=tuple(isolated.real[k] for k in order)), exponent, listed
+
+
+def isolated_poses(problem: ForwardProblem, width: Fraction) -> tuple[IsolatedSolutions, int, tuple[Pose, ...]] | None:
+    """The isolated solutions that path tracking finds and Krawczyk's operator proves, as ``real_poses`` gives them.
+
+    None if there is none, or the robot's numbers are too large for floating point. Every isolated simple solution is
+    the end of a path, but that all paths arrive is not proved.
+    """
+    try:
+        system, isolated = certified_solutions(problem, approximations(problem))
+    except OverflowError:
+        return None
+    return real_poses(system, isolated, width) if isolated.count else None
+
+
+def box_enclosures(system: ChartSystem, boxes: Sequence[Box]) -> Enclosures:
+    """Enclosures of the real poses in boxes that are certified."""
+
+    known: dict[int, tuple[int, list[arb]]] = {}
+
+    def enclose(precision: int, indices: Sequence[int]) -> Iterator[list[arb]]:
+        bits = max(precision, LEAST_PRECISION)
+        coarse = [index for index in indices if index not in known or known[index][0] < bits]
+        for index in coarse:
+            point = _narrowed(system, boxes[index], bits)
+            values = [arb(0)] * 8
+            for place, coordinate in enumerate(system.support):
+                values[coordinate] = point[place, 0]
+            with ctx.workprec(bits + GUARD_BITS):
+                known[index] = bits, ordinary_coordinates(values, system.problem.metric)
+        return (known[index][1] for index in indices)
+
+    return enclose
+
+
+def _narrowed(system: ChartSystem, box: Box, exponent: int) -> Balls:
+    """An enclosure, 2^-exponent wide, of the solution in a certified box: its Krawczyk image, again and again.
+
+    Coordinates of f are enclosed as coarser as the box's own grid is.
+    """
+    wanted = [arb(2) ** (box.exponents[0] - box.exponents[index // 4] - exponent) for index in system.support]
+    precision, most = 2 * box.exponents[0] + GUARD_BITS, exponent + box.exponents[0] + GUARD_BITS
+    with ctx.workprec(precision):
+        enclosure = ball(system, box)
+    for _ in range(NARROWINGS):
+        if all(entry.rad() <= width for entry, width in zip(enclosure.entries(), wanted, strict=True)):
+            return enclosure
+        with ctx.workprec(precision):
+            point = middle(enclosure)
+            gradients = (system.jacobians(place)[0] for place in (point, enclosure))
+            image = krawczyk_image(system, point, enclosure - point, *gradients)
+            if image is None:
+                break
+            enclosure = point + image
+        precision = min(2 * precision, most)
+    raise InternalContradictionError("a certified box cannot be narrowed")

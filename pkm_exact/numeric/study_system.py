@@ -1,0 +1,165 @@
+"""The leg equations in floating point: quadrics in Study coordinates, for many points at once.
+
+All in ordinary coordinates, after a change of frames and of the unit of length that gives base and platform their
+centroids as origins and the robot the size 1. A pose is x = (e, f) up to a complex factor; each of the 17 quantities
+(|C|^2; u; C; R; 1) of ``geometry.study`` is a quadratic form x^T M x, and a leg is a linear form on these 17. So six
+legs are a 6 x 17 matrix, a section of the rigid motions, and the equations are
+
+    x^T Q_k x = 0,   Q_0 Study's condition,   Q_k = sum_i legs[k, i] M_i.
+
+Planar robots have three legs and four of the coordinates, and Study's condition holds by itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import PLANAR_SUPPORT, STUDY_CONDITION, Quadric, motion_quadrics
+
+Complex: TypeAlias = NDArray[np.complex128]
+Real: TypeAlias = NDArray[np.float64]
+Inexact: TypeAlias = NDArray[np.inexact[Any]]
+
+QUANTITIES = 17
+"""Number of coordinates of rigid motions in which legs are linear."""
+
+
+@dataclass(frozen=True)
+class Frames:
+    """How a robot is moved and scaled to unit size: x -> (x - origin) / unit, in ordinary coordinates.
+
+    Attributes
+    ----------
+    base, platform : (3,) array
+        Origins of the new frames.
+    unit : float
+        The new unit of length.
+    scales : (3,) array
+        Square roots of the metric: ordinary coordinates by rational ones.
+    """
+
+    base: Real
+    platform: Real
+    unit: float
+    scales: Real
+
+
+@dataclass(frozen=True)
+class Section:
+    """The legs of a robot in floating point.
+
+    Attributes
+    ----------
+    legs : (m, 17) array
+        Leg forms on (|C|^2; u; C; R; 1) of the robot in its normalised frames; m = 6, or 3 if planar.
+    frames : Frames
+    planar : bool
+    """
+
+    legs: Complex
+    frames: Frames
+    planar: bool
+
+    @property
+    def quadrics(self) -> Complex:
+        """(q, n, n) symmetric matrices of the equations: q = 7 and n = 8, or 3 and 4 if planar."""
+        return section_quadrics(self.legs, planar=self.planar)
+
+
+def numeric_section(problem: ForwardProblem, frames: Frames | None = None) -> Section:
+    """The section of a problem, rounded to floating point in frames that fit it, or in the given ones.
+
+    Sections of one robot in the same frames differ by the constants of their legs only.
+    """
+    scales = np.sqrt(np.array(problem.metric, dtype=float))
+    base = np.array([[float(value) for value in leg.base] for leg in problem.legs]) * scales
+    platform = np.array([[float(value) for value in leg.platform] for leg in problem.legs]) * scales
+    squares = np.array([float(leg.length_squared) for leg in problem.legs])
+    if frames is None:
+        frames = _fitting_frames(base, platform, squares, scales)
+    base, platform = (base - frames.base) / frames.unit, (platform - frames.platform) / frames.unit
+    return Section(leg_forms(base, platform, squares / frames.unit**2).astype(np.complex128), frames, problem.planar)
+
+
+def _fitting_frames(base: Real, platform: Real, squares: Real, scales: Real) -> Frames:
+    """Frames in the centroids of the joints, and the unit that gives the robot the size 1."""
+    origins = base.mean(axis=0), platform.mean(axis=0)
+    total = ((base - origins[0]) ** 2).sum() + ((platform - origins[1]) ** 2).sum() + squares.sum()
+    return Frames(*origins, float(np.sqrt(total / (3 * len(squares)))), scales)
+
+
+def leg_forms(base: Inexact, platform: Inexact, squares: Inexact) -> Inexact:
+    """Leg forms on (|C|^2; u; C; R; 1) from joints (.., m, 3) and squared lengths (.., m) in ordinary coordinates."""
+    ones = np.ones((*squares.shape, 1))
+    mixed = -2 * (base[..., :, :, None] * platform[..., :, None, :]).reshape(*squares.shape, 9)
+    constant = (base**2).sum(axis=-1) + (platform**2).sum(axis=-1) - squares
+    return np.concatenate([ones, 2 * platform, -2 * base, mixed, constant[..., None]], axis=-1)
+
+
+def section_quadrics(legs: Complex, *, planar: bool) -> Complex:
+    """The symmetric matrices of the equations of leg forms (.., m, 17).
+
+    The first leg is taken off the others: |C|^2 is left in one equation only, and does not drown the others when the
+    platform is far away.
+    """
+    legs = np.concatenate([legs[..., :1, :], legs[..., 1:, :] - legs[..., :1, :]], axis=-2)
+    forms = _motion_forms()
+    quadrics: Complex = np.tensordot(legs, forms[:QUANTITIES], axes=1)
+    if planar:
+        return quadrics[..., PLANAR_SUPPORT, :][..., :, PLANAR_SUPPORT]
+    study = np.broadcast_to(forms[QUANTITIES], (*legs.shape[:-2], 1, 8, 8))
+    return np.concatenate([study, quadrics], axis=-3)
+
+
+def motion_values(point: Complex) -> Complex:
+    """The 17 quantities at a point (e, f)."""
+    values: Complex = np.einsum("kij,i,j->k", _motion_forms()[:QUANTITIES], point, point)
+    return values
+
+
+@cache
+def _motion_forms() -> Real:
+    """(18, 8, 8): the symmetric matrices of the 17 quantities, then Study's condition."""
+    return np.array([_symmetric(quadric) for quadric in (*motion_quadrics((1, 1, 1)), STUDY_CONDITION)])
+
+
+def _symmetric(quadric: Quadric) -> Real:
+    matrix = np.zeros((8, 8))
+    for (k, m), value in quadric.items():
+        matrix[k, m] += value / 2
+        matrix[m, k] += value / 2
+    return matrix
+
+
+def rational_coordinates(points: Complex, section: Section) -> Complex:
+    """Study coordinates with respect to the robot's own frames and metric, from those of the normalised robot.
+
+    With a and b the origins of the normalised frames, f becomes unit f + a e - e b (products of quaternions); in the
+    metric e is divided by (sqrt(g1 g2 g3), sqrt(g_i)), and f multiplied by (1, sqrt(g_i / g1 g2 g3)).
+    """
+    frames, count = section.frames, len(points)
+    full = np.zeros((count, 8), dtype=complex)
+    full[:, PLANAR_SUPPORT if section.planar else range(8)] = points
+    e, f = full[:, :4], full[:, 4:]
+    f = frames.unit * f + _product(_pure(frames.base), e) - _product(e, _pure(frames.platform))
+    volume = float(np.prod(frames.scales))
+    e = e / np.concatenate([[volume], frames.scales])
+    f = f * np.concatenate([[1.0], frames.scales / volume])
+    return np.concatenate([e, f], axis=1)
+
+
+def _pure(vector: Real) -> Real:
+    return np.concatenate([[0.0], vector])[None]
+
+
+def _product(left: Inexact, right: Inexact) -> Inexact:
+    """Products of quaternions (.., 4)."""
+    real = left[:, :1] * right[:, :1] - (left[:, 1:] * right[:, 1:]).sum(axis=1, keepdims=True)
+    vector = left[:, :1] * right[:, 1:] + left[:, 1:] * right[:, :1] + np.cross(left[:, 1:], right[:, 1:])
+    return np.concatenate([real, vector], axis=1)

@@ -1,0 +1,260 @@
+"""The certified numeric engine: what Krawczyk's operator accepts and rejects, and agreement with the exact engine."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from random import Random
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import settings as hypothesis_settings
+from hypothesis import strategies as st
+from samples import MODELS, random_placed, random_vector, shipped, solved
+
+from pkm_exact.engine import solve
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric.certification import GRIDS, IsolatedSolutions, isolated_solutions, nearest_box, refined
+from pkm_exact.numeric.engine import solve_krawczyk
+from pkm_exact.numeric.krawczyk import RADIUS, Box, ChartSystem, centre, certified
+from pkm_exact.numeric.poses import Approximations, approximations, box_enclosures, certified_solutions, motion_degree
+from pkm_exact.poses.pose import Interval, Pose
+from pkm_exact.solution import Solution
+from pkm_exact.verdict import CompletenessRoute
+
+GENERAL = "rolland-6-6"
+SLOW = {"hexa", "hexaglide", "linuxcnc-hexapod", "ssm-rounded"}
+NAMES = [pytest.param(path.stem, marks=pytest.mark.slow if path.stem in SLOW else ()) for path in MODELS]
+FEWER = {"mssm", "similar-planar-s", "ssm-exact", "3-rpr-double-q", "3-rpr-triple"}
+"""Some of the robots that have fewer distinct finite solutions than robots of their kind can have."""
+
+
+@cache
+def boxes_of(name: str) -> tuple[ChartSystem, IsolatedSolutions]:
+    problem = shipped(name)
+    return certified_solutions(problem, approximations(problem))
+
+
+def moved(box: Box, index: int, units: int) -> Box:
+    centre = list(box.centre)
+    real, imaginary = centre[index]
+    centre[index] = (real + units, imaginary)
+    return replace(box, centre=tuple(centre))
+
+
+def coarser(box: Box, bits: int) -> Box:
+    """The box around the same point on a grid so many bits coarser."""
+    half = 1 << (bits - 1)
+    return Box(
+        (box.exponents[0] - bits, box.exponents[1] - bits),
+        tuple(((real + half) >> bits, (imaginary + half) >> bits) for real, imaginary in box.centre),
+    )
+
+
+def are_equal(one: Pose, other: Pose) -> bool:
+    """Whether the boxes are the same, those of the quaternions up to sign, and the signs of the Jacobians too."""
+    quaternions = one.quaternion, tuple(Interval(-q.hi, -q.lo) for q in one.quaternion)
+    signs = {pose.jacobian.det_sign for pose in (one, other) if pose.jacobian}
+    same = (one.position, one.rotation) == (other.position, other.rotation)
+    return same and other.quaternion in quaternions and len(signs) == 1
+
+
+def assert_same_answer(numeric: Solution, exact: Solution) -> None:
+    assert numeric.claim == exact.claim
+    assert numeric.complex_solutions == exact.complex_solutions
+    assert len(numeric.poses) == len(exact.poses)
+    assert all(map(are_equal, numeric.poses, exact.poses))
+
+
+def random_robot(seed: int) -> ForwardProblem:
+    random = Random(seed)
+    quaternion = [Fraction(random.randint(1, 9)), *random_vector(random)]
+    return random_placed(random, quaternion, random.choice([(1, 1, 1), (1, 3, 1)])).problem
+
+
+@pytest.mark.parametrize("name", [GENERAL, "3-rpr-merlet-p"])
+def test_true_boxes_are_accepted(name: str) -> None:
+    system, isolated = boxes_of(name)
+    assert isolated.count == motion_degree(system.problem)
+    boxes = [*isolated.real, *isolated.pairs]
+    assert all(certified(system, boxes))
+    assert all(certified(system, [box.conjugate() for box in boxes]))
+    assert all(certified(system, [box]) == [True] for box in boxes)
+
+
+@pytest.mark.parametrize("units", [2 * RADIUS, -3 * RADIUS, 1000])
+def test_moved_boxes_are_rejected(units: int) -> None:
+    system, isolated = boxes_of(GENERAL)
+    for box in (*isolated.real, *isolated.pairs):
+        assert not any(certified(system, [moved(box, index, units) for index in system.support]))
+
+
+def test_answers_keep_the_order_of_real_complex_and_wrong_boxes() -> None:
+    system, isolated = boxes_of(GENERAL)
+    real, pair = isolated.real[0], isolated.pairs[0]
+    boxes = [pair, moved(real, 0, 100), real, moved(pair, 3, 100), pair.conjugate()]
+    assert certified(system, boxes) == [True, False, True, False, True]
+    assert certified(system, []) == []
+
+
+def test_boxes_that_are_too_wide_are_rejected() -> None:
+    system, isolated = boxes_of(GENERAL)
+    for box in (*isolated.real, *isolated.pairs):
+        assert certified(system, [coarser(box, box.exponents[0])]) == [False]
+
+
+def test_a_box_with_two_solutions_is_rejected() -> None:
+    """On the coarse grid that holds both, K(X) cannot lie in the interior: there would be one solution only."""
+    system, isolated = boxes_of(GENERAL)
+    one, two = isolated.real[:2]
+    for bits in range(1, 31):
+        wide = coarser(one, bits)
+        if wide.contains(two):
+            assert certified(system, [wide]) == [False]
+    assert coarser(one, 30).contains(two)
+
+
+@pytest.mark.parametrize("name", ["3-rpr-double-q", "3-rpr-triple"])
+def test_no_box_is_accepted_at_a_multiple_pose(name: str) -> None:
+    """At a double solution the Jacobian is singular: no grid, however fine, helps."""
+    exact = solved(name)
+    multiple = [pose for pose in exact.poses if pose.multiplicity != 1]
+    assert multiple
+    system, isolated = boxes_of(name)
+    assert isolated.count < motion_degree(system.problem)
+    for pose in multiple:
+        e = np.array([[float(value.midpoint) for value in pose.quaternion]], dtype=complex)
+        system = ChartSystem(system.problem, (1, 0, 0, 0) if abs(e[0, 0]) > 0.1 else (0, 0, 0, 1))
+        c = np.array([float(value.midpoint) for value in pose.position])
+        f = [-c @ e[0, 1:], *(e[0, 0] * c + np.cross(c, e[0, 1:]))]
+        point = np.concatenate([e[0], f]) / (e[0] @ system.chart)
+        assert isolated_solutions(system, point[None, list(system.support)]).count == 0
+
+
+def test_reality_is_proved_never_guessed() -> None:
+    system, isolated = boxes_of(GENERAL)
+    assert len(isolated.real) == 16
+    assert all(box.is_real and box == box.conjugate() for box in isolated.real)
+    assert all(not box.is_real and box.is_disjoint(box.conjugate()) for box in isolated.pairs)
+    everything = [*isolated.real, *isolated.pairs, *(box.conjugate() for box in isolated.pairs)]
+    assert all(one.is_disjoint(two) for k, one in enumerate(everything) for two in everything[:k])
+    real, pair = isolated.real[0], isolated.pairs[0]
+    flattened = replace(pair, centre=tuple((part, 0) for part, _ in pair.centre))
+    lifted = replace(real, centre=tuple((part, 1) for part, _ in real.centre))
+    assert certified(system, [flattened]) == [False]
+    assert not lifted.is_disjoint(lifted.conjugate())
+
+
+def test_repeated_and_conjugate_points_give_each_solution_once() -> None:
+    system, isolated = boxes_of(GENERAL)
+    points = np.array(
+        [
+            [complex(*part) / 2.0 ** box.exponent(index) for index, part in enumerate(box.centre)]
+            for box in (*isolated.real, *isolated.pairs)
+        ]
+    )
+    points = np.concatenate([points, points.conj(), points])
+    again = isolated_solutions(system, points)
+    assert again.count == 40
+    assert set(again.real) == set(isolated.real)
+    assert set(again.pairs) == set(isolated.pairs)
+
+
+def test_points_that_are_no_solutions_are_left_out() -> None:
+    system, _ = boxes_of(GENERAL)
+    assert isolated_solutions(system, np.zeros((1, 8), dtype=complex)).count == 0
+    random = np.random.default_rng(5)
+    far = random.standard_normal((6, 8)) + 1j * random.standard_normal((6, 8))
+    found = isolated_solutions(system, far)
+    known = {*boxes_of(GENERAL)[1].real, *boxes_of(GENERAL)[1].pairs}
+    assert {box for box in (*found.real, *found.pairs) if box.exponents[0] == GRIDS[0]} <= known
+
+
+@pytest.mark.parametrize("precision", [200, 700])
+def test_enclosures_hold_the_poses_of_the_exact_engine(precision: int) -> None:
+    system, isolated = boxes_of(GENERAL)
+    exact = solved(GENERAL).poses
+    for values in box_enclosures(system, isolated.real)(precision, range(len(isolated.real))):
+        middles = [Fraction(*map(int, (lambda q: (q.p, q.q))(value.mid().fmpq()))) for value in values[:12]]
+        holding = [
+            pose
+            for pose in exact
+            if all(
+                interval.contains(middle)
+                for interval, middle in zip([*pose.position, *sum(pose.rotation, ())], middles, strict=True)
+            )
+        ]
+        assert len(holding) == 1
+        assert all(value.rad() * 2 ** (precision - 40) < 1 for value in values)
+
+
+def test_newton_refines_to_the_same_box_on_every_grid() -> None:
+    system, isolated = boxes_of(GENERAL)
+    for box in isolated.real[:3]:
+        point = refined(system, centre(system, box), 150)
+        assert point is not None
+        fine = nearest_box(system, point, 150)
+        assert certified(system, [fine]) == [True]
+        assert box.contains(fine)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_shipped_robots_have_the_poses_of_the_exact_engine(name: str) -> None:
+    numeric, exact = solve_krawczyk(shipped(name)), solved(name)
+    assert_same_answer(numeric, exact)
+    if numeric.method == "krawczyk":
+        assert numeric.completeness_route is CompletenessRoute.REFINED_BEZOUT
+        assert numeric.isolated is not None
+        assert numeric.isolated.count == numeric.complex_solutions == motion_degree(shipped(name))
+    else:
+        assert any("the exact engine answered" in note for note in numeric.notes)
+    assert (numeric.method == "exact") >= (name in FEWER)
+
+
+def test_the_general_robots_need_no_exact_engine() -> None:
+    assert {name: solve_krawczyk(shipped(name)).method for name in (GENERAL, "dietmaier", "3-rpr-merlet-p")} == {
+        GENERAL: "krawczyk",
+        "dietmaier": "krawczyk",
+        "3-rpr-merlet-p": "krawczyk",
+    }
+
+
+def test_numbers_beyond_floating_point_are_left_to_the_exact_engine(monkeypatch: pytest.MonkeyPatch) -> None:
+    def too_large(*_: object) -> None:
+        raise OverflowError
+
+    monkeypatch.setattr("pkm_exact.numeric.engine.approximations", too_large)
+    numeric = solve_krawczyk(shipped("3-rpr-merlet-p"))
+    assert numeric.method == "exact"
+    assert "certified 0 of 6" in numeric.notes[-1]
+    assert_same_answer(numeric, solved("3-rpr-merlet-p"))
+
+
+def test_lost_paths_never_shorten_the_list(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever path tracking finds, fewer certified solutions than the degree lead to the exact engine."""
+
+    def shortened(*arguments: object) -> Approximations:
+        found = approximations(*arguments)  # type: ignore[arg-type]
+        return Approximations(found.section, found.points[3:])
+
+    monkeypatch.setattr("pkm_exact.numeric.engine.approximations", shortened)
+    numeric = solve_krawczyk(shipped("3-rpr-merlet-p"))
+    assert_same_answer(numeric, solved("3-rpr-merlet-p"))
+    assert (numeric.method == "exact") == ("the exact engine answered" in " ".join(numeric.notes))
+
+
+@hypothesis_settings(max_examples=4)
+@given(st.integers(0, 10**6))
+def test_random_robots_have_the_poses_of_the_exact_engine(seed: int) -> None:
+    problem = random_robot(seed)
+    assert_same_answer(solve_krawczyk(problem), solve(problem))
+
+
+@pytest.mark.slow
+@hypothesis_settings(max_examples=60)
+@given(st.integers(0, 10**9))
+def test_many_random_robots_have_the_poses_of_the_exact_engine(seed: int) -> None:
+    problem = random_robot(seed)
+    assert_same_answer(solve_krawczyk(problem), solve(problem))
