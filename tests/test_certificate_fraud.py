@@ -72,9 +72,10 @@ def _fit_real_poses(content: dict[str, Any], multiplicity: int | None) -> None:
     )
     metric = tuple(int(g) for g in content["robot"]["metric"])
     cells, fineness = realposes._parameter_cells(representation.eliminant)
-    boxes = realposes._box_cells(representation, metric, content["box_exponent"])  # type: ignore[arg-type]
+    boxes = realposes.root_boxes(representation, metric, content["box_exponent"])  # type: ignore[arg-type]
     poses = []
-    for (low, high), box in zip(cells, boxes, strict=True):
+    for root in realposes.in_order(boxes):
+        (low, high), box = cells[root], boxes[root]
         ends = [list(realposes._ends(a, b, content["box_exponent"])) for a, b in box]
         poses.append(
             {
@@ -503,7 +504,7 @@ def test_a_double_solution_is_certified_as_double() -> None:
     assert sorted(pose["multiplicity"] for pose in content["poses"]) == [1, 1, 2]
     answer = check_resealed(content)
     assert answer.status is Status.ACCEPTED
-    assert "complex solutions: 39 distinct, 40 with multiplicity, each simple or double" in answer.lines
+    assert "complex solutions: 39 distinct, 40 with multiplicity" in answer.lines
     _assert_rejected(content | {"complex_solutions": 39}, "complex solutions")
     for pose in content["poses"]:
         pose["multiplicity"] = 1

@@ -13,11 +13,12 @@ from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from typing import TYPE_CHECKING, Any, Final
 
-from pkm_exact.certify.witness import sphere_witnesses
+from pkm_exact.certify.witness import translation_witnesses
 from pkm_exact.files import write_whole
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
+    from pkm_exact.numeric.certification import IsolatedSolutions
     from pkm_exact.poses.pose import Pose
     from pkm_exact.roots.interval import Interval
     from pkm_exact.solution import Solution
@@ -70,6 +71,7 @@ def certificate(robot: Robot, configuration_name: str | None, solution: Solution
         "real_poses": len(solution.poses),
         "representation": _representation(solution),
         "elimination": _elimination(solution),
+        "krawczyk": None if solution.isolated is None else _isolated(solution.isolated),
         "box_exponent": solution.box_exponent,
         "poses": [_pose(pose) for pose in solution.poses],
         "notes": list(solution.notes),
@@ -122,7 +124,7 @@ def _representation(solution: Solution) -> dict[str, Any] | None:
 
     representation = solution.representation
     if isinstance(solution.self_motion, TranslationalMotion):
-        return _spelled(sphere_witnesses(solution.problem, solution.self_motion))
+        return _spelled(translation_witnesses(solution.problem, solution.self_motion))
     if isinstance(solution.self_motion, SelfMotion):
         representation = solution.self_motion.representation
     if representation is None:
@@ -151,6 +153,20 @@ def _elimination(solution: Solution) -> list[list[str]] | None:
     ]
 
 
+def _isolated(isolated: IsolatedSolutions) -> dict[str, Any]:
+    """Boxes with exactly one solution each; of a pair of conjugate ones, one."""
+    return {
+        "chart": list(isolated.chart),
+        "real": [
+            {"exponents": list(box.exponents), "centre": [hex(real) for real, _ in box.centre]} for box in isolated.real
+        ],
+        "complex": [
+            {"exponents": list(box.exponents), "centre": [[hex(part) for part in parts] for parts in box.centre]}
+            for box in isolated.pairs
+        ],
+    }
+
+
 def _factors(exponents: Iterable[int]) -> list[int]:
     return [unknown for unknown, exponent in enumerate(exponents) for _ in range(exponent)]
 
@@ -165,7 +181,7 @@ def _coefficients(values: Iterable[int]) -> list[str]:
 
 def _pose(pose: Pose) -> dict[str, Any]:
     return {
-        "parameter": _ends(pose.parameter),
+        "parameter": None if pose.parameter is None else _ends(pose.parameter),
         "position": [_ends(interval) for interval in pose.position],
         "rotation": [[_ends(interval) for interval in row] for row in pose.rotation],
         "quaternion": [_ends(interval) for interval in pose.quaternion],

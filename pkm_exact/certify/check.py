@@ -11,8 +11,11 @@ from collections.abc import Iterator
 
 from pkm_exact.certify.checker.claims import check_claims
 from pkm_exact.certify.checker.document import Document, read
-from pkm_exact.certify.checker.realposes import check_real_poses
+from pkm_exact.certify.checker.krawczyk import check_isolated
+from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
 from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
+from pkm_exact.certify.checker.tolerance import check_tolerances
+from pkm_exact.certify.checker.tolerance_document import OPENING, read_tolerances
 from pkm_exact.certify.checker.verdict import Refusal, Status, Verdict
 
 __all__ = ["Status", "Verdict", "check_bytes"]
@@ -31,13 +34,20 @@ def check_bytes(data: bytes) -> Verdict:
     """
     lines: list[str] = []
     try:
-        document = read(data)
+        checks = _checks_of(data)
         lines.append("digest: that of the content")
-        for line in _checks(document):
+        for line in checks:
             lines.append(line)  # noqa: PERF402 - the lines before a refusal stay
     except Refusal as refusal:
         return Verdict(refusal.status, (*lines, refusal.line))
     return Verdict(Status.ACCEPTED, tuple(lines))
+
+
+def _checks_of(data: bytes) -> Iterator[str]:
+    """The content, read at once, and its checks, one after another."""
+    if data.startswith(OPENING):
+        return check_tolerances(read_tolerances(data))
+    return _checks(read(data))
 
 
 def _checks(document: Document) -> Iterator[str]:
@@ -48,4 +58,9 @@ def _checks(document: Document) -> Iterator[str]:
         yield from check_poses(document.representation, document.legs, document.metric)
         if document.claim != "positive-dimensional-proved":
             yield from check_real_poses(document.representation, document.metric, document.box_exponent, document.poses)
+    if document.isolated is not None:
+        yield from check_isolated(document.isolated, document.legs, document.metric)
+        yield from check_isolated_poses(
+            document.isolated, document.legs, document.metric, document.box_exponent, document.poses
+        )
     yield from check_claims(document)

@@ -9,12 +9,17 @@ from flint import fmpq, fmpz_poly
 
 from pkm_exact.certify.checker.document import Document, ListedPose, Representation
 from pkm_exact.certify.checker.elimination import Row, eliminate
+from pkm_exact.certify.checker.krawczyk import Isolated
 from pkm_exact.certify.checker.motion import PLANAR_LEGS
-from pkm_exact.certify.checker.multiplicity import are_simple, is_multiple, multiple_factors
+from pkm_exact.certify.checker.multiplicity import (
+    are_simple,
+    is_multiple,
+    multiple_factors,
+    multiplicities,
+)
 from pkm_exact.certify.checker.selfmotion import check_self_motion
-from pkm_exact.certify.checker.solutions import GREATEST_NUMBER
-from pkm_exact.certify.checker.traceform import distinct_solutions
-from pkm_exact.certify.checker.verdict import rejected
+from pkm_exact.certify.checker.traceform import quotient_algebra
+from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, PLANAR_NUMBER, rejected
 
 
 @dataclass(frozen=True)
@@ -26,26 +31,65 @@ class _Proved:
     claim, route : str, str or None
     total : int or None
         Their number with multiplicity, if it is known.
-    multiple : tuple of fmpz_poly
-        If it is known: the irreducible factors of h at whose roots they are multiple.
+    multiple : tuple of (fmpz_poly, int)
+        If it is known: the irreducible factors of h at whose roots they are multiple, with their multiplicities.
     """
 
     claim: str
     route: str | None
     total: int | None
-    multiple: tuple[fmpz_poly, ...] = ()
+    multiple: tuple[tuple[fmpz_poly, int], ...] = ()
 
 
 def check_claims(document: Document) -> Iterator[str]:
     """The claim, its route, the counts and the multiplicities are those that can be proved."""
     if document.real_poses != len(document.poses):
         raise rejected(f"real poses: {document.real_poses} claimed, {len(document.poses)} listed")
-    if document.representation is None:
+    _check_parts(document)
+    if document.isolated is not None:
+        yield from _isolated_listed(document, document.isolated)
+    elif document.representation is None:
         yield from _nothing_listed(document)
     elif document.claim == "positive-dimensional-proved":
         yield from check_self_motion(document, document.representation)
     else:
         yield from _solutions_listed(document, document.representation)
+
+
+def _check_parts(document: Document) -> None:
+    """What a certificate must have depends on its method and claim."""
+    if document.method == "krawczyk":
+        if document.isolated is None or document.representation is not None or document.elimination is not None:
+            raise rejected("method: krawczyk needs boxes, and neither a representation nor an elimination")
+    elif document.isolated is not None and not document.claim.startswith("positive-dimensional"):
+        raise rejected("method: exact, but solutions in boxes are listed, and none of positive dimension is claimed")
+
+
+def _isolated_listed(document: Document, isolated: Isolated) -> Iterator[str]:
+    """Solutions in boxes that were proved: all of them, or isolated ones beside a set of positive dimension."""
+    numbers = (document.complex_solutions, document.distinct_solutions)
+    if numbers != (isolated.count, isolated.count):
+        raise rejected(f"complex solutions: {numbers[0]}, {numbers[1]} distinct claimed, {isolated.count} proved")
+    for place, pose in enumerate(document.poses, 1):
+        if pose.multiplicity != 1:
+            raise rejected(f"multiplicity: that of pose {place} differs from what is proved")
+    if document.method == "exact":
+        yield f"isolated: {isolated.count} solutions, {len(isolated.real)} of them real, lie on no curve of poses"
+        if document.claim == "positive-dimensional-proved" and document.representation is not None:
+            yield from check_self_motion(document, document.representation)
+        elif (document.claim, document.route) == ("positive-dimensional-detected", None):
+            yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
+        else:
+            raise rejected(f"claim: {document.claim} is not proved by what is in the certificate")
+        return
+    degree = PLANAR_NUMBER if len(document.legs) == PLANAR_LEGS else GREATEST_NUMBER
+    proved = ("complete", "refined-bezout") if isolated.count == degree else ("not-proven-complete", None)
+    if (document.claim, document.route) != proved:
+        raise rejected(f"claim: what is proved is {proved[0]} by {proved[1] or 'no route'}")
+    if isolated.count == degree:
+        yield f"complete: {degree} isolated solutions are the degree of the motions, there is no other"
+    else:
+        yield f"not proven complete: {isolated.count} solutions are proved, others are not excluded"
 
 
 def _nothing_listed(document: Document) -> Iterator[str]:
@@ -73,7 +117,7 @@ def _solutions_listed(document: Document, representation: Representation) -> Ite
         claimed = f"{document.claim} by {document.route or 'no route'}"
         raise rejected(f"claim: {claimed}, but what is proved is {proved.claim} by {proved.route or 'no route'}")
     _check_total(document.complex_solutions, number, proved.total)
-    _check_multiplicities(document.poses, number, proved)
+    _check_multiplicities(document.poses, proved)
     yield _solutions_line(number, document.complex_solutions, proved)
     if proved.route == "refined-bezout":
         yield f"complete: {number} isolated solutions are the degree of the rigid motions, there is no other"
@@ -97,22 +141,28 @@ def _proved(document: Document, representation: Representation) -> _Proved:
 
 def _filling(
     document: Document, representation: Representation, steps: Sequence[Sequence[Row]], simple: bool
-) -> tuple[int, tuple[fmpz_poly, ...]]:
+) -> tuple[int, tuple[tuple[fmpz_poly, int], ...]]:
     """Number of all solutions with multiplicity, and the factors of h at multiple ones; those listed must be all.
 
     They are if they fill what the elimination leaves, simple ones once and singular ones twice; or else if the algebra
-    on what is left has no more distinct solutions.
+    on what is left has no more distinct solutions. It then tells the multiplicities.
     """
     legs, metric = document.legs, document.metric
     number = int(representation.eliminant.degree())
     elimination = eliminate(legs, metric, steps)
     left = len(elimination.standard(GREATEST_NUMBER))
     multiple = () if simple else multiple_factors(representation, legs, metric)
-    doubled = number + sum(int(factor.degree()) for factor in multiple)
-    singular = all(is_multiple(factor, representation, legs, metric) for factor in multiple)
-    if not singular or (left != doubled and distinct_solutions(elimination) != number):
+    if left == number + sum(int(factor.degree()) for factor in multiple) and all(
+        is_multiple(factor, representation, legs, metric) for factor in multiple
+    ):
+        return left, tuple((factor, 2) for factor in multiple)
+    algebra = quotient_algebra(elimination)
+    if algebra is None or algebra.distinct_solutions() != number:
         raise rejected(f"elimination: it leaves {left} monomials, the solutions are not proved to fill them")
-    return left, multiple
+    found = multiplicities(algebra, representation, legs, metric)
+    if found is None:
+        raise rejected("elimination: no form in its unknowns tells the multiple solutions apart")
+    return left, tuple((factor, multiplicity) for factor, multiplicity in found if multiplicity > 1)
 
 
 def _check_total(claimed: int, number: int, proved: int | None) -> None:
@@ -123,22 +173,18 @@ def _check_total(claimed: int, number: int, proved: int | None) -> None:
         raise rejected(f"complex solutions: {claimed} claimed, {number} distinct ones proved")
 
 
-def _check_multiplicities(poses: Sequence[ListedPose], number: int, proved: _Proved) -> None:
-    """Null if not all are known; else 1 at simple solutions; multiple ones, if conjugate, share the rest, else null."""
-    shared = None
-    if proved.total is not None and len(proved.multiple) == 1:
-        degree = int(proved.multiple[0].degree())
-        shared = (proved.total - number + degree) // degree
+def _check_multiplicities(poses: Sequence[ListedPose], proved: _Proved) -> None:
+    """Null if they are not all known; otherwise those that were found, and 1 at the others."""
     for place, pose in enumerate(poses, 1):
-        is_multiple_here = any(_has_root(factor, pose) for factor in proved.multiple)
-        expected = None if proved.total is None else shared if is_multiple_here else 1
+        here = [multiplicity for factor, multiplicity in proved.multiple if _has_root(factor, pose)]
+        expected = None if proved.total is None else here[0] if here else 1
         if pose.multiplicity != expected:
             raise rejected(f"multiplicity: that of pose {place} differs from what is proved")
 
 
 def _has_root(factor: fmpz_poly, pose: ListedPose) -> bool:
     """Whether a factor of h has the root of h that the pose's parameter isolates, as ``check_real_poses`` confirms."""
-    low, high = (factor(fmpq(end)) for end in pose.parameter)
+    low, high = (factor(fmpq(end)) for end in pose.parameter or ())
     return bool(low * high < 0 or low == 0 == high)
 
 

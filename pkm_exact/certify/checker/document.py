@@ -9,6 +9,7 @@ from typing import Any, Final, TypeAlias
 from flint import fmpz_poly
 
 from pkm_exact.certify.checker.elimination import Row
+from pkm_exact.certify.checker.krawczyk import Box, Isolated
 from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, Point
 from pkm_exact.certify.checker.spelling import (
     choice,
@@ -23,14 +24,23 @@ from pkm_exact.certify.checker.spelling import (
     read_sealed,
     text,
 )
-from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_DEGREE, MAX_ELIMINATION_ROWS, malformed, too_large
+from pkm_exact.certify.checker.verdict import (
+    GREATEST_NUMBER,
+    MAX_BOX_EXPONENT,
+    MAX_DEGREE,
+    MAX_ELIMINATION_ROWS,
+    MAX_GRID_EXPONENT,
+    malformed,
+    rejected,
+    too_large,
+)
 
 FORMAT: Final = "pkm_exact certificate"
 VERSION: Final = 1
 KINDS: Final = {"6-UPS": 6, "3-RPR": PLANAR_LEGS}
 """Kinds of robot, with their numbers of legs."""
 FORMULATIONS: Final = re.compile(r"(?:SE3|AFD[1-6]|AFP[1-4])(?::[a-z0-9]{1,10})?", re.ASCII)
-METHODS: Final = ("exact",)
+METHODS: Final = ("exact", "krawczyk")
 CLAIMS: Final = (
     "complete",
     "not-proven-complete",
@@ -54,12 +64,15 @@ _KEYS: Final = (
     "real_poses",
     "representation",
     "elimination",
+    "krawczyk",
     "box_exponent",
     "poses",
     "notes",
 )
 _ROBOT: Final = ("name", "kind", "unit", "source", "metric", "base", "platform")
 _REPRESENTATION: Final = ("chart", "separating_form", "eliminant", "quaternion", "translation")
+_KRAWCZYK: Final = ("chart", "real", "complex")
+_BOX: Final = ("exponents", "centre")
 _POSE: Final = ("parameter", "position", "rotation", "quaternion", "multiplicity")
 
 _PRODUCT: Final = re.compile(r"(?:0|[1-9][0-9]{0,5})(?: (?:[0-9]|1[0-5])){0,8}", re.ASCII)
@@ -82,7 +95,7 @@ class Representation:
 class ListedPose:
     """A pose as it is listed: the ends of its intervals as texts; ``box`` is position, rotation, quaternion."""
 
-    parameter: Ends
+    parameter: Ends | None
     box: tuple[Ends, ...]
     multiplicity: int | None
 
@@ -93,6 +106,7 @@ class Document:
 
     metric: Metric
     legs: tuple[Leg, ...]
+    method: str
     claim: str
     route: str | None
     complex_solutions: int
@@ -100,6 +114,7 @@ class Document:
     real_poses: int
     representation: Representation | None
     elimination: tuple[tuple[Row, ...], ...] | None
+    isolated: Isolated | None
     box_exponent: int
     poses: tuple[ListedPose, ...]
 
@@ -123,21 +138,22 @@ def read(data: bytes) -> Document:
         real_poses,
         representation,
         elimination,
+        krawczyk,
         box_exponent,
         poses,
         notes,
     ) = entries(body, "certificate", _KEYS)
-    metric, base, platform = _robot(robot)
+    metric, base, platform = read_robot(robot)
     if not FORMULATIONS.fullmatch(text(formulation, "formulation")):
         raise malformed("formulation: not the code of one")
-    choice(method, "method", METHODS)
     items(notes, "notes", None, text)
     exponent = count(box_exponent, "box_exponent")
     if exponent > MAX_BOX_EXPONENT:
         raise too_large(f"box_exponent: more than {MAX_BOX_EXPONENT}")
     return Document(
         metric=metric,
-        legs=tuple(map(Leg, base, platform, _lengths_squared(configuration, len(base)))),
+        legs=tuple(map(Leg, base, platform, read_lengths_squared(configuration, len(base)))),
+        method=choice(method, "method", METHODS),
         claim=choice(claim, "claim", CLAIMS),
         route=None if route is None else choice(route, "completeness_route", ROUTES),
         complex_solutions=count(complex_solutions, "complex_solutions"),
@@ -145,12 +161,14 @@ def read(data: bytes) -> Document:
         real_poses=count(real_poses, "real_poses"),
         representation=None if representation is None else _representation(representation),
         elimination=None if elimination is None else items(elimination, "elimination", None, _step),
+        isolated=None if krawczyk is None else _isolated(krawczyk),
         box_exponent=exponent,
         poses=items(poses, "poses", None, _pose),
     )
 
 
-def _robot(value: Any) -> tuple[Metric, tuple[Point, ...], tuple[Point, ...]]:
+def read_robot(value: Any) -> tuple[Metric, tuple[Point, ...], tuple[Point, ...]]:
+    """Metric, base joints and platform joints."""
     name, kind, unit, source, metric, base, platform = entries(value, "robot", _ROBOT)
     for label, content in (("name", name), ("unit", unit), ("source", source)):
         text(content, f"robot.{label}")
@@ -158,18 +176,20 @@ def _robot(value: Any) -> tuple[Metric, tuple[Point, ...], tuple[Point, ...]]:
     g = items(metric, "robot.metric", 3, positive)
     if any(number.denominator != 1 for number in g):
         raise malformed("robot.metric: not three integers")
-    joints = (items(base, "robot.base", number, _point), items(platform, "robot.platform", number, _point))
+    joints = (items(base, "robot.base", number, read_point), items(platform, "robot.platform", number, read_point))
     if number == PLANAR_LEGS and any(joint[2] for side in joints for joint in side):
         raise malformed("robot: a joint of a planar robot has a third coordinate other than 0")
     return (int(g[0]), int(g[1]), int(g[2])), *joints
 
 
-def _point(value: Any, where: str) -> Point:
+def read_point(value: Any, where: str) -> Point:
+    """Three rational numbers."""
     x, y, z = items(value, where, 3, rational)
     return x, y, z
 
 
-def _lengths_squared(value: Any, number: int) -> tuple[Any, ...]:
+def read_lengths_squared(value: Any, number: int) -> tuple[Any, ...]:
+    """The squared leg lengths of a configuration."""
     name, lengths_squared = entries(value, "configuration", ("name", "lengths_squared"))
     if name is not None:
         text(name, "configuration.name")
@@ -214,6 +234,36 @@ def _product(value: Any, where: str) -> Row:
     return index, tuple(factors)
 
 
+def _isolated(value: Any) -> Isolated:
+    chart, real, pairs = entries(value, "krawczyk", _KRAWCZYK)
+    if all(isinstance(boxes, list) for boxes in (real, pairs)) and len(real) + 2 * len(pairs) > GREATEST_NUMBER:
+        raise rejected(f"boxes: more than {GREATEST_NUMBER} solutions, the degree of the rigid motions")
+    return Isolated(
+        items(chart, "krawczyk.chart", 4, integer),
+        items(real, "krawczyk.real", None, lambda box, where: _box(box, where, real=True)),
+        items(pairs, "krawczyk.complex", None, lambda box, where: _box(box, where, real=False)),
+    )
+
+
+def _box(value: Any, where: str, *, real: bool) -> Box:
+    exponents, centre = entries(value, where, _BOX)
+    grid = items(exponents, f"{where}.exponents", 2, count)
+    if max(grid) > MAX_GRID_EXPONENT:
+        raise too_large(f"{where}.exponents: more than {MAX_GRID_EXPONENT}")
+    if real:
+        parts = tuple((part, 0) for part in items(centre, f"{where}.centre", 8, hexadecimal))
+    else:
+        parts = items(centre, f"{where}.centre", 8, _complex)
+    if max(abs(part).bit_length() for pair in parts for part in pair) > 2 * MAX_GRID_EXPONENT:
+        raise too_large(f"{where}.centre: a coordinate of more than {2 * MAX_GRID_EXPONENT} bits")
+    return Box((grid[0], grid[1]), parts, real)
+
+
+def _complex(value: Any, where: str) -> tuple[int, int]:
+    real, imaginary = items(value, where, 2, hexadecimal)
+    return real, imaginary
+
+
 def _pose(value: Any, where: str) -> ListedPose:
     parameter, position, rotation, quaternion, multiplicity = entries(value, where, _POSE)
     rows = items(rotation, f"{where}.rotation", 3, lambda row, place: items(row, place, 3, _ends))
@@ -223,7 +273,7 @@ def _pose(value: Any, where: str) -> ListedPose:
         *items(quaternion, f"{where}.quaternion", 4, _ends),
     )
     return ListedPose(
-        _ends(parameter, f"{where}.parameter"),
+        None if parameter is None else _ends(parameter, f"{where}.parameter"),
         box,
         None if multiplicity is None else count(multiplicity, f"{where}.multiplicity"),
     )

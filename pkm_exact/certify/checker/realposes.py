@@ -8,14 +8,15 @@ a coordinate lies in does not depend on a precision: there is one right answer, 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
 from typing import Final, TypeAlias
 
 from flint import acb_poly, arb, ctx, fmpq, fmpz, fmpz_poly
 
 from pkm_exact.certify.checker.document import Ends, ListedPose, Representation
-from pkm_exact.certify.checker.motion import Metric, motion
+from pkm_exact.certify.checker.krawczyk import Equations, Isolated, narrowed
+from pkm_exact.certify.checker.motion import Leg, Metric, motion
 from pkm_exact.certify.checker.solutions import primitive_part
 from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_PRECISION, rejected, too_large
 
@@ -42,11 +43,54 @@ def check_real_poses(
     cells, fineness = _parameter_cells(h)
     if len(poses) != len(cells):
         raise rejected(f"real poses: {len(poses)} listed, the eliminant has {len(cells)} real roots")
-    for number, (pose, (low, high)) in enumerate(zip(poses, cells, strict=True), 1):
-        if pose.parameter != _ends(low, high, fineness):
-            raise rejected(f"real poses: pose {number} does not have the isolating interval of real root {number}")
+    boxes = root_boxes(representation, metric, exponent)
+    order = in_order(boxes)
+    for number, (pose, root) in enumerate(zip(poses, order, strict=True), 1):
+        if pose.parameter != _ends(*cells[root], fineness):
+            raise rejected(f"real poses: pose {number} does not have the isolating interval of real root {root + 1}")
     yield f"real poses: {len(poses)}, one for each real root of the eliminant"
-    boxes = _box_cells(representation, metric, exponent)
+    yield from _check_boxes([boxes[root] for root in order], exponent, poses)
+
+
+def root_boxes(representation: Representation, metric: Metric, exponent: int) -> list[list[Cell]]:
+    """The boxes of the real solutions, in the order of the roots."""
+    h = primitive_part(representation.eliminant)
+
+    def enclose(precision: int) -> list[list[arb]] | None:
+        roots = _real_roots(h, precision)
+        return None if roots is None else [_at_root(representation, metric, root, precision) for root in roots]
+
+    return _box_cells(enclose, exponent)
+
+
+def in_order(boxes: Sequence[Sequence[Cell]]) -> list[int]:
+    """The indices of the boxes in the order in which their poses are listed."""
+    return sorted(range(len(boxes)), key=lambda index: [(int(low), int(high)) for low, high in boxes[index][:12]])
+
+
+def check_isolated_poses(
+    isolated: Isolated, legs: Sequence[Leg], metric: Metric, exponent: int, poses: Sequence[ListedPose]
+) -> Iterator[str]:
+    """The poses listed are those in the real boxes, one after another, with the intervals that they must have."""
+    if len(poses) != len(isolated.real):
+        raise rejected(f"real poses: {len(poses)} listed, there are {len(isolated.real)} real boxes")
+    if any(pose.parameter is not None for pose in poses):
+        raise rejected("real poses: a parameter is given, but there is no eliminant")
+    yield f"real poses: {len(poses)}, one in each real box"
+    equations = Equations(legs, metric, isolated.chart)
+
+    def enclose(precision: int) -> list[list[arb]]:
+        points = [narrowed(equations, box, precision) for box in isolated.real]
+        return [ordinary_coordinates(point[:4], point[4:], metric, precision) for point in points]
+
+    boxes = _box_cells(enclose, exponent)
+    if in_order(boxes) != list(range(len(boxes))):
+        raise rejected("real poses: not listed in the order of their boxes")
+    yield from _check_boxes(boxes, exponent, poses)
+
+
+def _check_boxes(boxes: Sequence[Sequence[Cell]], exponent: int, poses: Sequence[ListedPose]) -> Iterator[str]:
+    """The boxes listed are these, and disjoint."""
     for number, (pose, box) in enumerate(zip(poses, boxes, strict=True), 1):
         if pose.box != tuple(_ends(low, high, exponent) for low, high in box):
             raise rejected(f"boxes: the box of pose {number} is not that of its solution")
@@ -54,7 +98,7 @@ def check_real_poses(
     for (i, one), (j, other) in combinations(enumerate(boxes, 1), 2):
         if not any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one[:12], other[:12], strict=True)):
             raise rejected(f"boxes: those of poses {i} and {j} are not disjoint in position or rotation")
-    yield "boxes: pairwise disjoint"
+    yield "boxes: pairwise disjoint in position or rotation"
 
 
 def _ends(low: fmpz, high: fmpz, exponent: int) -> Ends:
@@ -125,28 +169,36 @@ def _holds_one_root(h: fmpz_poly, cell: Cell, exponent: int) -> bool:
     return bool(low == 0) if cell[0] == cell[1] else bool(low * high < 0)
 
 
-def _box_cells(representation: Representation, metric: Metric, exponent: int) -> list[list[Cell]]:
-    """For each real pose the cells of its 16 ordinary coordinates on the grid 2^-exponent."""
-    h = primitive_part(representation.eliminant)
+def _box_cells(enclose: Callable[[int], list[list[arb]] | None], exponent: int) -> list[list[Cell]]:
+    """For each real pose the cells of its 16 ordinary coordinates on the grid 2^-exponent.
+
+    ``enclose`` gives enclosures at a precision, or None if it does not suffice.
+    """
     precision, doublings = exponent + 256, 0
-    while True:
-        roots = _real_roots(h, precision)
-        values = [ordinary_coordinates(representation, metric, root, precision) for root in roots or ()]
-        if roots is not None and all(_is_fine(value, exponent) for row in values for value in row):
+    while precision <= MAX_PRECISION:
+        values = enclose(precision)
+        if values is not None and all(_is_fine(value, exponent) for row in values for value in row):
             boxes = [[_coordinate_cell(value, exponent, doublings >= DOUBLINGS) for value in row] for row in values]
             decided = [[cell for cell in box if cell is not None] for box in boxes]
             if decided == boxes:
                 return decided
             doublings += 1
         precision *= 2
+    raise too_large(f"boxes: a coordinate is not decided by {MAX_PRECISION} bits")
 
 
-def ordinary_coordinates(representation: Representation, metric: Metric, root: arb, precision: int) -> list[arb]:
-    """Position, rotation matrix by rows and unit quaternion (its sign that of e with w.e = 1) at an enclosed root."""
+def _at_root(representation: Representation, metric: Metric, root: arb, precision: int) -> list[arb]:
+    """The ordinary coordinates at an enclosed root."""
     with ctx.workprec(precision):
         slope = representation.eliminant.derivative()(root)
         e = [numerator(root) / slope for numerator in representation.quaternion]
         f = [numerator(root) / slope for numerator in representation.translation]
+    return ordinary_coordinates(e, f, metric, precision)
+
+
+def ordinary_coordinates(e: Sequence[arb], f: Sequence[arb], metric: Metric, precision: int) -> list[arb]:
+    """Position, rotation matrix by rows and unit quaternion (its sign that of e with w.e = 1) of a real (e, f)."""
+    with ctx.workprec(precision):
         placed = motion(e, f, metric)
         axes = [arb(g).sqrt() for g in metric]
         length = placed.norm.sqrt()

@@ -16,13 +16,10 @@ from flint import fmpz_poly, nmod_poly
 
 from pkm_exact.certify.checker.document import Representation
 from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
-from pkm_exact.certify.checker.verdict import rejected
+from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
 
 PRIMES: Final = tuple((1 << 63) - offset for offset in (25, 165, 259, 301, 375, 387))
 """Primes of the checker's own; any prime serves, several because one may divide something by accident."""
-
-GREATEST_NUMBER: Final = 40
-"""Degree of the variety of rigid motions in P^16: no more isolated poses can have the same six leg lengths."""
 
 
 def primitive_part(h: fmpz_poly) -> fmpz_poly:

@@ -24,6 +24,15 @@ MAX_RATIONAL_LENGTH: Final = 10_000
 MAX_BOX_EXPONENT: Final = 8192
 """Finest grid of boxes: 2^-8192."""
 
+MAX_GRID_EXPONENT: Final = 2048
+"""Finest grid of the boxes of Krawczyk's operator: 2^-2048."""
+
+GREATEST_NUMBER: Final = 40
+"""Degree of the variety of rigid motions: no robot has more isolated poses, real or complex."""
+
+PLANAR_NUMBER: Final = 6
+"""Degree of the variety of planar motions."""
+
 MAX_PRECISION: Final = 1 << 14
 """Highest precision of an enclosure, in bits."""
 

@@ -1,0 +1,202 @@
+"""Certificates of the method krawczyk: accepted as they are, rejected whatever is changed."""
+
+import json
+from copy import deepcopy
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from certificate_tools import Path_, at, check_resealed, last_line, leaves, neighbours, restructured, with_entry
+from flint import arb, ctx
+
+from pkm_exact import Robot, certificate, read_robot, solve
+from pkm_exact.certify.build import canonical_bytes
+from pkm_exact.certify.check import Status
+from pkm_exact.certify.checker.krawczyk import Box, Equations, _place, narrowed
+from pkm_exact.certify.checker.motion import Leg
+from pkm_exact.numeric.engine import solve_krawczyk
+
+MODELS = Path(__file__).parent.parent / "models"
+SCHEMA = Path(__file__).parent.parent / "pkm_exact" / "certify" / "certificate-1.schema.json"
+
+
+@cache
+def _made(name: str) -> dict[str, Any]:
+    robot = read_robot(MODELS / f"{name}.toml")
+    configuration = robot.configuration()
+    return certificate(robot, configuration.name, solve_krawczyk(robot.problem(configuration)))
+
+
+def _certificate(name: str) -> dict[str, Any]:
+    return deepcopy(_made(name))
+
+
+def _rejected(content: dict[str, Any], reason: str) -> None:
+    verdict = check_resealed(content)
+    assert (verdict.status, last_line(verdict).split(":")[0]) == (Status.REJECTED, reason), verdict
+
+
+@pytest.mark.parametrize("name", ["mourrain-l", "rolland-6-6", "3-rrr", "3-rpr-merlet-p", "hexa"])
+def test_it_is_accepted_small_and_fits_the_schema(name: str) -> None:
+    content = _certificate(name)
+    verdict = check_resealed(content)
+    assert verdict.status is Status.ACCEPTED, verdict
+    assert (content["method"], content["claim"]) == ("krawczyk", "complete")
+    assert any(line.startswith("complete: ") for line in verdict.lines)
+    assert len(canonical_bytes(content)) < 64_000
+    jsonschema.validate(content, json.loads(SCHEMA.read_text(encoding="utf-8")))
+
+
+@pytest.mark.parametrize("name", ["mourrain-l", "rolland-6-6", "3-rrr"])
+def test_poses_are_those_of_the_exact_engine(name: str) -> None:
+    robot = read_robot(MODELS / f"{name}.toml")
+    configuration = robot.configuration()
+    exact = certificate(robot, configuration.name, solve(robot.problem(configuration)))
+    numeric = _certificate(name)
+    for one, other in zip(exact["poses"], numeric["poses"], strict=True):
+        assert one["position"] == other["position"]
+        assert one["rotation"] == other["rotation"]
+
+
+def _unproved(path: Path_) -> bool:
+    """Whether a leaf enters no proof: texts, the code of the formulation, and the third axis of a planar robot."""
+    return path[0] in ("notes", "formulation") or path in [
+        ("robot", "metric", 2),
+        ("robot", "name"),
+        ("robot", "unit"),
+        ("robot", "source"),
+        ("configuration", "name"),
+    ]
+
+
+def test_every_changed_number_and_word_is_caught() -> None:
+    content = _certificate("3-rpr-merlet-p")
+    count = 0
+    for path, value in leaves(content):
+        if _unproved(path) or path == ("digest",):
+            continue
+        for other in neighbours(value):
+            verdict = check_resealed(with_entry(content, path, other))
+            assert verdict.status in (Status.REJECTED, Status.MALFORMED, Status.TOO_LARGE), (path, value, other)
+            count += 1
+    assert count > 300
+
+
+def test_every_list_and_object_has_one_shape() -> None:
+    content = _certificate("3-rpr-merlet-p")
+    for path in [("krawczyk",), ("krawczyk", "real"), ("krawczyk", "complex"), ("krawczyk", "chart"), ("poses",)]:
+        for changed in restructured(at(content, path)):
+            assert check_resealed(with_entry(content, path, changed)).status is not Status.ACCEPTED, path
+
+
+@pytest.mark.slow
+def test_every_changed_number_of_a_spatial_robot_is_caught() -> None:
+    content = _certificate("mourrain-l")
+    for number, (path, value) in enumerate(leaves(content)):
+        if _unproved(path) or path == ("digest",) or (path[0] == "krawczyk" and number % 5):
+            continue
+        for other in neighbours(value):
+            verdict = check_resealed(with_entry(content, path, other))
+            assert verdict.status is not Status.ACCEPTED, (path, value, other)
+
+
+def test_a_pose_dropped_with_its_box_and_its_counts_leaves_the_list_incomplete() -> None:
+    content = _certificate("mourrain-l")
+    content["krawczyk"]["real"].pop()
+    content["poses"].pop()
+    content |= {"real_poses": 3, "complex_solutions": 39, "distinct_solutions": 39}
+    _rejected(content, "claim")
+    content |= {"claim": "not-proven-complete", "completeness_route": None}
+    assert check_resealed(content).status is Status.ACCEPTED
+
+
+def test_a_solution_is_not_counted_twice() -> None:
+    content = _certificate("mourrain-l")
+    content["krawczyk"]["complex"][1] = content["krawczyk"]["complex"][0]
+    _rejected(content, "boxes")
+
+
+def test_a_conjugate_box_is_the_same_solution_again() -> None:
+    content = _certificate("mourrain-l")
+    box = deepcopy(content["krawczyk"]["complex"][0])
+    box["centre"] = [[real, hex(-int(imaginary, 16))] for real, imaginary in box["centre"]]
+    content["krawczyk"]["complex"][1] = box
+    _rejected(content, "boxes")
+
+
+def test_a_real_solution_is_not_listed_as_complex() -> None:
+    content = _certificate("mourrain-l")
+    box = content["krawczyk"]["real"].pop()
+    box["centre"] = [[value, "0x0"] for value in box["centre"]]
+    content["krawczyk"]["complex"].append(box)
+    content["poses"].pop()
+    content |= {"real_poses": 3, "complex_solutions": 41, "distinct_solutions": 41}
+    _rejected(content, "boxes")
+
+
+def test_a_moved_box_is_rejected() -> None:
+    content = _certificate("mourrain-l")
+    centre = content["krawczyk"]["real"][0]["centre"]
+    for units in (1, 3, 8, -1):
+        changed = deepcopy(content)
+        changed["krawczyk"]["real"][0]["centre"][1] = hex(int(centre[1], 16) + units)
+        _rejected(changed, "boxes")
+
+
+def test_boxes_of_another_robot_are_rejected() -> None:
+    content, other = _certificate("mourrain-l"), _certificate("linapod-n")
+    content["krawczyk"] = other["krawczyk"]
+    _rejected(content, "boxes")
+
+
+def test_boxes_are_in_the_order_of_the_poses() -> None:
+    content = _certificate("mourrain-l")
+    real = content["krawczyk"]["real"]
+    real[0], real[1] = real[1], real[0]
+    _rejected(content, "real poses")
+
+
+def test_the_exact_method_lists_no_boxes_beside_a_complete_list() -> None:
+    content = _certificate("mourrain-l")
+    content["method"] = "exact"
+    _rejected(content, "method")
+
+
+def test_isolated_poses_beside_a_self_motion_are_listed_and_checked() -> None:
+    """A parallelogram turns on a circle; two more poses turn the platform over."""
+    corners = tuple((Fraction(x), Fraction(y)) for x, y in ((0, 0), (4, 0), (0, 4)))
+    robot = Robot("parallelogram", "3-RPR", "m", "made up", corners, corners)  # type: ignore[arg-type]
+    solution = solve(robot.problem((9, 9, 9)))
+    assert (str(solution.claim), len(solution.poses)) == ("positive-dimensional-proved", 2)
+    content = certificate(robot, None, solution)
+    assert check_resealed(content).status is Status.ACCEPTED
+    _rejected(content | {"claim": "complete", "completeness_route": "refined-bezout"}, "real poses")
+    _rejected({**content, "poses": [], "real_poses": 0}, "real poses")
+    _rejected({**content, "krawczyk": None}, "claim")
+
+
+def test_the_image_contains_the_solution_and_shrinks() -> None:
+    """The only zero of the equations near a box lies in the Krawczyk image of any box around it."""
+    content = _certificate("mourrain-l")
+    robot, lengths = content["robot"], content["configuration"]["lengths_squared"]
+    legs = [
+        Leg(tuple(map(Fraction, a)), tuple(map(Fraction, b)), Fraction(s))  # type: ignore[arg-type]
+        for a, b, s in zip(robot["base"], robot["platform"], lengths, strict=True)
+    ]
+    equations = Equations(legs, (1, 1, 1), content["krawczyk"]["chart"])
+    entry = content["krawczyk"]["real"][0]
+    box = Box(tuple(entry["exponents"]), tuple((int(value, 16), 0) for value in entry["centre"]), True)  # type: ignore[arg-type]
+    assert box.is_disjoint(Box(box.exponents, ((box.centre[0][0] + 9, 0), *box.centre[1:]), True))
+    assert not box.is_disjoint(Box(box.exponents, ((box.centre[0][0] + 8, 0), *box.centre[1:]), True))
+    with ctx.workprec(256):
+        centre, spread = _place(equations, box)
+        image = equations.image(centre, spread)
+        assert image is not None
+        fine = narrowed(equations, box, 100)
+        for place, value in enumerate((centre + image).entries()):
+            assert value.real.overlaps(fine[equations.kept[place]])
+            assert value.real.rad() < spread[place, 0].real.rad()
+            assert fine[equations.kept[place]].rad() < arb(2) ** -90 * (1 + abs(fine[equations.kept[place]]))
