@@ -22,7 +22,7 @@ def test_importing_the_package_loads_nothing_heavy() -> None:
     assert _loaded("import pkm_exact; pkm_exact.__version__; dir(pkm_exact)") == set()
 
 
-COMMANDS = ("solve", "check", "formulations", "export", "legs")
+COMMANDS = ("solve", "check", "formulations", "export", "legs", "compare", "track")
 
 
 @pytest.mark.parametrize("words", [["--help"], ["--version"], ["solve"], *([name, "--help"] for name in COMMANDS)])

@@ -42,10 +42,39 @@ def lengths(context: click.Context, _option: click.Parameter, value: str | None)
 
 def timeout(context: click.Context, _option: click.Parameter, value: str) -> float:
     """The number of seconds that --timeout denotes."""
-    number = _number(context, value, "--timeout")
+    return _seconds(context, value, "--timeout")
+
+
+def time_limit(context: click.Context, _option: click.Parameter, value: str | None) -> float | None:
+    """The number of seconds that --time-limit denotes; None if it is not given."""
+    return None if value is None else _seconds(context, value, "--time-limit")
+
+
+def _seconds(context: click.Context, value: str, where: str) -> float:
+    number = _number(context, value, where)
     if number > LONGEST_TIME:
-        raise click.UsageError(f"--timeout: {shown(value)} is out of range, give at most 10^8 seconds.", context)
+        raise click.UsageError(f"{where}: {shown(value)} is out of range, give at most 10^8 seconds.", context)
     return float(number)
+
+
+def start(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[float, ...] | None:
+    """The numbers that --start denotes, seven or three; the robot says which. Only here a double may be rounded."""
+    if value is None:
+        return None
+    from pkm_exact.geometry.rational import NumberText, parse_rational
+
+    words = [word.strip() for word in value.split(",")]
+    if len(words) not in (3, 7):
+        raise click.UsageError(
+            f"--start: {len(words)} numbers given, seven are needed between commas, three for a planar robot.", context
+        )
+    try:
+        return tuple(
+            float(parse_rational(word if "/" in word else NumberText(word), f"--start, number {i}"))
+            for i, word in enumerate(words, 1)
+        )
+    except InputError as error:
+        raise click.UsageError(str(error), context) from None
 
 
 def code(context: click.Context, _option: click.Parameter, value: str) -> str:

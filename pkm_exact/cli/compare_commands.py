@@ -1,0 +1,85 @@
+"""The command ``compare``. Everything heavy is imported inside it."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import click
+
+from pkm_exact.cli import arguments
+from pkm_exact.cli.main import ExitCode
+from pkm_exact.errors import InputError
+
+MOST_STARTS = 10_000
+
+
+@click.command(short_help="Numeric methods held against the certified poses.")
+@click.argument("model", type=click.Path())
+@click.option("--configuration", metavar="NAME", help="Configuration of the model file.  [default: the first one]")
+@click.option(
+    "--lengths",
+    callback=arguments.lengths,
+    metavar="L1,..,L6",
+    help="Leg lengths instead, exact: 1250 or 12.5 or 25/2. Three if planar.",
+)
+@click.option(
+    "--starts",
+    type=click.IntRange(1, MOST_STARTS),
+    default=100,
+    show_default=True,
+    help="Random start poses; path tracking has starts of its own.",
+)
+@click.option("--json", "output", type=click.Path(), metavar="FILE", help="Write where every start ended to this file.")
+def compare(
+    model: str, configuration: str | None, lengths: tuple[Fraction, ...] | None, starts: int, output: str | None
+) -> int:
+    """Run the usual numeric methods on the robot in the file MODEL and hold them against its certified poses.
+
+    Newton's method from the home pose and from random poses, Levenberg-Marquardt from the same, and path tracking from
+    all solutions of a generic robot. Prints which certified poses were found and which were missed, how often each was
+    hit, poses that are none, and the true error of what was found, with certified bounds: the greatest displacement of
+    a platform joint. The starts are the same in every run.
+
+    Exit codes: 0 the certified list is complete, whatever the methods found of it; 3 it is not proved complete; 4 the
+    robot has infinitely many poses, or no certified answer. Others as for certify-poses.
+
+    \b
+    Examples:
+      certify-poses compare models/rolland-6-6.toml
+      certify-poses compare models/dietmaier.toml --starts 1000 --json dietmaier.json
+    """
+    if configuration is not None and lengths is not None:
+        raise click.UsageError("--configuration and --lengths exclude each other.")
+    from pkm_exact.geometry.reader import read_robot
+
+    robot = read_robot(model)
+    chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
+    if output is not None:
+        arguments.require_other_file(Path(output), model, "--json")
+        arguments.require_writable(Path(output), "--json")
+
+    from pkm_exact.cli.compare_table import print_comparison
+    from pkm_exact.cli.progress import Progress
+    from pkm_exact.cli.report import configuration_object
+    from pkm_exact.comparison.numeric import compare_numeric
+    from pkm_exact.files import write_whole
+    from pkm_exact.verdict import Claim
+
+    with Progress(verbose=False) as progress:
+        try:
+            comparison = compare_numeric(problem, starts=starts, progress=progress)
+        except InputError as error:
+            raise InputError(f"{model}: {error}") from None
+    name = chosen.name if chosen else None
+    if output is not None:
+        entry = configuration_object(robot, name, problem)
+        content = {"model": model, "configuration": entry, "unit": robot.unit, **comparison.as_object()}
+        try:
+            write_whole(output, (json.dumps(content, indent=1) + "\n").encode("utf-8"))
+        except OSError as error:
+            raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to --json") from None
+    print_comparison(robot, name, comparison)
+    complete = comparison.solution.claim in (Claim.COMPLETE, Claim.INCONSISTENT)
+    return ExitCode.DONE if complete else ExitCode.WEAKER_CLAIM

@@ -1,0 +1,92 @@
+"""The numeric engines that are compared: from a robot, a number of starts and a seed to where every start ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Final, TypeAlias
+
+import numpy as np
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import PLANAR_SUPPORT
+from pkm_exact.numeric.home import home_pose, random_states
+from pkm_exact.numeric.levenberg_marquardt import DescentPolicy, levenberg_marquardt
+from pkm_exact.numeric.newton import newton, newton_from
+from pkm_exact.numeric.poses import approximations, motion_degree
+from pkm_exact.numeric.robot import NumericRobot
+from pkm_exact.numeric.study_system import Complex, motion_values
+from pkm_exact.numeric.uncertified import NumericPose
+
+REAL: Final = 1e-6
+"""Imaginary part up to which the end of a path, of norm 1 and turned to be as real as it can, is tried as a pose."""
+
+
+@dataclass(frozen=True)
+class Ends:
+    """Where the starts of one engine ended.
+
+    Attributes
+    ----------
+    poses : tuple of NumericPose
+        One for every start that ended somewhere among the poses, converged or not.
+    others : dict of str to int
+        How many ended elsewhere, by reason.
+    """
+
+    poses: tuple[NumericPose, ...]
+    others: dict[str, int] = field(default_factory=dict)
+
+
+Engine: TypeAlias = Callable[[ForwardProblem, NumericRobot, int, int], Ends]
+
+
+def newton_at_home(_problem: ForwardProblem, robot: NumericRobot, _starts: int, _seed: int) -> Ends:
+    """Newton's method from the home pose."""
+    return Ends((newton(robot, home_pose(robot)),))
+
+
+def newton_anywhere(_problem: ForwardProblem, robot: NumericRobot, starts: int, seed: int) -> Ends:
+    """Newton's method from random poses."""
+    c, quaternions = random_states(robot, starts, seed)
+    return Ends(tuple(newton_from(robot, c[i], tuple(quaternions[:, i].tolist())) for i in range(starts)))
+
+
+def descent(_problem: ForwardProblem, robot: NumericRobot, starts: int, seed: int) -> Ends:
+    """Levenberg-Marquardt from the same poses."""
+    return Ends(levenberg_marquardt(robot, DescentPolicy(starts=starts, seed=seed)))
+
+
+def path_tracking(problem: ForwardProblem, robot: NumericRobot, _starts: int, _seed: int) -> Ends:
+    """The paths from all solutions of a generic robot; those that end at real points are refined by Newton's method."""
+    found = approximations(problem)
+    poses, complex_ends = [], 0
+    for point in found.points:
+        values = motion_values(_full(point, planar=problem.planar))
+        turned = point / np.sqrt(values[-1] / abs(values[-1]))
+        if np.linalg.norm(turned.imag) > REAL:
+            complex_ends += 1
+            continue
+        e = _full(turned, planar=problem.planar).real[:4]
+        q0, q1, q2, q3 = (e / np.linalg.norm(e)).tolist()
+        c = (values[4:7] / values[-1]).real * (found.section.frames.unit / robot.unit)
+        poses.append(newton_from(robot, c, (q0, q1, q2, q3)))
+    lost = motion_degree(problem) - len(found.points)
+    return Ends(tuple(poses), {"not real": complex_ends, "lost or at infinity": lost})
+
+
+def _full(point: Complex, *, planar: bool) -> Complex:
+    """All eight Study coordinates of a solution."""
+    if not planar:
+        return point
+    full = np.zeros(8, dtype=complex)
+    full[list(PLANAR_SUPPORT)] = point
+    return full
+
+
+ENGINES: Final[dict[str, Engine]] = {
+    "newton, home": newton_at_home,
+    "newton": newton_anywhere,
+    "levenberg-marquardt": descent,
+    "path tracking": path_tracking,
+}

@@ -1,0 +1,51 @@
+"""Unit quaternions in floating point, scalar first: four numbers, or four arrays for many at once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def rotation_matrix(quaternion: Sequence[Any]) -> NDArray[np.float64]:
+    """The matrix (3, 3) of a unit quaternion of four numbers; the matrices (m, 3, 3) of one of four arrays (m,).
+
+    Examples
+    --------
+    >>> rotation_matrix((0.0, 1.0, 0.0, 0.0)).diagonal().tolist()
+    [1.0, -1.0, -1.0]
+    """
+    w, x, y, z = quaternion
+    rows = (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
+    matrix = np.array(rows)
+    return matrix if matrix.ndim == 2 else matrix.transpose(2, 0, 1)
+
+
+def turned(quaternion: Sequence[Any], rotation: Sequence[Any]) -> tuple[Any, Any, Any, Any]:
+    """The unit quaternion of exp(w) R, for a rotation vector w of three numbers or arrays.
+
+    Examples
+    --------
+    >>> [round(float(x), 3) for x in turned((1.0, 0.0, 0.0, 0.0), (0.0, 0.0, np.pi / 2))]
+    [0.707, 0.0, 0.0, 0.707]
+    """
+    x, y, z = rotation
+    half = np.sqrt(x * x + y * y + z * z) / 2
+    scale = np.sinc(half / np.pi) / 2
+    a, b, c, d = np.cos(half), scale * x, scale * y, scale * z
+    e, f, g, h = quaternion
+    product = (
+        a * e - b * f - c * g - d * h,
+        a * f + b * e + c * h - d * g,
+        a * g - b * h + c * e + d * f,
+        a * h + b * g - c * f + d * e,
+    )
+    norm = np.sqrt(sum(value * value for value in product))
+    q0, q1, q2, q3 = (value / norm for value in product)
+    return q0, q1, q2, q3

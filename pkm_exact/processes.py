@@ -1,0 +1,80 @@
+"""Work in a process of its own, which can be ended at any time: FLINT cannot be interrupted otherwise."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from multiprocessing import get_context, parent_process
+from multiprocessing.connection import Connection
+from threading import Thread
+from time import monotonic
+from typing import Any
+
+LONGEST_WAIT = 3600.0
+"""Seconds of one wait for a message; a system call takes no arbitrarily large number."""
+
+
+@contextmanager
+def process_apart(work: Callable[..., None], *arguments: Any) -> Iterator[tuple[Connection, Any]]:
+    """A new process that runs ``work(sender, *arguments)``, and the end of a pipe that receives what it sends.
+
+    It is killed when the block is left. ``work`` should begin with ``end_with_parent()``.
+    """
+    context = get_context("spawn")
+    receiver, sender = context.Pipe(duplex=False)
+    process = context.Process(target=work, args=(sender, *arguments), daemon=True)
+    with _interrupts_held():
+        process.start()
+    sender.close()
+    try:
+        yield receiver, process
+    finally:
+        process.kill()
+        process.join()
+        receiver.close()
+
+
+def messages(receiver: Connection, seconds: float | None) -> Iterator[Any]:
+    """What the process sends, one after the other.
+
+    Raises
+    ------
+    TimeoutError
+        When the time is over.
+    EOFError
+        When the process has ended.
+    """
+    end = None if seconds is None else monotonic() + seconds
+    while True:
+        remaining = LONGEST_WAIT if end is None else end - monotonic()
+        if remaining <= 0:
+            raise TimeoutError
+        if receiver.poll(min(remaining, LONGEST_WAIT)):
+            yield receiver.recv()
+
+
+def end_with_parent() -> None:
+    """Let this process end when its parent does, even if that was killed."""
+    Thread(target=_wait_for_parent, daemon=True).start()
+
+
+def _wait_for_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """A process started here never sees the interrupt of the terminal: its parent does, and ends it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
