@@ -21,6 +21,7 @@ from pkm_exact.geometry.inverse import UNIT_METRIC
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
 from pkm_exact.geometry.robot import Robot, parse_metric
+from pkm_exact.geometry.tolerances import read_tolerances
 from pkm_exact.wording import printable, shown
 
 __all__ = ["parse_rational", "read_robot", "robot_from_toml"]
@@ -42,6 +43,7 @@ _TOP: Final = (
     "base",
     "platform",
     *CHAIN_TABLES,
+    "tolerances",
     "configurations",
 )
 
@@ -83,6 +85,7 @@ def robot_from_toml(text: str) -> Robot:
         "base_joints": read_joints(table, "base", kind, metric),
         "platform_joints": read_joints(table, "platform", kind, metric),
         "chains": read_chains(table, geometry["kind"], kind, metric),
+        "tolerances": read_tolerances(table["tolerances"]) if "tolerances" in table else None,
     }
     rows = table.get("configurations", [])
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):

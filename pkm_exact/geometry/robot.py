@@ -13,6 +13,7 @@ from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.kinds import KINDS, Joints, Kind, gough_legs, knees
 from pkm_exact.geometry.problem import ForwardProblem, Vector
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational, parse_vector
+from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.wording import shown
 
 _LISTED: Final = 20
@@ -69,6 +70,8 @@ class Robot:
         In the order of the model file; the first one is the default.
     chains : tuple of Crank or Slide
         The actuated chains, one per leg; empty for a kind whose legs themselves are actuated.
+    tolerances : Tolerances or None
+        Of its data, if they are known.
 
     Examples
     --------
@@ -87,6 +90,7 @@ class Robot:
     metric: Metric = UNIT_METRIC
     configurations: tuple[Configuration, ...] = ()
     chains: tuple[Chain, ...] = ()
+    tolerances: Tolerances | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:

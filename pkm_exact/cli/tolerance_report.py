@@ -1,0 +1,192 @@
+"""The option ``--tolerance`` of ``solve``: boxes for all robots within tolerance, as a table or JSON, and certified."""
+
+from __future__ import annotations
+
+import json
+import sys
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import click
+
+from pkm_exact.cli.main import ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.rational import NumberText, parse_positive
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.geometry.tolerances import Tolerances
+    from pkm_exact.numeric.tolerance_result import ToleranceBox, ToleranceResult
+    from pkm_exact.roots.interval import Interval
+    from pkm_exact.solution import Solution
+
+OF_THE_MODEL: Final = "of the model"
+"""What ``--tolerance`` without a number stands for."""
+_DIGITS: Final = 3
+_DEGREES: Final = (Fraction(180 * 10**16, 31415926535897933), Fraction(180 * 10**16, 31415926535897932))
+"""Bounds for 180 / pi."""
+
+
+def parse(context: click.Context, _option: click.Parameter, value: str | None) -> Fraction | str | None:
+    """The number that --tolerance denotes, or ``OF_THE_MODEL``."""
+    if value is None or value == OF_THE_MODEL:
+        return value
+    try:
+        return parse_positive(value if "/" in value else NumberText(value), "--tolerance")
+    except InputError as error:
+        raise click.UsageError(
+            f"{error}; for the tolerances of the model itself write --tolerance after MODEL.", context
+        ) from None
+
+
+def require_fitting(context: click.Context, given: object, method: str, layout: str) -> None:
+    """Refuse what makes no sense together with --tolerance."""
+    if given is None:
+        return
+    if method == "newton":
+        raise click.UsageError(
+            "--tolerance: a pose of the method newton is uncertified; use exact or krawczyk.", context
+        )
+    if layout == "csv":
+        raise click.UsageError("--tolerance: has no csv output; use table or json.", context)
+
+
+def chosen_tolerances(robot: Robot, model: str, given: Fraction | str) -> Tolerances:
+    """The tolerances of the model, or the given number for all data."""
+    from pkm_exact.geometry.tolerances import Tolerances
+
+    if isinstance(given, Fraction):
+        return Tolerances.uniform(given)
+    if robot.tolerances is None:
+        raise InputError(f"{model}: tolerances: is missing; add [tolerances] or give --tolerance a number")
+    return robot.tolerances
+
+
+def report_tolerances(
+    robot: Robot,
+    name: str | None,
+    solution: Solution,
+    tolerances: Tolerances,
+    output: str | None,
+    layout: str,
+    *,
+    verbose: bool,
+    progress: Callable[[str], None],
+) -> ExitCode:
+    """Analyse, write the certificate and print: first the nominal poses, then the boxes for all robots."""
+    from pkm_exact.cli.report import as_object, report
+    from pkm_exact.numeric.tolerance import tolerance_boxes
+
+    result = tolerance_boxes(solution.problem, tolerances, solution, progress)
+    if output is not None:
+        _write(Path(output), robot, name, result)
+    if layout == "json":
+        content = {**as_object(robot, name, solution), "tolerance": tolerance_object(result)}
+        sys.stdout.write(json.dumps(content, indent=1) + "\n")
+    else:
+        report(robot, name, solution, layout, verbose=verbose)
+        _print(robot, result)
+    return ExitCode.DONE if result.is_complete else ExitCode.WEAKER_CLAIM
+
+
+def _write(path: Path, robot: Robot, name: str | None, result: ToleranceResult) -> None:
+    from pkm_exact.certify.build import write_certificate
+    from pkm_exact.certify.tolerance_build import tolerance_certificate
+
+    try:
+        write_certificate(path, tolerance_certificate(robot, name, result))
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror}); give another path to -o") from None
+
+
+def tolerance_object(result: ToleranceResult) -> dict[str, Any]:
+    """The result as a JSON object: bounds are exact rationals as strings, angles in radians."""
+    tolerances = result.tolerances
+    return {
+        "tolerances": {key: str(getattr(tolerances, key)) for key in ("base", "platform", "lengths")},
+        "complete": result.is_complete,
+        "proved_solutions": result.proved_solutions,
+        "boxes": [_box_object(box) for box in result.boxes],
+    }
+
+
+def _box_object(box: ToleranceBox) -> dict[str, Any]:
+    entry: dict[str, Any] = {
+        "pose": box.pose,
+        "proved": box.is_proved,
+        "proved_fraction": str(box.fraction),
+        "dominant": None if box.dominant is None else str(box.dominant),
+    }
+    if box.bounds is not None:
+        bounds = box.bounds
+        entry |= {
+            "position": [_ends(bound) for bound in bounds.position],
+            "rotation": [[_ends(bound) for bound in row] for row in bounds.rotation],
+            "quaternion": [_ends(bound) for bound in bounds.quaternion],
+            "centroid": [_ends(bound) for bound in bounds.centroid],
+            "position_error": _ends(bounds.position_error),
+            "rotation_error": _ends(bounds.rotation_error),
+        }
+    return entry
+
+
+def _ends(interval: Interval) -> list[str]:
+    return [str(interval.lo), str(interval.hi)]
+
+
+def _print(robot: Robot, result: ToleranceResult) -> None:
+    from pkm_exact.cli.table import print_rows
+
+    planar = result.problem.planar
+    axes = ("x", "y") if planar else ("x", "y", "z")
+    t = result.tolerances
+    sys.stdout.write(
+        f"\ntolerances [{robot.unit}]: base joints {_decimal(t.base)}, platform joints {_decimal(t.platform)}, "
+        f"lengths {_decimal(t.lengths)}\n{result}\n\n"
+        f"half widths of the boxes and greatest errors over all robots within tolerance: position [{robot.unit}], "
+        "rotation [degrees]; the greatest error lies between the two numbers\n"
+    )
+    header = ("", *(f"+-{axis}" for axis in axes), "position error", "rotation error", "proved for", "dominated by")
+    print_rows([_row(box, len(axes)) for box in result.boxes], header)
+    for box in result.boxes:
+        if not box.is_proved:
+            sys.stdout.write(f"{_singular(box)}\n")
+
+
+def _row(box: ToleranceBox, axes: int) -> tuple[str, ...]:
+    dominant = "" if box.dominant is None else str(box.dominant)
+    if box.bounds is None:
+        return str(box.pose), *("?" for _ in range(axes + 2)), _percent(box.fraction), dominant
+    widths = (_decimal(interval.width / 2, up=True) for interval in box.bounds.position[:axes])
+    distance, angle = box.bounds.position_error, box.bounds.rotation_error
+    return (
+        str(box.pose),
+        *widths,
+        f"{_decimal(distance.lo)} to {_decimal(distance.hi, up=True)}",
+        f"{_decimal(angle.lo * _DEGREES[0])} to {_decimal(angle.hi * _DEGREES[1], up=True)}",
+        _percent(box.fraction),
+        dominant,
+    )
+
+
+def _singular(box: ToleranceBox) -> str:
+    if not box.fraction:
+        return f"pose {box.pose}: singular, or too close to a singularity for any tolerance"
+    return (
+        f"pose {box.pose}: a singularity within tolerance cannot be excluded; proved for {_percent(box.fraction)} of "
+        f"the tolerance, and what moves the platform most is the {box.dominant}"
+    )
+
+
+def _decimal(value: Fraction, *, up: bool = False) -> str:
+    """Three significant digits, rounded down, or up."""
+    context = Context(prec=_DIGITS, rounding=ROUND_CEILING if up else ROUND_FLOOR)
+    return f"{context.divide(Decimal(value.numerator), Decimal(value.denominator)):g}"
+
+
+def _percent(fraction: Fraction) -> str:
+    return f"{_decimal(100 * fraction)} %"

@@ -1,0 +1,174 @@
+"""The command ``track``: one assembly mode along a joint path. Everything heavy is imported inside it."""
+
+from __future__ import annotations
+
+import time
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import click
+
+from pkm_exact.cli import arguments
+from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.wording import printable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from pkm_exact.cli.progress import Progress
+    from pkm_exact.cli.track_store import TrackStore
+    from pkm_exact.geometry.path_reader import JointPath
+    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.numeric.trajectory import BranchPoint, TrackedSample
+    from pkm_exact.poses.pose import Pose
+
+_SUFFIXES: Final = (".csv", ".json")
+_SECONDS_PER_SYNC: Final = 2.0
+_SECONDS_PER_LINE: Final = 0.1
+
+
+@click.command(short_help="Follow one assembly mode along a joint path.")
+@click.argument("model", type=click.Path())
+@click.argument("path", type=click.Path(), metavar="PATH.csv")
+@click.option(
+    "--start",
+    "number",
+    type=click.IntRange(min=1),
+    required=True,
+    metavar="POSE",
+    help="The pose to follow: its number in the list that `solve` prints for the path's first row.",
+)
+@click.option(
+    "--width",
+    callback=arguments.width,
+    metavar="W",
+    default="1e-9",
+    show_default=True,
+    help="Greatest width of a box, exact: 1e-9 or 1/1000.",
+)
+@click.option(
+    "-o", "--output", type=click.Path(), required=True, metavar="OUT", help="Write the samples to OUT.csv or OUT.json."
+)
+@click.option("-v", "--verbose", is_flag=True, help="Say more: stages and rows on a terminal.")
+def track(model: str, path: str, number: int, width: Fraction, output: str, verbose: bool) -> int:
+    """Follow one pose of the robot in the file MODEL along a path of joint values, and prove that it is one branch.
+
+    PATH.csv has one row per sample: leg lengths (slide positions q1,.., or half tangents h1,.. of crank angles), all
+    exact, and before them, if wanted, the time; between rows the path is straight. OUT gets a certified box of the pose
+    at every row. Every step in between is proved to stay on the same branch, away from singularities; where that cannot
+    be proved, OUT ends there, with exit code 3.
+
+    An interrupted run leaves OUT.partial beside OUT; the same command goes on from there.
+
+    \b
+    Example:
+      certify-poses track models/rolland-6-6.toml path.csv --start 10 -o poses.csv
+    """
+    target = Path(output)
+    if target.suffix.lower() not in _SUFFIXES:
+        raise click.UsageError(f"-o: {printable(output)} ends neither in .csv nor in .json; give it one of these.")
+    from pkm_exact.geometry.path_reader import read_path
+    from pkm_exact.geometry.reader import read_robot
+
+    robot = read_robot(model)
+    joints = read_path(path, robot)
+    for other in (model, path):
+        arguments.require_other_file(target, other, "-o")
+    arguments.require_writable(target, "-o")
+
+    from pkm_exact.cli.progress import Progress
+    from pkm_exact.cli.track_report import written
+    from pkm_exact.cli.track_store import TrackStore
+
+    with TrackStore(target, _job(robot, joints, number, width)) as store, Progress(verbose=verbose) as progress:
+        try:
+            stopped = _follow(robot, joints, number, width, store, progress)
+        except InputError as error:
+            if not store.records:
+                store.remove()
+            raise InputError(f"{path}: {error}") from None
+        except KeyboardInterrupt:
+            click.echo(f"{PROGRAM}: interrupted after row {len(store.records)}; the same command goes on", err=True)
+            raise
+        try:
+            written(target, robot, joints, number, store.records, stopped)
+        except OSError as error:
+            raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
+        store.remove()
+    steps = sum(record["steps"] for record in store.records)
+    click.echo(
+        f"{len(store.records)} of {len(joints.rows)} rows, {steps} certified steps: one branch, det J "
+        f"{'>' if store.records[0]['point']['det_sign'] > 0 else '<'} 0 all along"
+    )
+    if stopped is None:
+        return ExitCode.DONE
+    click.echo(stopped["reason"])
+    return ExitCode.WEAKER_CLAIM
+
+
+def _job(robot: Robot, joints: JointPath, number: int, width: Fraction) -> str:
+    """All that the samples depend on."""
+    import pkm_exact
+
+    parts = (robot.kind, robot.metric, robot.base_joints, robot.platform_joints, robot.chains, joints, number, width)
+    return repr((pkm_exact.__version__, robot.name, robot.unit, *parts))
+
+
+def _follow(
+    robot: Robot, joints: JointPath, number: int, width: Fraction, store: TrackStore, progress: Progress
+) -> dict[str, Any] | None:
+    """Add what is missing to the store; return where and why the branch ends, if it does."""
+    from pkm_exact.cli.track_report import point_of, record_of, stop_of
+    from pkm_exact.numeric.trajectory import TrackingStopped, track_branch
+
+    start: Pose | BranchPoint
+    poses: tuple[Pose, ...] = ()
+    if store.records:
+        start = point_of(store.records[-1]["point"])
+    else:
+        poses = _poses(robot, joints, width, progress)
+        if number > len(poses):
+            raise InputError(f"--start {number}: the first row has {len(poses)} poses; give a number up to that")
+        start = poses[number - 1]
+    shown = _Shown(progress, len(joints.rows))
+    samples = track_branch(robot, joints.rows, start, poses=poses, width=width, on_step=shown)
+    try:
+        for sample in _synced(samples, store):
+            store.add(record_of(sample))
+    except TrackingStopped as stop:
+        return stop_of(stop, joints)
+    return None
+
+
+def _poses(robot: Robot, joints: JointPath, width: Fraction, progress: Progress) -> tuple[Pose, ...]:
+    from pkm_exact.numeric.engine import solve_krawczyk
+    from pkm_exact.numeric.path_forms import problem_at
+
+    return solve_krawczyk(problem_at(robot, joints.rows[0]), width=width, progress=progress).poses
+
+
+def _synced(samples: Iterator[TrackedSample], store: TrackStore) -> Iterator[TrackedSample]:
+    last = time.monotonic()
+    for sample in samples:
+        yield sample
+        if time.monotonic() - last > _SECONDS_PER_SYNC:
+            store.sync()
+            last = time.monotonic()
+
+
+class _Shown:
+    """Shows how far the branch is proved, a few times a second."""
+
+    def __init__(self, progress: Progress, rows: int) -> None:
+        self._progress, self._rows, self._last = progress, rows, 0.0
+
+    def __call__(self, row: int, reached: Fraction) -> None:
+        now = time.monotonic()
+        if now - self._last < _SECONDS_PER_LINE:
+            return
+        self._last = now
+        share = (row + float(reached)) / max(1, self._rows - 1)
+        bar = "=" * round(20 * share)
+        self._progress(f"[{bar:<20}] row {row + 2} of {self._rows}, {100 * float(reached):.3g} % of the way there")

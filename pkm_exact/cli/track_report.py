@@ -1,0 +1,125 @@
+"""Samples of ``track`` as records, and as the CSV or JSON file that the command writes."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pkm_exact.files import write_whole
+from pkm_exact.geometry.path_reader import TIME, joint_names
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.path_reader import JointPath
+    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.numeric.trajectory import BranchPoint, TrackedSample, TrackingStopped
+    from pkm_exact.poses.pose import Interval
+
+Record = dict[str, Any]
+
+
+def record_of(sample: TrackedSample) -> Record:
+    """A sample as a JSON object."""
+    pose, point = sample.pose, sample.point
+    return {
+        "row": sample.row + 1,
+        "position": [_ends(c) for c in pose.position],
+        "rotation": [[_ends(entry) for entry in row] for row in pose.rotation],
+        "quaternion": [_ends(q) for q in pose.quaternion],
+        "steps": sample.steps,
+        "point": {
+            "row": point.row,
+            "chart": [list(pair) for pair in point.chart],
+            "exponent": point.exponent,
+            "centre": [hex(value) for value in point.centre],
+            "halvings": point.halvings,
+            "det_sign": point.det_sign,
+        },
+    }
+
+
+def point_of(content: Record) -> BranchPoint:
+    """Where a record's branch goes on."""
+    from pkm_exact.numeric.trajectory import BranchPoint
+
+    return BranchPoint(
+        content["row"],
+        tuple((real, imaginary) for real, imaginary in content["chart"]),
+        content["exponent"],
+        tuple(int(value, 16) for value in content["centre"]),
+        content["halvings"],
+        content["det_sign"],
+    )
+
+
+def stop_of(stop: TrackingStopped, joints: JointPath) -> Record:
+    """Where and why the branch ends."""
+    content: Record = {
+        "after_row": stop.row + 1,
+        "lines": [joints.lines[stop.row], joints.lines[stop.row + 1]],
+        "certified_to": str(stop.reached),
+        "not_certified_to": str(stop.tried),
+    }
+    reason = f"{stop} (lines {joints.lines[stop.row]} and {joints.lines[stop.row + 1]} of the path)"
+    if joints.times is not None:
+        before, after = joints.times[stop.row], joints.times[stop.row + 1]
+        times = [before + share * (after - before) for share in (stop.reached, stop.tried)]
+        content[TIME] = [str(value) for value in times]
+        reason += f"; time {float(times[0]):.12g} to {float(times[1]):.12g}"
+    return {**content, "reason": reason}
+
+
+def written(
+    target: Path, robot: Robot, joints: JointPath, number: int, records: Sequence[Record], stopped: Record | None
+) -> None:
+    """Write the output, CSV or JSON by its suffix; it appears whole or not at all."""
+    if target.suffix.lower() == ".csv":
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows(_rows(robot, joints, records))
+        write_whole(target, text.getvalue().encode("ascii"))
+        return
+    content = {
+        "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
+        "start_pose": number,
+        "rows": len(joints.rows),
+        "samples": [_sample(joints, record) for record in records],
+        "stopped": stopped,
+    }
+    write_whole(target, (json.dumps(content, indent=1) + "\n").encode("ascii"))
+
+
+def _sample(joints: JointPath, record: Record) -> Record:
+    place = record["row"] - 1
+    content: Record = {"row": record["row"]}
+    if joints.times is not None:
+        content[TIME] = str(joints.times[place])
+    content["joints"] = [str(value) for value in joints.rows[place]]
+    content |= {key: record[key] for key in ("position", "rotation", "quaternion")}
+    return {**content, "det_sign": record["point"]["det_sign"], "steps": record["steps"]}
+
+
+def _rows(robot: Robot, joints: JointPath, records: Sequence[Record]) -> Iterator[list[str]]:
+    """A header and one row per sample; bounds are exact rationals."""
+    names = ["x", "y", "z", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), *(f"q{k}" for k in range(4))]
+    time = [] if joints.times is None else [TIME]
+    bounds = [f"{name}_{end}" for name in names for end in ("lo", "hi")]
+    yield ["row", *time, *(f"joint_{name}" for name in joint_names(robot)), *bounds, "det_sign", "steps"]
+    for record in records:
+        place = record["row"] - 1
+        when: list[Fraction] = [] if joints.times is None else [joints.times[place]]
+        entries = [*record["position"], *(entry for row in record["rotation"] for entry in row), *record["quaternion"]]
+        yield [
+            str(record["row"]),
+            *map(str, (*when, *joints.rows[place])),
+            *(end for entry in entries for end in entry),
+            str(record["point"]["det_sign"]),
+            str(record["steps"]),
+        ]
+
+
+def _ends(interval: Interval) -> list[str]:
+    return [str(interval.lo), str(interval.hi)]

@@ -1,0 +1,161 @@
+"""Joint paths: CSV files with one row of joint values per sample, read exactly.
+
+One column per leg: lengths (``l1``, ``l2``, ..), slide positions (``q1``, ..) or half tangents of crank angles
+(``h1``, ..), and before them, if there is one more, ``time``. A first line with these names may be left out. Blank
+lines and lines that begin with # are skipped.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.chains import Crank
+from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.rational import NumberText, parse_rational
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.wording import printable, shown
+
+MAX_BYTES: Final = 64 << 20
+TIME: Final = "time"
+_NOT_FINITE: Final = ("nan", "inf", "infinity")
+
+
+@dataclass(frozen=True)
+class JointPath:
+    """A path in the joint values, straight between its rows.
+
+    Attributes
+    ----------
+    rows : tuple of tuples of Fraction
+        One value per leg.
+    times : tuple of Fraction, or None
+        Increasing; None if the file has no time.
+    lines : tuple of int
+        Where the rows stand in the file.
+    """
+
+    rows: tuple[tuple[Fraction, ...], ...]
+    times: tuple[Fraction, ...] | None
+    lines: tuple[int, ...]
+
+
+def joint_names(robot: Robot) -> tuple[str, ...]:
+    """Names of the columns of joint values."""
+    letter = "l" if not robot.chains else "h" if isinstance(robot.chains[0], Crank) else "q"
+    return tuple(f"{letter}{leg}" for leg in range(1, KINDS[robot.kind].legs + 1))
+
+
+def read_path(path: str | os.PathLike[str], robot: Robot) -> JointPath:
+    """The path in a file, for a robot of known kind.
+
+    Raises
+    ------
+    InputError
+        With file, line, column, value and remedy.
+    """
+    name = os.fspath(path)
+    try:
+        return path_from_csv(_text(name), robot)
+    except InputError as error:
+        raise InputError(f"{printable(name)}: {error}") from None
+
+
+def _text(name: str) -> str:
+    try:
+        with Path(name).open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InputError(f"cannot be read ({reason}); give the path of a CSV file") from None
+    if len(data) > MAX_BYTES:
+        raise InputError(f"has more than {MAX_BYTES} bytes; cut the path in pieces")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(f"byte {error.start + 1} is not UTF-8 text; save the path as UTF-8") from None
+
+
+def path_from_csv(text: str, robot: Robot) -> JointPath:
+    """The path that the text of a CSV file describes.
+
+    Examples
+    --------
+    >>> from pkm_exact.geometry.robot import Robot
+    >>> corners = tuple(tuple(map(Fraction, joint)) for joint in ((0, 0), (4, 0), (2, 3)))
+    >>> robot = Robot("example", "3-RPR", "m", "made up", corners, corners)
+    >>> path_from_csv("time,l1,l2,l3\\n0,1,2,3\\n0.5,1,2,3.25\\n", robot).rows[1][2]
+    Fraction(13, 4)
+    """
+    names = joint_names(robot)
+    columns: tuple[str, ...] | None = None
+    rows: list[tuple[Fraction, ...]] = []
+    times: list[Fraction] = []
+    lines: list[int] = []
+    reader = csv.reader(text.splitlines())
+    try:
+        for cells in reader:
+            fields = [cell.strip() for cell in cells]
+            if not any(fields) or fields[0].startswith("#"):
+                continue
+            line = f"line {reader.line_num}"
+            if columns is None:
+                columns = _columns(fields, names, line)
+                if _is_header(fields):
+                    continue
+            if len(fields) != len(columns):
+                raise InputError(f"{line}: {len(fields)} values; give {len(columns)}: {', '.join(columns)}")
+            values = [_number(field, f"{line}, {column}") for field, column in zip(fields, columns, strict=True)]
+            if columns[0] == TIME:
+                times.append(_increasing(values.pop(0), times, line))
+            _require_lengths(values, names, line, robot)
+            rows.append(tuple(values))
+            lines.append(reader.line_num)
+    except csv.Error as error:
+        raise InputError(f"line {reader.line_num}: not CSV ({error}); separate numbers by commas") from None
+    if columns is None or not rows:
+        raise InputError(f"has no rows; give one row of {len(names)} values ({', '.join(names)}) per sample")
+    return JointPath(tuple(rows), tuple(times) if columns[0] == TIME else None, tuple(lines))
+
+
+def _is_header(fields: list[str]) -> bool:
+    """Whether a line has names."""
+    return any(field[:1].isalpha() and field.lower() not in _NOT_FINITE for field in fields)
+
+
+def _columns(fields: list[str], names: tuple[str, ...], line: str) -> tuple[str, ...]:
+    """The names of the columns, from a header or from their number."""
+    with_time = (TIME, *names)
+    if _is_header(fields):
+        found = tuple(field.lower() for field in fields)
+        if found not in (names, with_time):
+            raise InputError(f"{line}: the columns are {shown(','.join(fields))}; name them [{TIME},]{','.join(names)}")
+        return found
+    if len(fields) not in (len(names), len(with_time)):
+        raise InputError(f"{line}: {len(fields)} values; give {len(names)} ({', '.join(names)}), or {TIME} before them")
+    return names if len(fields) == len(names) else with_time
+
+
+def _number(field: str, where: str) -> Fraction:
+    if not field:
+        raise InputError(f"{where}: is empty; give a number")
+    return parse_rational(field if "/" in field else NumberText(field), where)
+
+
+def _increasing(time: Fraction, before: list[Fraction], line: str) -> Fraction:
+    if before and time <= before[-1]:
+        raise InputError(f"{line}, {TIME}: {shown(time)} is not after {shown(before[-1])}; let time increase")
+    return time
+
+
+def _require_lengths(values: list[Fraction], names: tuple[str, ...], line: str, robot: Robot) -> None:
+    if robot.chains:
+        return
+    for value, name in zip(values, names, strict=True):
+        if value <= 0:
+            raise InputError(f"{line}, {name}: {shown(value)} is not a length; give a number greater than 0")

@@ -1,0 +1,213 @@
+"""A robot in ball arithmetic: ordinary coordinates, origins at the centroids of the joints, unit of length its size.
+
+In these coordinates a pose is x = (e, f) up to a factor (``geometry.study`` for G = I), and the 17 quantities
+(|C|^2; u; C; R; 1) N(e), and Study's condition as the 18th, are quadratic forms x^T M_k x. A leg is a row of 18
+coefficients on them (``leg_row``), and the n equations in n unknowns, in a chart w.e = 1, are
+
+    F(x) = (L G(x) x / 2, w.e - 1),   G(x) = (2 M_k x)_k.
+
+Everything is rounded outward at the precision in force.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from typing import Final, TypeAlias
+
+from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
+
+from pkm_exact.geometry.problem import ForwardProblem, Vector
+from pkm_exact.geometry.study import PLANAR_SUPPORT, STUDY_CONDITION, motion_quadrics
+
+QUANTITIES: Final = 18
+"""Number of quadratic forms: 17 coordinates of a rigid motion, and Study's condition."""
+SQUARE, TURNED, POSITION, ROTATION, NORM, STUDY = 0, 1, 4, 7, 16, 17
+"""Where |C|^2, u, C, R, 1 and Study's condition begin among them."""
+
+Chart: TypeAlias = tuple[tuple[int, int], ...]
+"""w in w.e = 1: real and imaginary parts of four Gaussian integers."""
+
+
+@dataclass(frozen=True)
+class CentredFrames:
+    """New frames and unit of length: a coordinate x becomes (x - origin) / unit, in rational coordinates.
+
+    Attributes
+    ----------
+    base, platform : vector of 3 Fraction
+        Origins, with respect to the metric of the model.
+    unit : Fraction
+        A power of two.
+    """
+
+    base: Vector
+    platform: Vector
+    unit: Fraction
+
+
+def centred_frames(problem: ForwardProblem) -> CentredFrames:
+    """The frames at the centroids, and a unit of about the size of the robot."""
+    base = _centroid([leg.base for leg in problem.legs])
+    platform = _centroid([leg.platform for leg in problem.legs])
+    squares = [leg.length_squared for leg in problem.legs]
+    for leg in problem.legs:
+        for joint, origin in ((leg.base, base), (leg.platform, platform)):
+            squares.append(
+                sum((g * (x - m) ** 2 for g, x, m in zip(problem.metric, joint, origin, strict=True)), Fraction(0))
+            )
+    greatest = max(squares)
+    bits = greatest.numerator.bit_length() - greatest.denominator.bit_length()
+    return CentredFrames(base, platform, Fraction(2) ** (bits // 2))
+
+
+def _centroid(joints: Sequence[Vector]) -> Vector:
+    x, y, z = (sum(axis, Fraction(0)) / len(joints) for axis in zip(*joints, strict=True))
+    return x, y, z
+
+
+def ball(value: Fraction) -> arb:
+    """A ball around a rational number."""
+    return arb(value.numerator) / value.denominator
+
+
+def centred_joint(joint: Vector, origin: Vector, unit: Fraction, metric: Sequence[int]) -> list[arb]:
+    """Ordinary coordinates of a joint in a centred frame."""
+    return [arb(g).sqrt() * ball((x - m) / unit) for g, x, m in zip(metric, joint, origin, strict=True)]
+
+
+def leg_row(base: Sequence[arb], platform: Sequence[arb], square: arb) -> list[arb]:
+    """The 18 coefficients of |C|^2 + 2 B.u - 2 A.C - 2 A.(R B) + |A|^2 + |B|^2 - l^2."""
+    row = [arb(1), *(2 * b for b in platform), *(-2 * a for a in base)]
+    row += [-2 * a * b for a in base for b in platform]
+    constant = sum((a * a for a in base), arb(0)) + sum((b * b for b in platform), arb(0)) - square
+    return [*row, constant, arb(0)]
+
+
+def study_row() -> list[arb]:
+    """The coefficients of Study's condition."""
+    return [arb(0)] * STUDY + [arb(1)]
+
+
+@cache
+def gradient_forms(*, planar: bool) -> fmpz_mat:
+    """All 2 M_k, one below the other, on the coordinates that are not 0 for every pose."""
+    kept = PLANAR_SUPPORT if planar else tuple(range(8))
+    rows: list[list[int]] = []
+    for quadric in (*motion_quadrics((1, 1, 1)), STUDY_CONDITION):
+        matrix = [[0] * 8 for _ in range(8)]
+        for (k, m), value in quadric.items():
+            matrix[k][m] += value
+            matrix[m][k] += value
+        rows += [[matrix[k][m] for m in kept] for k in kept]
+    return fmpz_mat(rows)
+
+
+def gradients(x: acb_mat) -> acb_mat:
+    """G(x): the derivatives of the 18 quantities at a point or in a box, an 18 x n matrix."""
+    size = x.nrows()
+    product = acb_mat(arb_mat(gradient_forms(planar=size == len(PLANAR_SUPPORT)))) * x
+    return acb_mat(QUANTITIES, size, product.entries())
+
+
+def quantities(slopes: acb_mat, x: acb_mat) -> list[acb]:
+    """The 18 quantities at x, from G(x)."""
+    return [value / 2 for value in (slopes * x).entries()]
+
+
+def system_jacobian(forms: acb_mat, slopes: acb_mat, chart: Chart) -> acb_mat:
+    """F' from the rows of the equations, G and the chart."""
+    return with_chart(forms * slopes, chart)
+
+
+def with_chart(upper: acb_mat, chart: Chart) -> acb_mat:
+    """A matrix of n - 1 rows with the derivative of w.e below it."""
+    size = upper.ncols()
+    weights = [acb(*chart[index]) for index in range(4)]
+    last = [*(weights if size == 8 else (weights[0], weights[3])), *[acb(0)] * (size // 2)]
+    return acb_mat(size, size, upper.entries() + last)
+
+
+def system_values(jacobian: acb_mat, x: acb_mat) -> acb_mat:
+    """F(x) from F'(x): half of F'(x) x for the quadrics, and w.e - 1."""
+    product = (jacobian * x).entries()
+    return acb_mat(len(product), 1, [*(value / 2 for value in product[:-1]), product[-1] - 1])
+
+
+def identity(size: int) -> acb_mat:
+    """The unit matrix."""
+    return acb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+
+
+@dataclass(frozen=True, eq=False)
+class CentredRobot:
+    """A locked robot in its centred frames, every number a ball.
+
+    Attributes
+    ----------
+    problem : ForwardProblem
+    frames : CentredFrames
+    base, platform : list of 3 balls per leg
+    lengths : list of arb
+    forms : (n - 1) x 18 matrix
+        Study's condition, unless planar, and the legs.
+    """
+
+    problem: ForwardProblem
+    frames: CentredFrames
+    base: list[list[arb]]
+    platform: list[list[arb]]
+    lengths: list[arb]
+    forms: acb_mat
+
+    @property
+    def size(self) -> int:
+        """Number of unknowns."""
+        return 4 if self.problem.planar else 8
+
+
+def centred_robot(problem: ForwardProblem, frames: CentredFrames) -> CentredRobot:
+    """The robot at the precision in force."""
+    base = [centred_joint(leg.base, frames.base, frames.unit, problem.metric) for leg in problem.legs]
+    platform = [centred_joint(leg.platform, frames.platform, frames.unit, problem.metric) for leg in problem.legs]
+    squares = [ball(leg.length_squared / frames.unit**2) for leg in problem.legs]
+    rows = [] if problem.planar else [study_row()]
+    rows += [leg_row(a, b, square) for a, b, square in zip(base, platform, squares, strict=True)]
+    return CentredRobot(problem, frames, base, platform, [square.sqrt() for square in squares], acb_mat(arb_mat(rows)))
+
+
+def origins(robot: CentredRobot) -> tuple[list[arb], list[arb]]:
+    """Ordinary coordinates of the centred frames' origins in the frames of the model."""
+    zero: Vector = (Fraction(0),) * 3
+    metric = robot.problem.metric
+    one = Fraction(1)
+    return (
+        centred_joint(robot.frames.base, zero, one, metric),
+        centred_joint(robot.frames.platform, zero, one, metric),
+    )
+
+
+def quaternion_product(p: Sequence[acb], q: Sequence[acb]) -> list[acb]:
+    """The product of two quaternions, scalars first."""
+    return [
+        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
+        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
+        p[0] * q[2] + p[2] * q[0] + p[3] * q[1] - p[1] * q[3],
+        p[0] * q[3] + p[3] * q[0] + p[1] * q[2] - p[2] * q[1],
+    ]
+
+
+def centred_point(e: Sequence[acb], f: Sequence[acb], robot: CentredRobot) -> acb_mat:
+    """The coordinates x of a pose (e, f) given in ordinary coordinates of the model's frames.
+
+    f becomes (f + e b - a e) / unit, with a and b the origins as quaternions.
+    """
+    a, b = ([acb(0), *map(acb, origin)] for origin in origins(robot))
+    right, left = quaternion_product(e, b), quaternion_product(a, e)
+    unit = ball(robot.frames.unit)
+    moved = [(value + r - v) / unit for value, r, v in zip(f, right, left, strict=True)]
+    full = [*e, *moved]
+    kept = PLANAR_SUPPORT if robot.problem.planar else range(8)
+    return acb_mat(robot.size, 1, [full[k] for k in kept])

@@ -1,0 +1,142 @@
+"""All solutions that are known of a robot, real and complex, as points in ball arithmetic."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final, cast
+
+from flint import acb, acb_mat, acb_poly, arb, ctx
+
+from pkm_exact.errors import InternalContradictionError
+from pkm_exact.numeric.centred import CentredRobot, Chart, centred_point
+from pkm_exact.numeric.parametric import Linearisation, holds_one, linearise, refined, rounded, spread
+from pkm_exact.numeric.pose_maps import interval_ball, pose_map
+from pkm_exact.poses.pose import Pose
+from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.roots.interval import Interval
+from pkm_exact.solution import Solution
+
+CHART_SIZE: Final = 32
+"""Size of the integers in w: the chart of a solution passes near its conjugate quaternion."""
+ACCURATE_BITS: Final = 40
+"""Accuracy of a root from which Newton's method goes on."""
+
+
+def pose_point(robot: CentredRobot, pose: Pose) -> acb_mat:
+    """The middle of a pose's box: e = q, f = C q."""
+    q = [acb(_middle(bounds)) for bounds in pose.quaternion]
+    c = [acb(0), *(acb(_middle(bounds)) for bounds in pose.position)]
+    f = [
+        -c[1] * q[1] - c[2] * q[2] - c[3] * q[3],
+        c[1] * q[0] + c[2] * q[3] - c[3] * q[2],
+        c[2] * q[0] + c[3] * q[1] - c[1] * q[3],
+        c[3] * q[0] + c[1] * q[2] - c[2] * q[1],
+    ]
+    return centred_point(q, f, robot)
+
+
+def _middle(bounds: Interval) -> arb:
+    value = bounds.midpoint
+    return arb(value.numerator) / value.denominator
+
+
+def complex_points(robot: CentredRobot, solution: Solution) -> list[acb_mat]:
+    """The solutions that are not real, one of each pair of conjugates."""
+    if solution.isolated is not None:
+        rows = [
+            [_dyadic(parts, box.exponent(index)) for index, parts in enumerate(box.centre)]
+            for box in solution.isolated.pairs
+        ]
+    elif solution.representation is not None:
+        rows = _roots(solution.representation)
+    else:
+        rows = []
+    return [_ordinary(robot, row) for row in rows]
+
+
+def _dyadic(parts: tuple[int, int], exponent: int) -> acb:
+    unit = arb(2) ** -exponent
+    return acb(unit * parts[0], unit * parts[1])
+
+
+def _roots(representation: PoseRepresentation) -> list[list[acb]]:
+    """(e, f) at the roots of the eliminant in the upper half plane; the precision rises until they are accurate."""
+    precision = ctx.prec
+    while True:
+        with ctx.workprec(precision):
+            h = representation.univariate.primitive_polynomial
+            roots = [root for root, _ in cast("list[tuple[acb, int]]", h.complex_roots()) if root.imag > 0]
+            numerators = [acb_poly(numerator) for numerator in representation.univariate.numerator_polynomials]
+            slope = acb_poly(representation.denominator)
+            rows = [[numerator(root) / slope(root) for numerator in numerators] for root in roots]
+        if all(value.rel_accuracy_bits() > ACCURATE_BITS or value == 0 for row in rows for value in row):
+            return rows
+        precision *= 2
+
+
+def _ordinary(robot: CentredRobot, row: Sequence[acb]) -> acb_mat:
+    """From rational coordinates (e, f) with respect to the metric."""
+    g = robot.problem.metric
+    volume = g[0] * g[1] * g[2]
+    e = [arb(volume).sqrt() * row[0], *(arb(g[i]).sqrt() * row[1 + i] for i in range(3))]
+    f = [row[4], *((arb(volume) / g[i]).sqrt() * row[5 + i] for i in range(3))]
+    return centred_point(e, f, robot)
+
+
+def own_chart(x: acb_mat) -> Chart:
+    """The chart w.e = 1 with w near the conjugate of e, so that |e| is small and of one size in all directions."""
+    half = x.entries()[: x.nrows() // 2]
+    size = sum((abs(value) * abs(value) for value in half), arb(0)).nonnegative_part().sqrt()
+    weights = [(_integer(CHART_SIZE * v.real / size), _integer(-CHART_SIZE * v.imag / size)) for v in half]
+    if len(half) == 2:
+        return (weights[0], (0, 0), (0, 0), weights[1])
+    return tuple(weights)
+
+
+def _integer(value: arb) -> int:
+    return exact_integer((value.mid() + arb(0.5)).floor().mid())
+
+
+def exact_integer(value: arb) -> int:
+    """The integer that an exact ball is."""
+    mantissa, power = value.man_exp()
+    return int(mantissa) << int(power) if int(power) >= 0 else int(mantissa) >> -int(power)
+
+
+def in_chart(x: acb_mat, chart: Chart) -> acb_mat:
+    """The same projective point with w.e = 1."""
+    places = (0, 3) if x.nrows() == 4 else range(4)
+    product = sum((acb(*chart[k]) * x[row, 0] for row, k in enumerate(places)), acb(0))
+    return acb_mat(x.nrows(), 1, [value / product for value in x.entries()])
+
+
+def certified_point(robot: CentredRobot, point: acb_mat, exponent: int) -> Linearisation | None:
+    """The equations around the solution near a point, in a chart of its own, if it is proved to be one."""
+    chart = own_chart(point)
+    limit = refined(robot, chart, in_chart(point, chart), exponent)
+    near = None if limit is None else linearise(robot, chart, rounded(limit, exponent))
+    if near is None or not holds_one(near, None, core_radii(robot.size, exponent)):
+        return None
+    return near
+
+
+def core_radii(size: int, exponent: int) -> list[arb]:
+    """Radii of the boxes in which the nominal solutions are proved."""
+    return [arb(2) ** -(exponent // 2)] * size
+
+
+def certified_pose(robot: CentredRobot, pose: Pose, poses: Sequence[Pose], exponent: int) -> Linearisation | None:
+    """The equations around a pose; None if it is singular, or nearly."""
+    near = certified_point(robot, pose_point(robot, pose), exponent)
+    if near is None:
+        return None
+    values = pose_map(robot, near.centre + spread(core_radii(robot.size, exponent), real=True)).values
+    if any(meets(other, values) is not (other is pose) for other in poses):
+        raise InternalContradictionError("Newton's method leaves the box of a certified pose")
+    return near
+
+
+def meets(pose: Pose, values: Sequence[arb]) -> bool:
+    """Whether enclosed components of a pose overlap the box of position and rotation."""
+    bounds = [*pose.position, *(entry for row in pose.rotation for entry in row)]
+    return all(interval_ball(bound).overlaps(value) for bound, value in zip(bounds, values[:12], strict=True))

@@ -1,0 +1,96 @@
+"""The leg equations along a straight piece of a joint path: polynomials of degree 2 in the path parameter.
+
+Between two rows of joint values the values are v(s) = v_0 + s (v_1 - v_0), 0 <= s <= 1. The row of a leg (``centred``)
+is then a polynomial of degree 2 in s:
+
+    legs      l = v(s):                 |A|^2 + |B|^2 - l^2
+    slides    K = A + v(s) d:           K and |K|^2
+    cranks    (1 + t^2) times the row with t = v(s) = tan(angle / 2), for K = A + cos(angle) u + sin(angle) v with
+              |u| = |v| and u.v = 0 gives |K|^2 linear in cosine and sine
+
+so that three exact values of s determine it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final, TypeAlias
+
+from flint import arb, arb_mat
+
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.chains import Crank, JointValue, cosine_and_sine
+from pkm_exact.geometry.kinds import KINDS, gough_legs, knees
+from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.numeric.centred import CentredFrames, ball, centred_joint, leg_row, study_row
+
+JointRow: TypeAlias = tuple[Fraction, ...]
+"""Leg lengths, slide positions, or half tangents of crank angles: one value per leg."""
+_STATIONS: Final = (Fraction(0), Fraction(1, 2), Fraction(1))
+
+
+@dataclass(frozen=True, eq=False)
+class PathForms:
+    """The equations between two rows: Study's condition unless planar, and the legs.
+
+    Attributes
+    ----------
+    coefficients : tuple of three (n - 1) x 18 matrices
+        Of 1, s and s^2.
+    """
+
+    coefficients: tuple[arb_mat, arb_mat, arb_mat]
+
+
+def problem_at(robot: Robot, values: JointRow) -> ForwardProblem:
+    """The problem of a row of joint values.
+
+    Raises
+    ------
+    InputError
+        If a length is not positive, or two rods join the same two points.
+    """
+    if not robot.chains:
+        for leg, value in enumerate(values, 1):
+            if value <= 0:
+                raise InputError(f"length of leg {leg}: {value} is not positive; give a length greater than 0")
+        return robot.problem([value * value for value in values])
+    return robot.problem(robot.lock("row", [cosine_and_sine(v) if has_cranks(robot) else v for v in values]))
+
+
+def path_forms(robot: Robot, frames: CentredFrames, first: JointRow, last: JointRow) -> PathForms:
+    """The equations between two rows, at the precision in force."""
+    stations = [[a + s * (b - a) for a, b in zip(first, last, strict=True)] for s in _STATIONS]
+    start, between, end = (arb_mat(_rows(robot, frames, values)) for values in stations)
+    square = 2 * (start - 2 * between + end)
+    return PathForms((start, end - start - square, square))
+
+
+def _rows(robot: Robot, frames: CentredFrames, values: Sequence[Fraction]) -> list[list[arb]]:
+    rows = []
+    if not KINDS[robot.kind].planar:
+        rows.append(study_row())
+    for leg, value in zip(_legs(robot, values), values, strict=True):
+        base = centred_joint(leg.base, frames.base, frames.unit, robot.metric)
+        platform = centred_joint(leg.platform, frames.platform, frames.unit, robot.metric)
+        row = leg_row(base, platform, ball(leg.length_squared / frames.unit**2))
+        weight = ball(1 + value * value) if has_cranks(robot) else arb(1)
+        rows.append([weight * entry for entry in row])
+    return rows
+
+
+def has_cranks(robot: Robot) -> bool:
+    """Whether the joint values are half tangents."""
+    return bool(robot.chains) and isinstance(robot.chains[0], Crank)
+
+
+def _legs(robot: Robot, values: Sequence[Fraction]) -> tuple[Leg, ...]:
+    """The legs, or rods, anywhere between two rows."""
+    if not robot.chains:
+        return gough_legs(robot.base_joints, robot.platform_joints, tuple(value * value for value in values))
+    turned: tuple[JointValue, ...] = tuple(map(cosine_and_sine, values)) if has_cranks(robot) else tuple(values)
+    feet = knees(robot.base_joints, robot.chains, turned)
+    return gough_legs(feet, robot.platform_joints, tuple(chain.rod_squared for chain in robot.chains))

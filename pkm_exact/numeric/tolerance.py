@@ -1,0 +1,235 @@
+"""Poses of all robots within tolerance: for every pose one box that holds exactly one pose of each of them.
+
+Around each certified pose Krawczyk's operator with the robot's data as parameters (``parametric``) proves a box in the
+chart of the pose; the pose's bounds in ordinary coordinates (``deviations``) must lie in it, so that they hold exactly
+one pose too. If all 40 complex solutions (6 of a planar robot) are proved so, and the nominal ones are distinct, then
+those of every robot within tolerance are distinct as well: two of them that met would do so for all robots of the
+connected set. So the refined theorem of Bezout holds for each of them, and the list is complete for each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from itertools import combinations
+from typing import Final
+
+from flint import acb, acb_mat, arb, ctx
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import PLANAR_SUPPORT
+from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.numeric.centred import (
+    NORM,
+    POSITION,
+    CentredFrames,
+    ball,
+    centred_frames,
+    centred_robot,
+    gradients,
+    origins,
+    quantities,
+    quaternion_product,
+)
+from pkm_exact.numeric.deviations import MARGIN, PoseBounds, dominant_influence, pose_bounds
+from pkm_exact.numeric.nominal import (
+    certified_point,
+    certified_pose,
+    complex_points,
+    core_radii,
+    exact_integer,
+    in_chart,
+)
+from pkm_exact.numeric.parametric import (
+    Linearisation,
+    data_errors,
+    enclosing_radii,
+    holds_one,
+    spread,
+    up,
+)
+from pkm_exact.numeric.pose_maps import interval_ball
+from pkm_exact.numeric.tolerance_result import DEGREES, ProvedBox, ToleranceBox, ToleranceResult
+from pkm_exact.solution import Solution
+
+GRID_BITS: Final = 96
+"""The grid of centres and radii is by that many bits finer than the smallest tolerance, in the centred unit."""
+GUARD_BITS: Final = 64
+SMALLEST_FRACTION: Final = 40
+"""A pose that is not proved for 2^-40 of the tolerance counts as singular."""
+FRACTION_BITS: Final = 5
+"""Bits to which the greatest fraction of the tolerance is found that is proved."""
+
+
+def tolerance_boxes(
+    problem: ForwardProblem,
+    tolerances: Tolerances,
+    solution: Solution,
+    progress: Callable[[str], None] | None = None,
+) -> ToleranceResult:
+    """For every pose of a solution the box of that pose over all robots within tolerance.
+
+    Parameters
+    ----------
+    problem : ForwardProblem
+        The nominal robot.
+    tolerances : Tolerances
+    solution : Solution
+        Of the nominal robot, by any certified method.
+    progress : callable, optional
+        Gets one line when a stage starts.
+
+    Raises
+    ------
+    ValueError
+        If the solution is one of another problem.
+
+    Examples
+    --------
+    >>> from pkm_exact.engine import solve
+    >>> from pkm_exact.geometry.problem import Leg
+    >>> legs = [((0, 0), (0, 0), 50), ((10, 0), (4, 0), 26), ((3, 10), (2, 2), 25)]
+    >>> joint = lambda x, y: (Fraction(x), Fraction(y), Fraction(0))
+    >>> robot = ForwardProblem(tuple(Leg(joint(*a), joint(*b), Fraction(s)) for a, b, s in legs), planar=True)
+    >>> print(tolerance_boxes(robot, Tolerances.uniform("0.0001"), solve(robot)))
+    2 of 2 poses have a box for every robot within tolerance; complete: every robot within tolerance has exactly 2 \
+poses, one in each box
+    """
+    if solution.problem != problem:
+        raise ValueError("the solution is not one of this problem")
+    show = progress or (lambda _: None)
+    frames = centred_frames(problem)
+    exponent = _grid(tolerances, frames)
+    with ctx.workprec(exponent + GUARD_BITS):
+        robot = centred_robot(problem, frames)
+        boxes, near = [], []
+        for number, pose in enumerate(solution.poses, 1):
+            show(f"tolerance box of pose {number} of {len(solution.poses)}")
+            around = certified_pose(robot, pose, solution.poses, exponent)
+            boxes.append(_tolerance_box(around, tolerances, number, exponent))
+            near += [] if around is None else [around]
+        show("solutions that are not real")
+        found = [certified_point(robot, point, exponent) for point in complex_points(robot, solution)]
+        pairs = [] if None in found else [around for around in found if around is not None]
+        proofs = [_proved_pair(around, tolerances, exponent) for around in pairs]
+        proved = tuple(proof for proof in proofs if proof is not None)
+        count = sum(box.is_proved for box in boxes) + 2 * len(proved)
+        is_complete = (
+            all(box.is_proved for box in boxes)
+            and len(proved) == len(found)
+            and count == DEGREES[problem.planar]
+            and are_distinct(
+                [_core(around, exponent) for around in near], [_core(around, exponent) for around in pairs]
+            )
+        )
+    shown = proved if is_complete else ()
+    return ToleranceResult(problem, tolerances, frames, exponent, tuple(boxes), shown, count, is_complete)
+
+
+def _grid(tolerances: Tolerances, frames: CentredFrames) -> int:
+    smallest = min(t for t in (tolerances.base, tolerances.platform, tolerances.lengths) if t) / frames.unit
+    return GRID_BITS + max(0, smallest.denominator.bit_length() - smallest.numerator.bit_length())
+
+
+def _tolerance_box(near: Linearisation | None, tolerances: Tolerances, number: int, exponent: int) -> ToleranceBox:
+    if near is None:
+        return ToleranceBox(number, Fraction(0), None, None, None)
+    dominant = dominant_influence(near, data_errors(near.robot, tolerances))
+    found = _proved_pose(near, tolerances, exponent)
+    if found is not None:
+        return ToleranceBox(number, Fraction(1), found[1], dominant, found[0])
+
+    def is_proved(fraction: Fraction) -> bool:
+        return _proved_pose(near, tolerances.scaled(fraction), exponent) is not None
+
+    return ToleranceBox(number, _greatest_fraction(is_proved), None, dominant, None)
+
+
+def _greatest_fraction(is_proved: Callable[[Fraction], bool]) -> Fraction:
+    """The greatest fraction below 1 that is proved, to a few bits; 0 if there seems to be none."""
+    high = Fraction(1)
+    for _ in range(SMALLEST_FRACTION):
+        low = high / 2
+        if is_proved(low):
+            break
+        high = low
+    else:
+        return Fraction(0)
+    for _ in range(FRACTION_BITS):
+        between = (low + high) / 2
+        low, high = (between, high) if is_proved(between) else (low, between)
+    return low
+
+
+def _proved_pose(near: Linearisation, tolerances: Tolerances, exponent: int) -> tuple[ProvedBox, PoseBounds] | None:
+    """A box for a real pose, and bounds of the pose that lie in it."""
+    errors = data_errors(near.robot, tolerances)
+    inner = enclosing_radii(near, errors, exponent)
+    bounds = None if inner is None else pose_bounds(near, errors, inner)
+    if inner is None or bounds is None:
+        return None
+    needed = _containing(near, bounds, exponent)
+    if needed is None:
+        return None
+    core = core_radii(near.robot.size, exponent)
+    outer = [max(radii) for radii in zip(inner, needed, core, strict=True)]
+    if not holds_one(near, errors, outer):
+        return None
+    return _boxed(near, outer, inner, exponent), bounds
+
+
+def _containing(near: Linearisation, bounds: PoseBounds, exponent: int) -> list[arb] | None:
+    """Radii of a box that contains all poses with these bounds of centroid and quaternion."""
+    x = _points_of_box(near, bounds)
+    if not all(value.is_finite() for value in x.entries()):
+        return None
+    return [up(MARGIN * abs(value.real), exponent) for value in (x - near.centre).entries()]
+
+
+def _points_of_box(near: Linearisation, bounds: PoseBounds) -> acb_mat:
+    """Balls with the coordinates of all poses with these bounds of centroid and quaternion: e = q, f = C' q."""
+    q = [acb(interval_ball(bound)) for bound in bounds.quaternion]
+    unit = ball(near.robot.frames.unit)
+    centroid = [interval_ball(bound) for bound in bounds.centroid]
+    c = [acb((value - a) / unit) for value, a in zip(centroid, origins(near.robot)[0], strict=True)]
+    full = [*q, *quaternion_product([acb(0), *c], q)]
+    kept = PLANAR_SUPPORT if near.robot.problem.planar else range(8)
+    return in_chart(acb_mat(near.robot.size, 1, [full[k] for k in kept]), near.chart)
+
+
+def _proved_pair(near: Linearisation, tolerances: Tolerances, exponent: int) -> ProvedBox | None:
+    """A box for a solution that is not real."""
+    errors = data_errors(near.robot, tolerances)
+    inner = enclosing_radii(near, errors, exponent)
+    if inner is None:
+        return None
+    outer = [max(radii) for radii in zip(inner, core_radii(near.robot.size, exponent), strict=True)]
+    return _boxed(near, outer, inner, exponent) if holds_one(near, errors, outer) else None
+
+
+def _boxed(near: Linearisation, outer: Sequence[arb], inner: Sequence[arb], exponent: int) -> ProvedBox:
+    unit = arb(2) ** exponent
+
+    def integers(values: Sequence[arb]) -> tuple[int, ...]:
+        return tuple(exact_integer(value * unit) for value in values)
+
+    entries = near.centre.entries()
+    real, imaginary = integers([v.real for v in entries]), integers([v.imag for v in entries])
+    return ProvedBox(near.chart, tuple(zip(real, imaginary, strict=True)), integers(outer), integers(inner))
+
+
+def _core(near: Linearisation, exponent: int) -> list[acb]:
+    """Position and rotation, in the centred frames, of the nominal solution."""
+    radii = core_radii(near.robot.size, exponent)
+    x = near.centre + spread(radii, real=near.is_real)
+    values = quantities(gradients(x), x)
+    return [value / values[NORM] for value in values[POSITION:NORM]]
+
+
+def are_distinct(real: Sequence[Sequence[acb]], pairs: Sequence[Sequence[acb]]) -> bool:
+    """Whether enclosed solutions are distinct: real ones, others, and the conjugates of the others."""
+    conjugates = [[value.conjugate() for value in point] for point in pairs]
+    return all(
+        any(not a.overlaps(b) for a, b in zip(left, right, strict=True))
+        for left, right in combinations([*real, *pairs, *conjugates], 2)
+    )

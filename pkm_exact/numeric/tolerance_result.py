@@ -1,0 +1,118 @@
+"""What is proved of a robot's poses over all robots within tolerance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.numeric.centred import CentredFrames, Chart
+from pkm_exact.numeric.deviations import Influence, PoseBounds
+
+DEGREES: Final = {False: 40, True: 6}
+"""Degree of the variety of rigid motions, and of planar ones (key ``planar``)."""
+
+
+@dataclass(frozen=True)
+class ProvedBox:
+    """A box in the centred coordinates that holds exactly one solution of every robot within tolerance.
+
+    Attributes
+    ----------
+    chart : Chart
+    centre : tuple of pairs of int
+        Real and imaginary parts, in units of the grid 2^-exponent.
+    outer, inner : tuple of int
+        Half the widths of a box in which there is no other, and of a smaller one that holds it; the same units.
+    """
+
+    chart: Chart
+    centre: tuple[tuple[int, int], ...]
+    outer: tuple[int, ...]
+    inner: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class ToleranceBox:
+    """What is proved of one pose over all robots within tolerance.
+
+    Attributes
+    ----------
+    pose : int
+        Its number in the nominal solution, from 1.
+    fraction : Fraction
+        1 if the box is proved. Else a singularity within tolerance cannot be excluded, and a box is proved for this
+        fraction of all tolerances; 0 if for none, the nominal pose being singular or too close to it.
+    bounds : PoseBounds or None
+        If it is proved: position (unit of length) and quaternion bound a box that holds exactly one pose of every
+        robot within tolerance.
+    dominant : Influence or None
+        The datum whose tolerance moves the platform most, to first order.
+    proof : ProvedBox or None
+    """
+
+    pose: int
+    fraction: Fraction
+    bounds: PoseBounds | None
+    dominant: Influence | None
+    proof: ProvedBox | None
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether there is a box for the whole tolerance."""
+        return self.bounds is not None
+
+
+@dataclass(frozen=True)
+class ToleranceResult:
+    """Boxes of the poses of all robots within tolerance.
+
+    Attributes
+    ----------
+    problem : ForwardProblem
+        The nominal robot.
+    tolerances : Tolerances
+    frames : CentredFrames
+        Of the centred coordinates.
+    exponent : int
+        Centres and radii lie on the grid 2^-exponent.
+    boxes : tuple of ToleranceBox
+        In the order of the poses.
+    pairs : tuple of ProvedBox
+        For pairs of conjugate solutions that are not real; only if the list is complete.
+    proved_solutions : int
+        Number of complex solutions, real ones included, that are proved for every robot within tolerance.
+    is_complete : bool
+        Whether it is proved that no robot within tolerance has another pose. "No" does not mean that there is one.
+    """
+
+    problem: ForwardProblem
+    tolerances: Tolerances
+    frames: CentredFrames
+    exponent: int
+    boxes: tuple[ToleranceBox, ...]
+    pairs: tuple[ProvedBox, ...]
+    proved_solutions: int
+    is_complete: bool
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether every pose has a box."""
+        return all(box.is_proved for box in self.boxes)
+
+    def __str__(self) -> str:
+        count, proved = len(self.boxes), sum(box.is_proved for box in self.boxes)
+        if not self.is_complete:
+            claim = (
+                "that there are no others is not proved for every robot within tolerance, as "
+                f"{self.proved_solutions} of {DEGREES[self.problem.planar]} complex solutions are proved"
+            )
+        elif count:
+            claim = f"complete: every robot within tolerance has exactly {count} poses, one in each box"
+        else:
+            claim = "complete: no robot within tolerance has a pose"
+        if not count:
+            return f"no pose of the nominal robot is listed; {claim}"
+        return f"{proved} of {count} poses have a box for every robot within tolerance; {claim}"

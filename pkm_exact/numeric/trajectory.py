@@ -1,0 +1,321 @@
+"""Following one assembly mode along a joint path: one continuous branch of poses, proved from row to row.
+
+Between two rows the path is straight in the joint values. Every step is proved by a tube (``tube``) that holds exactly
+one solution for each path parameter; the box in which the branch leaves a tube lies in the first slice of the next one,
+so that both hold the same branch. At every row the branch's solution is proved in a narrow box, which lies in the last
+slice of the tube that leads there and enters the first one that leads on. The Jacobian is regular all along: the sign
+of its determinant is that of the start.
+
+Where no tube can be proved for the smallest step, the branch ends: a singularity is there, or too near to be excluded.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final
+
+from flint import acb, acb_mat, arb, arb_mat, ctx
+
+from pkm_exact.engine import DEFAULT_WIDTH
+from pkm_exact.errors import InputError, InternalContradictionError, PkmExactError
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.numeric.centred import CentredFrames, CentredRobot, Chart, centred_frames, centred_robot
+from pkm_exact.numeric.nominal import certified_point, certified_pose, core_radii, exact_integer, in_chart
+from pkm_exact.numeric.parametric import Linearisation, spread
+from pkm_exact.numeric.path_forms import JointRow, path_forms, problem_at
+from pkm_exact.numeric.pose_maps import pose_map
+from pkm_exact.numeric.tube import FloatPath, Prediction, Tube, floats, in_weights, predict, prove, station
+from pkm_exact.poses.boxes import disjoint_cells, exponent_for_width, pose_in_cells
+from pkm_exact.poses.pose import Pose
+
+STEP_PRECISION: Final = 96
+"""Bits of the balls in which a step is proved."""
+GUARD_BITS: Final = 64
+
+
+@dataclass(frozen=True)
+class TrackPolicy:
+    """Sizes of steps, in times the distance of two rows.
+
+    Attributes
+    ----------
+    smallest_step : int
+        Steps are not made shorter than 2^-smallest_step.
+    easy : float
+        A step whose operator leaves less than this share of its box is followed by one of twice the length.
+    """
+
+    smallest_step: int = 40
+    easy: float = 0.4
+
+
+@dataclass(frozen=True)
+class BranchPoint:
+    """Where the branch is at a row: all that is needed to go on from there.
+
+    Attributes
+    ----------
+    row : int
+        From 0.
+    chart : Chart
+        w in w.e = 1, in the path's centred frames.
+    exponent : int
+    centre : tuple of int
+        Of a real box with exactly one solution, in units of 2^-exponent; its half width is 2^-(exponent // 2).
+    halvings : int
+        The next step is 2^-halvings long at most.
+    det_sign : int
+        Sign of the determinant of the leg Jacobian, the same all along the branch.
+    """
+
+    row: int
+    chart: Chart
+    exponent: int
+    centre: tuple[int, ...]
+    halvings: int
+    det_sign: int
+
+
+@dataclass(frozen=True)
+class TrackedSample:
+    """The branch at a row of the path.
+
+    Attributes
+    ----------
+    pose : Pose
+        Its box; the quaternion's sign is continuous along the path. No Jacobian is enclosed.
+    steps : int
+        Certified steps from the row before.
+    point : BranchPoint
+    """
+
+    pose: Pose
+    steps: int
+    point: BranchPoint
+
+    @property
+    def row(self) -> int:
+        """Number of the row, from 0."""
+        return self.point.row
+
+    @property
+    def det_sign(self) -> int:
+        """Sign of the determinant of the leg Jacobian."""
+        return self.point.det_sign
+
+
+class TrackingStopped(PkmExactError):  # noqa: N818 - it ends a path
+    """The branch cannot be followed farther.
+
+    Attributes
+    ----------
+    row : int
+        Row, from 0, after which it ends.
+    reached, tried : Fraction
+        It is proved up to ``reached`` of the way to the next row, and not up to ``tried``.
+    """
+
+    def __init__(self, row: int, reached: Fraction, tried: Fraction) -> None:
+        super().__init__(
+            f"the branch ends between rows {row + 1} and {row + 2}: it is certified up to {float(reached):.12g} of the "
+            f"way, and from there to {float(tried):.12g} the determinant of the Jacobian cannot be bounded away from "
+            "zero; a singularity is there, or too near to be excluded"
+        )
+        self.row, self.reached, self.tried = row, reached, tried
+
+
+def track_branch(
+    robot: Robot,
+    rows: Sequence[JointRow],
+    start: Pose | BranchPoint,
+    *,
+    poses: Sequence[Pose] = (),
+    width: Fraction = DEFAULT_WIDTH,
+    policy: TrackPolicy | None = None,
+    on_step: Callable[[int, Fraction], None] | None = None,
+) -> Iterator[TrackedSample]:
+    """The poses of one branch at all rows of a path, each proved to be joined to the one before.
+
+    Parameters
+    ----------
+    robot : Robot
+    rows : sequence of tuples of Fraction
+        Leg lengths, slide positions, or half tangents of crank angles: the path is straight between them.
+    start : Pose or BranchPoint
+        A certified regular pose for the first row; or a point of an earlier run, and only what follows it is yielded.
+    poses : sequence of Pose, optional
+        The list in which the start was found: its box must be the only one that meets the branch.
+    width : Fraction
+        Largest width of a box of a pose, in any coordinate.
+    policy : TrackPolicy, optional
+    on_step : callable, optional
+        Gets the row and how far on the way to the next one the branch is proved, after every step.
+
+    Raises
+    ------
+    InputError
+        If the start is singular, or a row has values that the robot cannot have.
+    TrackingStopped
+        If the branch cannot be followed farther; all samples before it were yielded.
+
+    Examples
+    --------
+    >>> from pkm_exact import read_robot, solve
+    >>> joints = lambda *rows: tuple(tuple(map(Fraction, row)) for row in rows)
+    >>> corners = joints((0, 0), (10, 0), (3, 10)), joints((0, 0), (4, 0), (2, 2))
+    >>> robot = Robot("example", "3-RPR", "m", "made up", *corners)
+    >>> rows = joints((7, 5, 5), ("7.5", 5, 5))
+    >>> poses = solve(problem_at(robot, rows[0])).poses
+    >>> [(sample.row, sample.det_sign) for sample in track_branch(robot, rows, poses[0])]
+    [(0, -1), (1, -1)]
+    """
+    run = _Run(robot, rows, width, policy or TrackPolicy(), on_step)
+    return run.samples(start, poses)
+
+
+def _sign(start: Pose) -> int:
+    if start.jacobian is None or start.jacobian.det_sign == 0:
+        raise InputError("start: the pose is singular, or not proved regular; no single branch leads on from it")
+    return start.jacobian.det_sign
+
+
+@dataclass(frozen=True)
+class _Run:
+    robot: Robot
+    rows: Sequence[JointRow]
+    width: Fraction
+    policy: TrackPolicy
+    on_step: Callable[[int, Fraction], None] | None
+
+    def samples(self, start: Pose | BranchPoint, poses: Sequence[Pose]) -> Iterator[TrackedSample]:
+        frames = centred_frames(problem_at(self.robot, self.rows[0]))
+        if isinstance(start, BranchPoint):
+            point, near = start, self._again(frames, start)
+        else:
+            sign = _sign(start)
+            near = self._start(frames, start, poses or [start])
+            point = self._branch_point(0, near, 0, sign)
+            yield TrackedSample(self._boxed(frames, 0, near), 0, point)
+        for row in range(point.row, len(self.rows) - 1):
+            tube, steps, halvings = self._followed(frames, row, near, point.halvings)
+            near = self._arrived(frames, row + 1, tube)
+            point = self._branch_point(row + 1, near, halvings, point.det_sign)
+            yield TrackedSample(self._boxed(frames, row + 1, near), steps, point)
+
+    def _start(self, frames: CentredFrames, start: Pose, poses: Sequence[Pose]) -> Linearisation:
+        with ctx.workprec(self._exponent + GUARD_BITS):
+            near = certified_pose(self._robot_at(0, frames), start, poses, self._exponent)
+        if near is None:
+            raise InputError("start: no box with exactly one pose was proved around it; it is nearly singular")
+        return near
+
+    @property
+    def _exponent(self) -> int:
+        """Grid of the boxes at rows: half of it suffices for the boxes of poses."""
+        return 2 * (exponent_for_width(self.width) + 128)
+
+    def _robot_at(self, row: int, frames: CentredFrames) -> CentredRobot:
+        try:
+            return centred_robot(problem_at(self.robot, self.rows[row]), frames)
+        except InputError as error:
+            raise InputError(f"row {row + 1}: {error}") from None
+
+    def _followed(self, frames: CentredFrames, row: int, near: Linearisation, halvings: int) -> tuple[Tube, int, int]:
+        """The tube that reaches the next row, the number of steps, and the length of the next."""
+        with ctx.workprec(STEP_PRECISION):
+            path = FloatPath.of(path_forms(self.robot, frames, self.rows[row], self.rows[row + 1]))
+            entering = _core_ball(near, self._exponent)
+            here = predict(path, floats(entering)[:, 0], 0.0)
+            reached, steps = Fraction(0), 0
+            while here is not None:
+                length = min(Fraction(1, 1 << halvings), 1 - reached)
+                step = _step(path, here, entering, reached, length)
+                if step is None:
+                    if halvings >= self.policy.smallest_step:
+                        raise TrackingStopped(row, reached, reached + length)
+                    halvings += 1
+                    continue
+                tube, here, entering = step
+                reached, steps = reached + length, steps + 1
+                if self.on_step is not None:
+                    self.on_step(row, reached)
+                if tube.contraction < self.policy.easy:
+                    halvings = max(0, halvings - 1)
+                if reached == 1:
+                    return tube, steps, halvings
+        raise InternalContradictionError(f"row {row + 1}: Newton's method leaves a proved pose")
+
+    def _arrived(self, frames: CentredFrames, row: int, tube: Tube) -> Linearisation:
+        """The solution at a row, proved in a narrow box in the last slice of the tube that leads there."""
+        with ctx.workprec(self._exponent + GUARD_BITS):
+            point = acb_mat([[acb(value.mid())] for value in tube.leaving.entries()])
+            near = certified_point(self._robot_at(row, frames), point, self._exponent)
+            if near is None or not tube.holds(in_weights(_core_ball(near, self._exponent), tube.weights)):
+                raise InternalContradictionError(f"row {row + 1}: the pose at the end of a proved step was not found")
+        return near
+
+    def _branch_point(self, row: int, near: Linearisation, halvings: int, sign: int) -> BranchPoint:
+        unit = arb(2) ** self._exponent
+        with ctx.workprec(2 * self._exponent):
+            centre = tuple(exact_integer(value.real * unit) for value in near.centre.entries())
+        return BranchPoint(row, near.chart, self._exponent, centre, halvings, sign)
+
+    def _again(self, frames: CentredFrames, point: BranchPoint) -> Linearisation:
+        """The solution at a row at which an earlier run stood, proved once more."""
+        with ctx.workprec(self._exponent + GUARD_BITS):
+            robot = self._robot_at(point.row, frames)
+            unit = arb(2) ** -point.exponent
+            centre = acb_mat([[acb(value * unit)] for value in point.centre])
+            near = certified_point(robot, centre, self._exponent)
+            if near is None or self._branch_point(point.row, near, point.halvings, point.det_sign) != point:
+                raise InputError(f"row {point.row + 1}: the interrupted run does not fit the path; start again")
+        return near
+
+    def _boxed(self, frames: CentredFrames, row: int, near: Linearisation) -> Pose:
+        """The box of the pose at a row, on the grid on which solutions are listed."""
+
+        def enclosures(precision: int, indices: Sequence[int]) -> Iterable[list[arb]]:
+            exponent = max(self._exponent, 2 * precision)
+            with ctx.workprec(exponent + GUARD_BITS):
+                finer = near if exponent == self._exponent else self._finer(frames, row, near, exponent)
+                x = finer.centre + spread(core_radii(finer.robot.size, exponent), real=True)
+                values = pose_map(finer.robot, x).values[:16]
+            return [values for _ in indices]
+
+        _, cells = disjoint_cells(enclosures, 1, self.width)
+        return pose_in_cells(cells[0], None)
+
+    def _finer(self, frames: CentredFrames, row: int, near: Linearisation, exponent: int) -> Linearisation:
+        robot = self._robot_at(row, frames)
+        finer = certified_point(robot, near.centre, exponent)
+        if finer is not None:
+            x = finer.centre + spread(core_radii(robot.size, exponent), real=True)
+            differences = (in_chart(x, near.chart) - near.centre).entries()
+            if all(abs(d.real) < r for d, r in zip(differences, core_radii(robot.size, self._exponent), strict=True)):
+                return finer
+        raise InternalContradictionError(f"row {row + 1}: the box of a proved pose cannot be narrowed")
+
+
+def _core_ball(near: Linearisation, exponent: int) -> arb_mat:
+    """The narrow box around a proved solution."""
+    box = near.centre + spread(core_radii(near.robot.size, exponent), real=True)
+    return arb_mat([[value.real] for value in box.entries()])
+
+
+def _step(
+    path: FloatPath, here: Prediction, entering: arb_mat, reached: Fraction, length: Fraction
+) -> tuple[Tube, Prediction, arb_mat] | None:
+    """The tube of one step, and the branch at its end: a prediction, and balls that hold it; None if not proved."""
+    half = length / 2
+    between = predict(path, here.point + float(half) * here.first, float(reached + half))
+    tube = None if between is None else prove(path, between, entering, reached + half, half)
+    end = None if tube is None else predict(path, floats(tube.end)[:, 0], float(reached + length))
+    if tube is None or end is None:
+        return None
+    # The solution at the end is that of the branch: its box lies in the last slice of the tube, which holds no other.
+    leaving = station(path, end, reached + length)
+    if leaving is None or not tube.holds(in_weights(leaving, tube.weights)):
+        return None
+    return tube, end, leaving
