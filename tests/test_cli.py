@@ -214,6 +214,15 @@ def test_a_tampered_certificate_is_rejected(quick: Solution, tmp_path: Path, cap
     assert f"{path}: rejected" in capsys.readouterr().out
 
 
+def test_both_checkers_print_the_same(capsys: Capture) -> None:
+    certificate = str(Path(__file__).parent.parent / "certs" / "3-rrr.json")
+    assert main(["check", certificate]) == 0
+    fast = capsys.readouterr().out
+    assert main(["check", "--pure", certificate]) == 0
+    assert capsys.readouterr().out == fast
+    assert main(["check", "--pure", __file__]) == 2
+
+
 def test_check_combines_the_verdicts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
     def verdict(data: bytes) -> SimpleNamespace:
         return SimpleNamespace(status=data.decode(), lines=("claim one: \x1b[2J", "claim two"))

@@ -1,0 +1,2259 @@
+"""Checks certificates a second time, with Python's integers and nothing else: one file that runs alone.
+
+    python pure.py CERT.json...
+
+It prints what ``certify-poses check`` prints, and takes longer: one line per claim that was proved, then accepted,
+rejected, malformed or too-large. Exit code: 0 if all are accepted, 1 if one is rejected, otherwise 2.
+
+Written from the definition of the format and its proofs, ``docs/certificates.md``; the sections below have its order
+and its notation. It shares no line with the other checker and needs no library, so an error of one of them, or of
+FLINT, shows as a disagreement. The three ideas that make plain integers suffice:
+
+* A polynomial of bounded coefficients is its value at X = 2^k, for k large enough. So an identity modulo the eliminant
+  is one division of integers (``Multiples``).
+* What is computed modulo a prime is proved over Q by putting it back into the equations (``echelon_form``), or by a
+  resultant that too many moduli would divide (``vanishes_at_roots``).
+* Real numbers are pairs of integers over 2^p, rounded outward (``Interval``).
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from hashlib import sha256
+from itertools import accumulate, combinations, pairwise
+from math import gcd, isqrt, lcm
+from pathlib import Path
+from typing import Any, Final, NamedTuple, TypeAlias
+
+__all__ = ["Verdict", "check_bytes", "main"]
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Limits and verdicts
+# ---------------------------------------------------------------------------------------------------------------------
+
+MAX_BYTES: Final = 64 << 20
+MAX_ENTRIES: Final = 1 << 20  # commas and brackets
+MAX_TEXT: Final = 10_000
+MAX_JOINT_DIGITS: Final = 600
+MAX_RATIONAL_LENGTH: Final = 10_000
+MAX_INTEGER_LENGTH: Final = 12
+MAX_COEFFICIENT_BITS: Final = 1 << 18
+MAX_DEGREE: Final = 2000
+MAX_BOX_EXPONENT: Final = 8192
+MAX_BOX_GRID: Final = 2048  # of boxes around solutions
+MAX_ISOLATION: Final = 4096  # real roots in cells of the grid 2^-4096 that touch are too close
+MAX_PRECISION: Final = 1 << 14
+MAX_PRODUCTS: Final = 5000
+MAX_ECHELON_BITS: Final = 1 << 36
+
+GREATEST_NUMBER: Final = 40
+"""Degree of the variety of rigid motions: six legs have no more isolated poses."""
+
+PLANAR_NUMBER: Final = 6
+"""Degree of the variety of planar motions."""
+
+
+class Verdict(NamedTuple):
+    """The answer on a certificate.
+
+    Attributes
+    ----------
+    status : str
+        "accepted", "rejected", "malformed" or "too-large".
+    lines : tuple of str
+        One line per claim that was proved; the last one says why the certificate was not accepted, if it was not.
+    """
+
+    status: str
+    lines: tuple[str, ...]
+
+
+class Refusal(Exception):  # noqa: N818 - the end of a check, no error of the program
+    """Ends a check with a status and a reason."""
+
+    def __init__(self, status: str, line: str) -> None:
+        super().__init__(line)
+        self.status = status
+        self.line = line
+
+
+def require(holds: object, line: str) -> None:
+    """Reject unless the claim holds."""
+    if not holds:
+        raise Refusal("rejected", line)
+
+
+def well_formed(holds: object, line: str) -> None:
+    """Refuse what is not a certificate."""
+    if not holds:
+        raise Refusal("malformed", line)
+
+
+def affordable(holds: object, line: str) -> None:
+    """Refuse what exceeds a limit."""
+    if not holds:
+        raise Refusal("too-large", line)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Format and spelling
+# ---------------------------------------------------------------------------------------------------------------------
+
+RATIONAL: Final = re.compile(r"(?:0|-?[1-9][0-9]*)(?:/[1-9][0-9]*)?", re.ASCII)
+HEXADECIMAL: Final = re.compile(r"0x0|-?0x[1-9a-f][0-9a-f]*", re.ASCII)
+PRODUCT: Final = re.compile(r"(?:0|[1-9][0-9]{0,5})(?: (?:[0-9]|1[0-5])){0,8}", re.ASCII)
+FORMULATION: Final = re.compile(r"(?:SE3|AFD[1-6]|AFP[1-4])(?::[a-z0-9]{1,10})?", re.ASCII)
+
+KINDS: Final = {"6-UPS": 6, "3-RPR": 3}
+METHODS: Final = ("exact", "krawczyk")
+CLAIMS: Final = (
+    "complete",
+    "not-proven-complete",
+    "positive-dimensional-detected",
+    "positive-dimensional-proved",
+    "inconsistent",
+)
+ROUTES: Final = ("refined-bezout", "exact-elimination")
+
+KEYS: Final = (
+    "format version robot configuration formulation method claim completeness_route complex_solutions "
+    "distinct_solutions real_poses representation elimination krawczyk box_exponent poses notes"
+)
+
+Reader: TypeAlias = Callable[[Any, str], Any]
+Ends: TypeAlias = tuple[str, str]
+Point: TypeAlias = tuple[Fraction, ...]
+Metric: TypeAlias = tuple[int, int, int]
+Polynomial: TypeAlias = list[int]  # lowest degree first, the last coefficient not 0
+Step: TypeAlias = tuple[tuple[int, ...], ...]  # products: index of an element, then those of the unknowns
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A leg from base joint A to platform joint B, with its squared length."""
+
+    base: Point
+    platform: Point
+    length_squared: Fraction
+
+
+@dataclass(frozen=True)
+class Representation:
+    """(e, f) = (E, F)(t) / h'(t) at the roots t of h, with w.e = 1 and c.(e, f) = t; ``numerators`` are E, then F."""
+
+    w: tuple[int, ...]
+    c: tuple[int, ...]
+    h: Polynomial
+    numerators: tuple[Polynomial, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Gaussian:
+    """A number of Q(i)."""
+
+    re: Fraction
+    im: Fraction
+
+    def __add__(self, other: Gaussian) -> Gaussian:
+        return Gaussian(self.re + other.re, self.im + other.im)
+
+    def __sub__(self, other: Gaussian) -> Gaussian:
+        return Gaussian(self.re - other.re, self.im - other.im)
+
+    def __mul__(self, other: Gaussian) -> Gaussian:
+        return Gaussian(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+
+    def __rmul__(self, scalar: int | Fraction) -> Gaussian:
+        return Gaussian(scalar * self.re, scalar * self.im)
+
+    def size(self) -> Fraction:
+        """|Re| + |Im|, submultiplicative."""
+        return abs(self.re) + abs(self.im)
+
+    def rounded(self, p: int) -> Gaussian:
+        """A number nearby with denominator 2^p."""
+        return Gaussian(*(Fraction(round(part * (1 << p)), 1 << p) for part in (self.re, self.im)))
+
+
+NULL: Final = Gaussian(Fraction(0), Fraction(0))
+UNIT: Final = Gaussian(Fraction(1), Fraction(0))
+
+
+@dataclass(frozen=True)
+class Box:
+    """All x with |Re (x_i - m_i)| and |Im (x_i - m_i)| at most r_i; real x only, if it is real.
+
+    ``bits`` is the greatest of the exponents and of the lengths of the integers that give the centre.
+    """
+
+    centre: tuple[Gaussian, ...]
+    radius: tuple[Fraction, ...]
+    bits: int
+    real: bool
+
+    def conjugate(self) -> Box:
+        """The box of the conjugate points."""
+        return Box(tuple(Gaussian(m.re, -m.im) for m in self.centre), self.radius, self.bits, self.real)
+
+    def is_disjoint(self, other: Box) -> bool:
+        """Whether no point is in both."""
+        gaps = (a - b for a, b in zip(self.centre, other.centre, strict=True))
+        reaches = (r + s for r, s in zip(self.radius, other.radius, strict=True))
+        return any(max(abs(gap.re), abs(gap.im)) > reach for gap, reach in zip(gaps, reaches, strict=True))
+
+    def holds(self, other: Box) -> bool:
+        """Whether the other box, real if this one is, lies in this one."""
+        gaps = (a - b for a, b in zip(self.centre, other.centre, strict=True))
+        rooms = (r - s for r, s in zip(self.radius, other.radius, strict=True))
+        return all(max(abs(gap.re), abs(gap.im)) <= room for gap, room in zip(gaps, rooms, strict=True))
+
+
+class Boxes(NamedTuple):
+    """Boxes in the chart w.e = 1 of Study coordinates, with one solution each; others stand for two conjugate ones."""
+
+    w: tuple[int, ...]
+    real: tuple[Box, ...]
+    others: tuple[Box, ...]
+
+    def number(self) -> int:
+        """How many solutions they stand for."""
+        return len(self.real) + 2 * len(self.others)
+
+
+@dataclass(frozen=True)
+class ListedPose:
+    """A pose as listed: ends of intervals as texts; ``box`` is position, rotation by rows, quaternion."""
+
+    parameter: Ends | None
+    box: tuple[Ends, ...]
+    multiplicity: int | None
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What a certificate says."""
+
+    metric: Metric
+    legs: tuple[Leg, ...]
+    method: str
+    claim: str
+    route: str | None
+    counts: tuple[int, int, int]  # complex solutions, distinct solutions, real poses
+    representation: Representation | None
+    elimination: tuple[Step, ...] | None
+    boxes: Boxes | None
+    box_exponent: int
+    poses: tuple[ListedPose, ...]
+
+
+def parsed(data: bytes) -> dict[str, Any]:
+    """The JSON object without its digest, in its one spelling."""
+    affordable(len(data) <= MAX_BYTES, f"file: more than {MAX_BYTES} bytes")
+    entries = data.count(b",") + data.count(b"[") + data.count(b"{")
+    affordable(entries <= MAX_ENTRIES, f"file: more than {MAX_ENTRIES} entries")
+    try:
+        content = json.loads(
+            data.decode("ascii"),
+            object_pairs_hook=without_repeated_keys,
+            parse_int=short_integer,
+            parse_float=no_number,
+            parse_constant=no_number,
+        )
+        well_formed(
+            isinstance(content, dict) and isinstance(content.get("digest"), str),
+            "file: not a JSON object with a digest",
+        )
+        digest = content.pop("digest")
+        body, whole = canonical(content), canonical({**content, "digest": digest})
+    except RecursionError:
+        raise Refusal("malformed", "file: brackets are nested too deeply") from None
+    except ValueError:
+        raise Refusal("malformed", "file: not JSON in ASCII") from None
+    require(digest == f"sha256:{sha256(body).hexdigest()}", "digest: differs from that of the content")
+    well_formed(data == whole, "file: not in canonical form, one entry per line with an indent of one space per level")
+    return dict(content)
+
+
+def canonical(content: object) -> bytes:
+    """The one spelling of a content."""
+    return (json.dumps(content, indent=1, ensure_ascii=True) + "\n").encode("ascii")
+
+
+def without_repeated_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object as a dictionary; refused if a key occurs twice."""
+    content = dict(pairs)
+    well_formed(len(content) == len(pairs), "file: a key occurs twice in one object")
+    return content
+
+
+def short_integer(text: str) -> int:
+    """An integer; refused, before a number is made of it, if it is long."""
+    well_formed(len(text) <= MAX_INTEGER_LENGTH, f"file: an integer of more than {MAX_INTEGER_LENGTH} digits")
+    return int(text)
+
+
+def no_number(_text: str) -> float:
+    """Refuse what is not an integer."""
+    raise Refusal("malformed", "file: a number with a decimal point or an exponent, or no number at all")
+
+
+def an_object(value: Any, where: str, keys: str) -> list[Any]:
+    """The values of an object with exactly these keys, in this order."""
+    names = keys.split()
+    well_formed(
+        isinstance(value, dict) and list(value) == names,
+        f"{where}: not an object with the keys {', '.join(names)}, in this order",
+    )
+    return list(value.values())
+
+
+def a_list(read: Reader, length: int | None = None) -> Reader:
+    """The reader of lists of a length (any if None) whose entries ``read`` reads."""
+
+    def reader(value: Any, where: str) -> tuple[Any, ...]:
+        fits = isinstance(value, list) and (length is None or len(value) == length)
+        well_formed(fits, f"{where}: not a list" + (f" of {length}" if length else ""))
+        return tuple(read(entry, f"{where}[{number}]") for number, entry in enumerate(value, 1))
+
+    return reader
+
+
+def a_text(value: Any, where: str) -> str:
+    """A text."""
+    well_formed(isinstance(value, str), f"{where}: not a text")
+    affordable(len(value) <= MAX_TEXT, f"{where}: more than {MAX_TEXT} characters")
+    return str(value)
+
+
+def one_of(words: Iterable[str]) -> Reader:
+    """The reader of texts that must be one of the words."""
+
+    def reader(value: Any, where: str) -> str:
+        well_formed(isinstance(value, str) and value in words, f"{where}: not one of {', '.join(words)}")
+        return str(value)
+
+    return reader
+
+
+def an_integer(value: Any, where: str) -> int:
+    """An integer written as a JSON number."""
+    well_formed(type(value) is int, f"{where}: not an integer")
+    return int(value)
+
+
+def a_number(value: Any, where: str) -> int:
+    """An integer that is not negative."""
+    number = an_integer(value, where)
+    well_formed(number >= 0, f"{where}: negative")
+    return number
+
+
+def a_rational_text(value: Any, where: str) -> str:
+    """A text p or p/q; that it is in lowest terms shows when it is compared."""
+    well_formed(isinstance(value, str), f"{where}: not a rational number in quotes")
+    affordable(len(value) <= MAX_RATIONAL_LENGTH, f"{where}: more than {MAX_RATIONAL_LENGTH} characters")
+    well_formed(RATIONAL.fullmatch(value), f"{where}: not a rational number p or p/q")
+    return str(value)
+
+
+def a_rational(value: Any, where: str) -> Fraction:
+    """A rational number in lowest terms."""
+    text = a_rational_text(value, where)
+    numerator, _, denominator = text.partition("/")
+    short = max(len(numerator), len(denominator)) <= MAX_JOINT_DIGITS
+    affordable(short, f"{where}: more than {MAX_JOINT_DIGITS} digits")
+    number = Fraction(int(numerator), int(denominator or "1"))
+    well_formed(str(number) == text, f"{where}: not in lowest terms")
+    return number
+
+
+def a_positive_rational(value: Any, where: str) -> Fraction:
+    """A rational number above 0."""
+    number = a_rational(value, where)
+    well_formed(number > 0, f"{where}: not positive")
+    return number
+
+
+def a_hexadecimal(value: Any, where: str) -> int:
+    """An integer in hexadecimal digits."""
+    well_formed(isinstance(value, str), f"{where}: not an integer in hexadecimal digits")
+    affordable(4 * len(value) <= MAX_COEFFICIENT_BITS, f"{where}: more than {MAX_COEFFICIENT_BITS} bits")
+    well_formed(HEXADECIMAL.fullmatch(value), f"{where}: not an integer in hexadecimal digits")
+    return int(value, 16)
+
+
+def a_polynomial(value: Any, where: str) -> Polynomial:
+    """A polynomial over Z."""
+    affordable(not isinstance(value, list) or len(value) <= MAX_DEGREE + 1, f"{where}: degree above {MAX_DEGREE}")
+    coefficients = list(a_list(a_hexadecimal)(value, where))
+    well_formed(not coefficients or coefficients[-1], f"{where}: the coefficient of highest degree is 0")
+    return coefficients
+
+
+def a_product(value: Any, where: str) -> tuple[int, ...]:
+    """The index of an element, then those of unknowns."""
+    text = a_text(value, where)
+    fits = PRODUCT.fullmatch(text)
+    well_formed(fits, f"{where}: not the index of an element and those of the unknowns that multiply it")
+    index, *factors = map(int, text.split(" "))
+    well_formed(factors == sorted(factors), f"{where}: the unknowns are not in increasing order")
+    return index, *factors
+
+
+def a_step(value: Any, where: str) -> Step:
+    """The products of a step of an elimination."""
+    few = not isinstance(value, list) or len(value) <= MAX_PRODUCTS
+    affordable(few, f"{where}: more than {MAX_PRODUCTS} products")
+    return a_list(a_product)(value, where)  # type: ignore[no-any-return]
+
+
+def nullable(read: Reader) -> Reader:
+    """The reader that also reads null."""
+    return lambda value, where: None if value is None else read(value, where)
+
+
+an_interval: Final = a_list(a_rational_text, 2)
+
+
+def a_pose(value: Any, where: str) -> ListedPose:
+    """A pose as listed."""
+    values = an_object(value, where, "parameter position rotation quaternion multiplicity")
+    parameter, position, rotation, quaternion, multiplicity = values
+    rows = a_list(a_list(an_interval, 3), 3)(rotation, f"{where}.rotation")
+    box = (
+        *a_list(an_interval, 3)(position, f"{where}.position"),
+        *(entry for row in rows for entry in row),
+        *a_list(an_interval, 4)(quaternion, f"{where}.quaternion"),
+    )
+    times = nullable(a_number)(multiplicity, f"{where}.multiplicity")
+    return ListedPose(nullable(an_interval)(parameter, f"{where}.parameter"), box, times)
+
+
+def a_representation(value: Any, where: str) -> Representation:
+    """A rational univariate representation."""
+    w, c, h, e, f = an_object(value, where, "chart separating_form eliminant quaternion translation")
+    eliminant = a_polynomial(h, f"{where}.eliminant")
+    well_formed(len(eliminant) > 1, f"{where}.eliminant: constant")
+    return Representation(
+        w=a_list(an_integer, 4)(w, f"{where}.chart"),
+        c=a_list(an_integer, 8)(c, f"{where}.separating_form"),
+        h=eliminant,
+        numerators=(
+            *a_list(a_polynomial, 4)(e, f"{where}.quaternion"),
+            *a_list(a_polynomial, 4)(f, f"{where}.translation"),
+        ),
+    )
+
+
+def a_box(value: Any, where: str, *, real: bool) -> Box:
+    """A box around a solution."""
+    exponents, centre = an_object(value, where, "exponents centre")
+    a, b = a_list(a_number, 2)(exponents, f"{where}.exponents")
+    affordable(max(a, b) <= MAX_BOX_GRID, f"{where}.exponents: more than {MAX_BOX_GRID}")
+    values = a_list(a_hexadecimal if real else a_list(a_hexadecimal, 2), 8)(centre, f"{where}.centre")
+    parts = [(value, 0) for value in values] if real else values
+    bits = max(abs(part).bit_length() for pair in parts for part in pair)
+    affordable(bits <= 2 * MAX_BOX_GRID, f"{where}.centre: a coordinate of more than {2 * MAX_BOX_GRID} bits")
+    units = [Fraction(1, 1 << a)] * 4 + [Fraction(1, 1 << b)] * 4
+    points = tuple(Gaussian(x * unit, y * unit) for (x, y), unit in zip(parts, units, strict=True))
+    return Box(points, tuple(4 * unit for unit in units), max(a, b, bits), real)
+
+
+def a_list_of_boxes(value: Any, where: str) -> Boxes:
+    """Boxes around real and around complex solutions."""
+    chart, real, others = an_object(value, where, "chart real complex")
+    few = not isinstance(real, list) or not isinstance(others, list) or len(real) + 2 * len(others) <= GREATEST_NUMBER
+    require(few, f"boxes: more than {GREATEST_NUMBER} solutions, the degree of the rigid motions")
+    return Boxes(
+        a_list(an_integer, 4)(chart, f"{where}.chart"),
+        a_list(partial(a_box, real=True))(real, f"{where}.real"),
+        a_list(partial(a_box, real=False))(others, f"{where}.complex"),
+    )
+
+
+def a_robot(value: Any, where: str) -> tuple[Metric, Sequence[Point], Sequence[Point]]:
+    """Metric, base joints and platform joints."""
+    values = an_object(value, where, "name kind unit source metric base platform")
+    name, kind, unit, source, metric, base, platform = values
+    for label, text in (("name", name), ("unit", unit), ("source", source)):
+        a_text(text, f"{where}.{label}")
+    number = KINDS[one_of(KINDS)(kind, f"{where}.kind")]
+    g = a_list(a_positive_rational, 3)(metric, f"{where}.metric")
+    well_formed(all(x.denominator == 1 for x in g), f"{where}.metric: not three integers")
+    joints = a_list(a_list(a_rational, 3), number)
+    sides = joints(base, f"{where}.base"), joints(platform, f"{where}.platform")
+    flat = number == 6 or not any(joint[2] for side in sides for joint in side)
+    well_formed(flat, f"{where}: a joint of a planar robot has a third coordinate other than 0")
+    return (int(g[0]), int(g[1]), int(g[2])), *sides
+
+
+def read(data: bytes) -> Certificate:
+    """The content of a certificate."""
+    body = parsed(data)
+    version = body.get("version")
+    is_known = body.get("format") == "pkm_exact certificate" and type(version) is int and version == 1
+    well_formed(is_known, "format: not a pkm_exact certificate, version 1")
+    values = dict(zip(KEYS.split(), an_object(body, "certificate", KEYS), strict=True))
+
+    def entry(key: str, read: Reader) -> Any:
+        return read(values[key], key)
+
+    metric, base, platform = entry("robot", a_robot)
+    well_formed(FORMULATION.fullmatch(entry("formulation", a_text)), "formulation: not the code of one")
+    entry("notes", a_list(a_text))
+    exponent = entry("box_exponent", a_number)
+    affordable(exponent <= MAX_BOX_EXPONENT, f"box_exponent: more than {MAX_BOX_EXPONENT}")
+    name, lengths_squared = an_object(values["configuration"], "configuration", "name lengths_squared")
+    nullable(a_text)(name, "configuration.name")
+    squares = a_list(a_positive_rational, len(base))(lengths_squared, "configuration.lengths_squared")
+    return Certificate(
+        metric=metric,
+        legs=tuple(map(Leg, base, platform, squares)),
+        method=entry("method", one_of(METHODS)),
+        claim=entry("claim", one_of(CLAIMS)),
+        route=entry("completeness_route", nullable(one_of(ROUTES))),
+        counts=(
+            entry("complex_solutions", a_number),
+            entry("distinct_solutions", a_number),
+            entry("real_poses", a_number),
+        ),
+        representation=entry("representation", nullable(a_representation)),
+        elimination=entry("elimination", nullable(a_list(a_step))),
+        boxes=entry("krawczyk", nullable(a_list_of_boxes)),
+        box_exponent=exponent,
+        poses=entry("poses", a_list(a_pose)),
+    )
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Notation: motions and legs
+# ---------------------------------------------------------------------------------------------------------------------
+
+CYCLIC: Final = ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+
+
+class Motion(NamedTuple):
+    """N(e) times 1, R (by rows), C, R^-1 C and |C|^2, in any commutative ring; and e.f, which must be 0."""
+
+    norm: Any
+    rotation: list[list[Any]]
+    position: list[Any]
+    turned: list[Any]
+    square: Any
+    study: Any
+
+    def quantities(self) -> list[Any]:
+        """The 17 quantities in the order of ``leg_form``."""
+        return [self.norm, *self.by_rows(), *self.position, *self.turned, self.square]
+
+    def by_rows(self) -> list[Any]:
+        """The entries of the rotation."""
+        return [entry for row in self.rotation for entry in row]
+
+
+def motion(e: Sequence[Any], f: Sequence[Any], g: Metric) -> Motion:
+    """The formulas under "Notation", each product of coordinates formed once.
+
+    Examples
+    --------
+    >>> placed = motion((0, 0, 0, 1), (-7, 6, -5, 0), (1, 1, 1))
+    >>> placed.rotation, placed.position, placed.square, placed.study
+    ([[-1, 0, 0], [0, -1, 0], [0, 0, 1]], [5, 6, 7], 110, 0)
+    """
+    scalar = (g[0] * g[1] * g[2]) * (e[0] * e[0])
+    squares = [g[i] * (e[i + 1] * e[i + 1]) for i in range(3)]
+    norm = scalar + squares[0] + squares[1] + squares[2]
+    rotation: list[list[Any]] = [[None] * 3 for _ in range(3)]
+    position, turned = [None] * 3, [None] * 3
+    square, study = f[0] * f[0], e[0] * f[0]
+    for i, j, k in CYCLIC:
+        rotation[i][i] = scalar + squares[i] - squares[j] - squares[k]
+        mixed, turn = e[i + 1] * e[j + 1], g[k] * (e[0] * e[k + 1])
+        rotation[i][j] = (2 * g[j]) * (mixed - turn)
+        rotation[j][i] = (2 * g[i]) * (mixed + turn)
+        a = (g[j] * g[k]) * (e[0] * f[i + 1]) - e[i + 1] * f[0]
+        b = g[j] * (e[j + 1] * f[k + 1]) - g[k] * (e[k + 1] * f[j + 1])
+        position[i], turned[i] = a + b, a - b
+        square = square + (g[j] * g[k]) * (f[i + 1] * f[i + 1])
+        study = study + e[i + 1] * f[i + 1]
+    return Motion(norm, rotation, position, turned, square, study)
+
+
+def scalar_product(g: Metric, u: Point, v: Point) -> Fraction:
+    """u.v in the metric."""
+    return sum((x * y * z for x, y, z in zip(g, u, v, strict=True)), Fraction(0))
+
+
+def leg_form(leg: Leg, g: Metric) -> list[int]:
+    """L as a form in the 17 quantities, cleared of denominators."""
+    a, b = leg.base, leg.platform
+    ga = [x * y for x, y in zip(g, a, strict=True)]
+    form = [
+        scalar_product(g, a, a) + scalar_product(g, b, b) - leg.length_squared,
+        *(-2 * x * y for x in ga for y in b),
+        *(-2 * x for x in ga),
+        *(2 * x * y for x, y in zip(g, b, strict=True)),
+        Fraction(1),
+    ]
+    return cleared(form)
+
+
+def cleared(values: Sequence[Fraction]) -> list[int]:
+    """The values times their least common denominator."""
+    denominator = lcm(*(value.denominator for value in values))
+    return [int(value * denominator) for value in values]
+
+
+def combination(scalars: Iterable[int], values: Iterable[Any]) -> Any:
+    """The sum of the products, in any ring."""
+    pairs = zip(scalars, values, strict=True)
+    first, value = next(pairs)
+    total = first * value
+    for scalar, value in pairs:
+        if scalar:
+            total = total + scalar * value
+    return total
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Polynomials over Z, as values at a power of 2
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def at_power(polynomial: Sequence[int], k: int) -> int:
+    """The value at 2^k."""
+    value = 0
+    for coefficient in reversed(polynomial):
+        value = (value << k) + coefficient
+    return value
+
+
+def digits(value: int, k: int) -> Polynomial:
+    """The polynomial with coefficients between -2^(k-1) and 2^(k-1) that has a value at 2^k."""
+    mask, half = (1 << k) - 1, 1 << (k - 1)
+    coefficients = []
+    while value:
+        low = value & mask
+        low -= (low > half) << k
+        coefficients.append(low)
+        value = (value - low) >> k
+    return coefficients
+
+
+def derivative(polynomial: Sequence[int]) -> Polynomial:
+    """The derivative."""
+    return [power * coefficient for power, coefficient in enumerate(polynomial)][1:]
+
+
+def primitive_part(polynomial: Sequence[int]) -> Polynomial:
+    """The polynomial divided by the greatest common divisor of its coefficients."""
+    content = gcd(*polynomial)
+    return [coefficient // content for coefficient in polynomial]
+
+
+def size(polynomial: Sequence[int]) -> int:
+    """The sum of the absolute values of the coefficients. It bounds them, and is submultiplicative."""
+    return sum(map(abs, polynomial))
+
+
+class Multiples:
+    """Decides whether a primitive polynomial h0 divides polynomials P over Z that are given by values at X = 2^k.
+
+    Let P have size at most ``bound`` and degree at most 2D. If P = h0 q, then q has size at most 2^D bound (Mignotte),
+    so X, chosen larger, makes q the digits of the integer P(X) / h0(X). Conversely, if this is an integer with digits q
+    so small that h0 q, like P, has coefficients below X / 2, then P = h0 q, because both have the same value at X.
+    Exact quotients are computed modulo a power of 2, where the inverse of h0(X) is found once, by Newton's iteration.
+    """
+
+    def __init__(self, h0: Polynomial, bound: int) -> None:
+        self.h0 = h0
+        self.k = bound.bit_length() + len(h0) + size(h0).bit_length() + 2
+        self.value = at_power(h0, self.k)
+        self.zeros = (self.value & -self.value).bit_length() - 1
+        self.length = self.k * (len(h0) + 1)
+        odd, self.inverse, known = self.value >> self.zeros, 1, 1
+        while known < self.length:
+            known = min(2 * known, self.length)
+            mask = (1 << known) - 1
+            self.inverse = self.inverse * (2 - (odd & mask) * self.inverse) & mask
+
+    def include(self, value: int) -> bool:
+        """Whether h0 divides the polynomial with this value at X."""
+        quotient = (value >> self.zeros) * self.inverse & ((1 << self.length) - 1)
+        quotient -= quotient >> (self.length - 1) << self.length
+        if quotient * self.value != value:
+            return False
+        return size(digits(quotient, self.k)) * size(self.h0) < 1 << (self.k - 1)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Polynomials modulo a prime, and modulo a polynomial as well
+# ---------------------------------------------------------------------------------------------------------------------
+
+PRIMES: Final = tuple((1 << n) - 1 for n in (61, 89, 107, 127))
+"""Primes of Mersenne: no table of primes and no test is needed."""
+
+
+def reduced(polynomial: Iterable[int], p: int) -> Polynomial:
+    """The image modulo p."""
+    image = [coefficient % p for coefficient in polynomial]
+    while image and not image[-1]:
+        image.pop()
+    return image
+
+
+def divided(a: Polynomial, b: Polynomial, p: int) -> tuple[Polynomial, Polynomial]:
+    """Quotient and remainder modulo a prime, or modulo any p if b is monic."""
+    inverse = pow(b[-1], -1, p)
+    rest, quotient = list(a), [0] * max(len(a) - len(b) + 1, 0)
+    for place in reversed(range(len(quotient))):
+        factor = quotient[place] = rest[place + len(b) - 1] * inverse % p
+        if factor:
+            for power, coefficient in enumerate(b, place):
+                rest[power] = (rest[power] - factor * coefficient) % p
+    return reduced(quotient, p), reduced(rest[: len(b) - 1], p)
+
+
+def common_divisor(a: Polynomial, b: Polynomial, p: int) -> Polynomial:
+    """The monic greatest common divisor modulo a prime."""
+    while b:
+        a, b = b, divided(a, b, p)[1]
+    return [coefficient * pow(a[-1], -1, p) % p for coefficient in a]
+
+
+def product(a: Polynomial, b: Polynomial, p: int) -> Polynomial:
+    """The product modulo p."""
+    k = 2 * p.bit_length() + len(a).bit_length() + 1
+    return reduced(digits(at_power(a, k) * at_power(b, k), k), p)
+
+
+class Residues:
+    """The ring (Z / m)[T] / (g), where the leading coefficient of g is a unit modulo m.
+
+    Polynomials are multiplied by their values at a power of 256 above all coefficients that occur.
+    """
+
+    def __init__(self, g: Polynomial, m: int) -> None:
+        inverse = pow(g[-1], -1, m)
+        self.m = m
+        self.g = [coefficient * inverse % m for coefficient in g]
+        self.degree = len(g) - 1
+        self.width = (2 * m.bit_length() + self.degree.bit_length() + 8) // 8
+        power = [-coefficient % m for coefficient in self.g[:-1]]
+        self.powers = []  # T^d, T^(d+1), ..
+        for _ in range(self.degree):
+            self.powers.append(self.packed(power))
+            top = power[-1]
+            power = [(low - top * coefficient) % m for low, coefficient in zip([0, *power], self.g[:-1], strict=False)]
+
+    def packed(self, coefficients: Iterable[int]) -> int:
+        """The value at 256^width."""
+        return int.from_bytes(b"".join(c.to_bytes(self.width, "little") for c in coefficients), "little")
+
+    def unpacked(self, value: int, number: int) -> list[int]:
+        """The coefficients, reduced modulo m."""
+        data = value.to_bytes(number * self.width, "little")
+        starts = range(0, len(data), self.width)
+        return [int.from_bytes(data[i : i + self.width], "little") % self.m for i in starts]
+
+    def element(self, polynomial: Polynomial) -> Residue:
+        """The class of a polynomial."""
+        rest = divided(reduced(polynomial, self.m), self.g, self.m)[1]
+        return Residue(self, [*rest, *[0] * (self.degree - len(rest))])
+
+
+class Residue:
+    """An element of a ring of residues: its coefficients, lowest first."""
+
+    __slots__ = ("ring", "value")
+
+    def __init__(self, ring: Residues, value: list[int]) -> None:
+        self.ring = ring
+        self.value = value
+
+    def __add__(self, other: Residue) -> Residue:
+        m = self.ring.m
+        return Residue(self.ring, [(x + y) % m for x, y in zip(self.value, other.value, strict=True)])
+
+    def __sub__(self, other: Residue) -> Residue:
+        m = self.ring.m
+        return Residue(self.ring, [(x - y) % m for x, y in zip(self.value, other.value, strict=True)])
+
+    def __rmul__(self, scalar: int) -> Residue:
+        m = self.ring.m
+        return Residue(self.ring, [scalar * x % m for x in self.value])
+
+    def __mul__(self, other: Residue) -> Residue:
+        ring = self.ring
+        low = ring.packed(self.value) * ring.packed(other.value)
+        coefficients = ring.unpacked(low, 2 * ring.degree)
+        total = ring.packed(coefficients[: ring.degree])
+        for coefficient, power in zip(coefficients[ring.degree :], ring.powers, strict=True):
+            total += coefficient * power
+        return Residue(ring, ring.unpacked(total, ring.degree))
+
+    def polynomial(self) -> Polynomial:
+        """The representative of smallest degree."""
+        return reduced(self.value, self.ring.m)
+
+
+def good_primes(polynomial: Polynomial) -> list[int]:
+    """The primes that do not divide the leading coefficient."""
+    return [p for p in PRIMES if polynomial[-1] % p]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Checks 1 to 5: the roots of the eliminant are distinct poses of the robot
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def check_eliminant(representation: Representation) -> Iterator[str]:
+    """Check 1."""
+    h = representation.h
+    degree = len(h) - 1
+    require(
+        degree <= GREATEST_NUMBER,
+        f"eliminant: degree {degree}, but six legs have at most {GREATEST_NUMBER} isolated poses",
+    )
+    content = gcd(*h, *(coefficient for numerator in representation.numerators for coefficient in numerator))
+    require(h[-1] > 0 and content == 1, "eliminant: not in lowest terms with positive leading coefficient")
+    h0 = primitive_part(h)
+    squarefree = any(is_coprime(h0, derivative(h0), p) for p in good_primes(h0))
+    require(squarefree, "eliminant: not proved squarefree")
+    yield f"eliminant: squarefree of degree {degree}"
+
+
+def is_coprime(h0: Polynomial, q: Polynomial, p: int) -> bool:
+    """Whether two polynomials have no common factor modulo p."""
+    return len(common_divisor(reduced(h0, p), reduced(q, p), p)) == 1
+
+
+def check_distinct(representation: Representation) -> Iterator[str]:
+    """Checks 2 and 3, as identities of polynomials of degree below D."""
+    h, numerators = representation.h, representation.numerators
+    degree = len(h) - 1
+    small = all(len(numerator) <= degree for numerator in numerators)
+    require(small, "representation: a numerator has not a smaller degree than the eliminant")
+    padded = [[*numerator, *[0] * (degree - len(numerator))] for numerator in numerators]
+    slope = derivative(h)
+    chart = [combination(representation.w, column) for column in zip(*padded[:4], strict=True)]
+    require(chart == slope, "chart: w.e is not 1 at the roots of the eliminant")
+    yield "chart: w.e = 1 at every solution"
+    form = [combination(representation.c, column) for column in zip(*padded, strict=True)]
+    expected = [(power - degree) * coefficient for power, coefficient in enumerate(h[:-1])]  # T h' - D h
+    require(form == expected, "separating form: its values are not the roots of the eliminant")
+    yield f"separating form: takes {degree} different values, the solutions are distinct"
+
+
+def check_poses(representation: Representation, legs: Sequence[Leg], g: Metric) -> Iterator[str]:
+    """Checks 4 and 5: h0 divides e.f and the forms of the legs, and is coprime to N."""
+    h0 = primitive_part(representation.h)
+    e1, e2, f0, f3 = (representation.numerators[place] for place in (1, 2, 4, 7))
+    planar = len(legs) == 3
+    flat = not planar or not any((e1, e2, f0, f3))
+    require(flat, "motion: e1, e2, f0 and f3 are not all 0, but the robot is planar")
+    forms = [leg_form(leg, g) for leg in legs]
+    multiples, placed = evaluated(representation, g, max(map(size, forms)))
+    require(multiples.include(placed.study), "motion: e.f is not 0 at every root of the eliminant")
+    require(
+        any(is_coprime(h0, norm_modulo(representation, g, p), p) for p in good_primes(h0)),
+        "motion: not proved that N(e) is nowhere 0",
+    )
+    yield "motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
+    quantities = placed.quantities()
+    for number, form in enumerate(forms, 1):
+        holds = multiples.include(combination(form, quantities))
+        require(holds, f"legs: leg {number} does not have its length at every solution")
+    yield f"legs: all {len(legs)} have their lengths at every solution"
+
+
+def evaluated(representation: Representation, g: Metric, scale: int) -> tuple[Multiples, Motion]:
+    """The quantities of the motion at a power of 2 that is large enough for forms in them of size ``scale``."""
+    largest = max(map(size, representation.numerators))
+    bound = 4 * max(g) ** 3 * largest**2  # each quantity is a quadratic form in (e, f) of size 4 max(g)^3 at most
+    multiples = Multiples(primitive_part(representation.h), bound * max(scale, 1))
+    values = [at_power(numerator, multiples.k) for numerator in representation.numerators]
+    return multiples, motion(values[:4], values[4:], g)
+
+
+def norm_modulo(representation: Representation, g: Metric, p: int) -> Polynomial:
+    """N(E) modulo p and h0."""
+    return motion_modulo(representation, g, primitive_part(representation.h), p).norm.polynomial()  # type: ignore[no-any-return]
+
+
+def motion_modulo(representation: Representation, g: Metric, modulus: Polynomial, m: int) -> Motion:
+    """The quantities of the motion modulo m and a polynomial."""
+    ring = Residues(modulus, m)
+    x = [ring.element(numerator) for numerator in representation.numerators]
+    return motion(x[:4], x[4:], g)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 6: the real poses. Real roots by the rule of Descartes, coordinates by interval arithmetic
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Root(NamedTuple):
+    """A real root t: 2^k t = m if ``exact``, else m < 2^k t < m + 1. Other roots are outside, perhaps at an end."""
+
+    m: int
+    k: int
+    exact: bool
+
+
+TOO_CLOSE: Final = f"real poses: the roots are not told apart by {MAX_ISOLATION} bits"
+
+
+def real_roots(h0: Polynomial) -> list[Root]:
+    """The real roots of a squarefree polynomial, increasing, each isolated. All are below 2^b (Fujiwara)."""
+    lead = h0[-1].bit_length() - 1
+    b = max(2 + (c.bit_length() - lead) // (len(h0) - 1 - power) for power, c in enumerate(h0[:-1]))
+    b = max(b, 0)
+    affordable(b <= MAX_ISOLATION, TOO_CLOSE)
+    mirrored = [-c if power % 2 else c for power, c in enumerate(h0)]
+    roots = [Root(-m - (not exact), k, exact) for m, k, exact in positive_roots(mirrored, b)]
+    roots += [*positive_roots(h0, b), *[Root(0, 0, True)] * (not h0[0])]
+    return sorted(roots, key=lambda root: Fraction(2 * root.m + (not root.exact), 2 << root.k))
+
+
+def positive_roots(h0: Polynomial, b: int) -> Iterator[Root]:
+    """The roots in (0, 2^b), in any order: intervals (m, m + 1) / 2^k are halved until Descartes' rule decides.
+
+    q is h0 on the interval, mapped to (0, 1). The number of changes of sign in the coefficients of
+    (1 + x)^D q(1 / (1 + x)) is that of the roots in (0, 1), or greater by an even number.
+    """
+    pending = [(0, -b, [c << (b * power) for power, c in enumerate(h0)])]
+    while pending:
+        m, k, q = pending.pop()
+        changes = sign_changes(shifted(q[::-1]))
+        if changes == 1 and k >= 0:
+            yield Root(m, k, False)
+        elif changes:
+            affordable(k < MAX_ISOLATION, TOO_CLOSE)
+            left = [c << (len(q) - 1 - power) for power, c in enumerate(q)]
+            right = shifted(left)
+            if not right[0]:
+                yield Root(2 * m + 1 << max(-k - 1, 0), max(k + 1, 0), True)
+            pending += [(2 * m, k + 1, left), (2 * m + 1, k + 1, right)]
+
+
+def shifted(q: Sequence[int]) -> Polynomial:
+    """q(x + 1), by the triangle of Pascal."""
+    rest, result = list(q[::-1]), []
+    while rest:
+        rest = list(accumulate(rest))
+        result.append(rest.pop())
+    return result
+
+
+def sign_changes(coefficients: Sequence[int]) -> int:
+    """The number of changes of sign, zeros left out."""
+    signs = [c > 0 for c in coefficients if c]
+    return sum(a != b for a, b in pairwise(signs))
+
+
+def value_at(polynomial: Polynomial, m: int, k: int) -> int:
+    """The value at m / 2^k, times 2^(k degree)."""
+    value = 0
+    for power, coefficient in enumerate(reversed(polynomial)):
+        value = value * m + (coefficient << (k * power))
+    return value
+
+
+def refined(h0: Polynomial, root: Root, k: int) -> Root:
+    """The root on the finer grid 2^-k.
+
+    By halving where an end is another root, then by quadratic refinement (Abbott 2014): a cell 2^step times as fine is
+    guessed by the secant; after a right guess, which two signs prove, step is doubled, otherwise halved.
+    """
+    m, grid, exact = root
+    degree, step = len(h0) - 1, 1
+    low, high = value_at(h0, m, grid), value_at(h0, m + 1, grid)
+    is_positive = (low or value_at(derivative(h0), m, grid)) > 0
+    while not exact and grid < k:
+        step = min(step, k - grid)
+        if step == 1 or not low or not high:
+            m, grid = 2 * m, grid + 1
+            middle = value_at(h0, m + 1, grid)
+            exact = not middle
+            m, low, high = (
+                (m + 1, middle, high << degree) if exact or (middle > 0) == is_positive else (m, low << degree, middle)
+            )
+            step = 2
+            continue
+        guess = (m << step) + (low << step) // (low - high)
+        ends = value_at(h0, guess, grid + step), value_at(h0, guess + 1, grid + step)
+        if not all(ends):
+            m, grid, exact = guess + (not ends[1]), grid + step, True
+        elif (ends[0] > 0) == is_positive != (ends[1] > 0):
+            m, grid, low, high, step = guess, grid + step, *ends, 2 * step
+        else:
+            step //= 2
+    return Root(m << (k - grid), k, exact)
+
+
+def isolated(h0: Polynomial) -> list[Root]:
+    """The real roots in the cells of the coarsest grid, from 2^-32 on, where each closed cell holds one root only."""
+    roots = real_roots(h0)
+    k = max(32, *(root.k for root in roots)) if roots else 32
+    roots = [refined(h0, root, k) for root in roots]
+    while any(b.m <= a.m + 1 for a, b in pairwise(roots)):
+        affordable(k < MAX_ISOLATION, TOO_CLOSE)
+        k = min(2 * k, MAX_ISOLATION)
+        roots = [refined(h0, root, k) for root in roots]
+    grids = ([coarser(root, grid) for root in roots] for grid in range(32, k + 1))
+    return next(cells for cells in grids if are_apart(cells))
+
+
+def coarser(root: Root, k: int) -> Root:
+    """The cell of a root on a coarser grid."""
+    shift = root.k - k
+    return Root(root.m >> shift, k, root.exact and not root.m & ((1 << shift) - 1))
+
+
+def are_apart(roots: Sequence[Root]) -> bool:
+    """Whether no closed cell holds a neighbouring root."""
+    return not any(a.m == b.m or (a.m + 1 == b.m and b.exact and not a.exact) for a, b in pairwise(roots))
+
+
+class Interval:
+    """The real numbers from low / 2^p to high / 2^p; results of operations are rounded outward."""
+
+    __slots__ = ("high", "low", "p")
+
+    def __init__(self, low: int, high: int, p: int) -> None:
+        self.low = low
+        self.high = high
+        self.p = p
+
+    def __add__(self, other: Interval) -> Interval:
+        return Interval(self.low + other.low, self.high + other.high, self.p)
+
+    def __sub__(self, other: Interval) -> Interval:
+        return Interval(self.low - other.high, self.high - other.low, self.p)
+
+    def __rmul__(self, scalar: int) -> Interval:
+        ends = scalar * self.low, scalar * self.high
+        return Interval(min(ends), max(ends), self.p)
+
+    def __mul__(self, other: Interval) -> Interval:
+        ends = [x * y for x in (self.low, self.high) for y in (other.low, other.high)]
+        return Interval(min(ends) >> self.p, -(-max(ends) >> self.p), self.p)
+
+    def over(self, other: Interval) -> Interval:
+        """The quotient by an interval that does not contain 0."""
+        pairs = [(x << self.p, y) for x in (self.low, self.high) for y in (other.low, other.high)]
+        return Interval(min(x // y for x, y in pairs), max(-(-x // y) for x, y in pairs), self.p)
+
+    def root(self) -> Interval:
+        """The square root of an interval of positive numbers."""
+        return Interval(isqrt(self.low << self.p), isqrt((self.high << self.p) - 1) + 1, self.p)
+
+    def contains_zero(self) -> bool:
+        """Whether 0 is in the interval."""
+        return self.low <= 0 <= self.high
+
+
+def check_real_poses(certificate: Certificate, representation: Representation) -> Iterator[str]:
+    """Check 6. The real poses are those with a real parameter."""
+    h0, g = primitive_part(representation.h), certificate.metric
+    roots = isolated(h0)
+    listed = len(certificate.poses)
+    require(listed == len(roots), f"real poses: {listed} listed, the eliminant has {len(roots)} real roots")
+    enclosures = [partial(at_root, representation, g, root) for root in roots]
+    boxes = [cells_of(enclose, certificate.box_exponent) for enclose in enclosures]
+    order = sorted(range(len(roots)), key=lambda place: boxes[place][:12])
+    for number, (pose, place) in enumerate(zip(certificate.poses, order, strict=True), 1):
+        root = roots[place]
+        same = pose.parameter == ends(root.m, root.m + (not root.exact), root.k)
+        require(same, f"real poses: pose {number} does not have the isolating interval of real root {place + 1}")
+    yield f"real poses: {listed}, one for each real root of the eliminant"
+    yield from check_cells(certificate, [boxes[place] for place in order])
+
+
+def at_root(representation: Representation, g: Metric, root: Root, p: int) -> list[Interval] | None:
+    """Enclosures of the coordinates of the pose at a root."""
+    finer = refined(primitive_part(representation.h), root, max(p, root.k))
+    return coordinates(representation, g, finer, p)
+
+
+def check_cells(certificate: Certificate, boxes: Sequence[list[tuple[int, int]]]) -> Iterator[str]:
+    """The intervals listed are those of the poses, and no two boxes meet."""
+    poses, exponent = certificate.poses, certificate.box_exponent
+    for number, (pose, cells) in enumerate(zip(poses, boxes, strict=True), 1):
+        same = pose.box == tuple(ends(low, high, exponent) for low, high in cells)
+        require(same, f"boxes: the box of pose {number} is not that of its solution")
+    yield f"boxes: all {16 * len(poses)} intervals are those of the solutions, on the grid 2^-{exponent}"
+    for (i, one), (j, other) in combinations(enumerate(boxes, 1), 2):
+        apart = any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one[:12], other[:12], strict=True))
+        require(apart, f"boxes: those of poses {i} and {j} are not disjoint in position or rotation")
+    yield "boxes: pairwise disjoint in position or rotation"
+
+
+def ends(low: int, high: int, exponent: int) -> Ends:
+    """The ends of an interval on the grid 2^-exponent, as they are listed."""
+    return str(Fraction(low, 1 << exponent)), str(Fraction(high, 1 << exponent))
+
+
+def cells_of(enclose: Callable[[int], list[Interval] | None], exponent: int) -> list[tuple[int, int]]:
+    """The cells of the 16 coordinates of a pose on the grid 2^-exponent, from enclosures in any precision."""
+    p, late = exponent + 256, 0
+    while True:
+        affordable(p <= MAX_PRECISION, f"boxes: a coordinate is not decided by {MAX_PRECISION} bits")
+        values = enclose(p)
+        if values is not None and all(value.high - value.low < 1 << (p - exponent - 40) for value in values):
+            cells = [cell(value, p - exponent, late=late == 4) for value in values]
+            decided = [found for found in cells if found is not None]
+            if len(decided) == len(cells):
+                return decided
+            late += 1
+        p *= 2
+
+
+def cell(value: Interval, shift: int, *, late: bool) -> tuple[int, int] | None:
+    """The cell of y, enclosed to 2^-40 with 2^shift for the unit; None if it is not decided whether y is near to n."""
+    unit = 1 << shift
+    n = (value.low + value.high + unit) // (2 * unit)
+    distances = abs(value.low - n * unit), abs(value.high - n * unit)
+    nearest = 0 if value.low <= n * unit <= value.high else min(distances)
+    limit = unit >> 32
+    if max(distances) < limit or (late and nearest <= limit):
+        return n - 1, n + 1
+    return (value.low // unit, value.low // unit + 1) if nearest > limit else None
+
+
+def coordinates(representation: Representation, g: Metric, root: Root, p: int) -> list[Interval] | None:
+    """Position, rotation and quaternion at a root; None if the precision does not suffice."""
+    h = representation.h
+    padded = [[*numerator, *[0] * (len(h) - len(numerator))] for numerator in representation.numerators]
+    slope = enclosed([*derivative(h), 0], root, p)
+    if slope.contains_zero():
+        return None
+    return ordinary([enclosed(numerator, root, p).over(slope) for numerator in padded], g, p)
+
+
+def ordinary(x: Sequence[Interval], g: Metric, p: int) -> list[Interval] | None:
+    """Position, rotation and quaternion in ordinary coordinates at (e, f); None if N(e) is not enclosed well enough."""
+    placed = motion(x[:4], x[4:], g)
+    if placed.norm.low <= 0:
+        return None
+    axes = [Interval(value << p, value << p, p).root() for value in g]
+    length = placed.norm.root()
+    position = [(axis * value).over(placed.norm) for axis, value in zip(axes, placed.position, strict=True)]
+    rotation = [(axes[i] * placed.rotation[i][j]).over(axes[j] * placed.norm) for i in range(3) for j in range(3)]
+    quaternion = [axes[0] * axes[1] * axes[2] * x[0], *(axis * value for axis, value in zip(axes, x[1:4], strict=True))]
+    return [*position, *rotation, *(value.over(length) for value in quaternion)]
+
+
+def enclosed(polynomial: Polynomial, root: Root, p: int) -> Interval:
+    """The value at the root, times a power of 2 that depends on the root and the length of the polynomial only.
+
+    The value at the lower end of the cell is exact; over the cell it changes by less than its width, 2^-k, times the
+    sum of i |a_i| 2^(b (i - 1)), where 2^b is above all numbers in the cell.
+    """
+    m, k, exact = root
+    value = value_at(polynomial, m, k)
+    b = max(0, (abs(m) + 1).bit_length() - k)
+    slope = sum(i * abs(c) << (b * (i - 1)) for i, c in enumerate(polynomial) if i)
+    error = 0 if exact else slope << (k * (len(polynomial) - 2))
+    return Interval(value - error, value + error, p)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 7: simple solutions
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def are_simple(representation: Representation, legs: Sequence[Leg], g: Metric) -> bool:
+    """Whether the determinant of the leg lines is coprime to h0 modulo a prime."""
+    h0 = primitive_part(representation.h)
+    return any(len(common_divisor(h0_p, lines, p)) == 1 for p, h0_p, lines in lines_modulo(h0, representation, legs, g))
+
+
+def lines_modulo(
+    h0: Polynomial, representation: Representation, legs: Sequence[Leg], g: Metric
+) -> Iterator[tuple[int, Polynomial, Polynomial]]:
+    """Primes, with h0 and the determinant of the leg lines modulo them."""
+    for p in good_primes(h0):
+        placed = motion_modulo(representation, g, h0, p)
+        yield p, reduced(h0, p), determinant(leg_lines(legs, placed)).polynomial()
+
+
+def leg_lines(legs: Sequence[Leg], placed: Motion) -> list[list[Any]]:
+    """Rows (d, b x d) with d = N (C + R B - A) and b = N R B, times q^2; for planar robots d1, d2 and the third moment.
+
+    q is a denominator of the joints of the leg; it multiplies the row, and N the last columns.
+    """
+    rows = []
+    for leg in legs:
+        scale, *joints = cleared([Fraction(1), *leg.base, *leg.platform])
+        arm = [combination(joints[3:], row) for row in placed.rotation]
+        line = [scale * placed.position[i] + arm[i] - joints[i] * placed.norm for i in range(3)]
+        moment = [arm[j] * line[k] - arm[k] * line[j] for _, j, k in CYCLIC]
+        row = [*(scale * entry for entry in line), *moment]
+        rows.append(row if len(legs) == 6 else [row[0], row[1], row[5]])
+    return rows
+
+
+def determinant(rows: Sequence[Sequence[Any]]) -> Any:
+    """The determinant by Laplace's expansion, row by row: n 2^(n - 1) products, no division."""
+    minors: dict[tuple[int, ...], Any] = {(column,): entry for column, entry in enumerate(rows[0])}
+    for number, row in enumerate(rows[1:], 2):
+        wider = {}
+        for columns in combinations(range(len(rows)), number):
+            total: Any = None
+            for place, column in enumerate(columns):
+                term = row[column] * minors[columns[:place] + columns[place + 1 :]]
+                signed = -1 * term if (number - 1 - place) % 2 else term
+                total = signed if total is None else total + signed
+            wider[columns] = total
+        minors = wider
+    return minors[tuple(range(len(rows)))]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 8: elimination
+# ---------------------------------------------------------------------------------------------------------------------
+
+Monomial: TypeAlias = tuple[int, ...]  # exponents
+Terms: TypeAlias = dict[Monomial, int]
+Affine: TypeAlias = dict[Monomial, Fraction]  # also of degree 2: a product of two
+
+MERSENNE: Final = (127, 521, 1279, 2203, 3217, 4423, 9689, 19937, 44497, 86243)
+"""2^n - 1 is prime for these n."""
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """Polynomials that vanish at all poses, in terms of the unknowns, which stand at these places in (u, C, s, R)."""
+
+    places: tuple[int, ...]
+    elements: list[Terms]
+    leading: list[Monomial]
+
+    def is_standard(self, monomial: Monomial) -> bool:
+        """Whether no leading monomial divides this one."""
+        return not any(is_divisor(lead, monomial) for lead in self.leading)
+
+    def basis(self) -> list[Monomial]:
+        """The standard monomials, smallest first; at most 40 of them."""
+        found: list[Monomial] = []
+        layer = list(filter(self.is_standard, [(0,) * len(self.places)]))
+        while layer:
+            found += sorted(layer, key=order)
+            few = len(found) <= GREATEST_NUMBER
+            require(few, f"elimination: it leaves more than {GREATEST_NUMBER} monomials")
+            larger = {times(monomial, axis) for monomial in layer for axis in range(len(self.places))}
+            layer = list(filter(self.is_standard, larger))
+        return found
+
+
+def order(monomial: Monomial) -> tuple[int, ...]:
+    """The key of the degree reverse lexicographic order."""
+    return sum(monomial), *(-exponent for exponent in reversed(monomial))
+
+
+def times(monomial: Monomial, *axes: int) -> Monomial:
+    """The monomial times unknowns."""
+    exponents = list(monomial)
+    for axis in axes:
+        exponents[axis] += 1
+    return tuple(exponents)
+
+
+def is_divisor(one: Monomial, other: Monomial) -> bool:
+    """Whether one monomial divides the other."""
+    return all(a <= b for a, b in zip(one, other, strict=True))
+
+
+def eliminate(legs: Sequence[Leg], g: Metric, steps: Sequence[Step]) -> Elimination:
+    """Check 8."""
+    places, quadrics = section(legs, g)
+    elements = echelon_form(quadrics)
+    leading = [next(iter(element)) for element in elements]
+    for number, step in enumerate(steps, 1):
+        known = all(index < len(elements) and max(factors, default=-1) < len(places) for index, *factors in step)
+        require(known, f"elimination: step {number} names an element or an unknown that there is not")
+        products = [
+            {times(monomial, *factors): value for monomial, value in elements[index].items()}
+            for index, *factors in step
+        ]
+        found = echelon_form(products)
+        new = [element for element in found if not any(is_divisor(lead, next(iter(element))) for lead in leading)]
+        elements += new
+        leading += [next(iter(element)) for element in new]
+    return Elimination(places, elements, leading)
+
+
+def section(legs: Sequence[Leg], g: Metric) -> tuple[tuple[int, ...], list[Terms]]:
+    """The places of the unknowns in (u, C, s, R), and the quadrics in them that vanish at the poses."""
+    rows = []
+    for leg in legs:
+        constant, *rotation = leg_form(leg, g)[:10]
+        position, turned, square = leg_form(leg, g)[10:13], leg_form(leg, g)[13:16], leg_form(leg, g)[16]
+        rows.append([*turned, *position, square, *rotation, constant])
+    if len(legs) == 3:
+        fixed = {2: 0, 5: 0, 9: 0, 12: 0, 13: 0, 14: 0, 15: 1}
+        rows += [[*(int(place == other) for other in range(16)), -value] for place, value in fixed.items()]
+    solved = echelon_form([{(-place,): value for place, value in enumerate(row) if value} for row in rows])
+    pivots = {-next(iter(row))[0]: row for row in solved}
+    places = tuple(place for place in range(16) if place not in pivots)
+    one = (0,) * len(places)
+    coordinates: list[Affine] = []
+    for place in range(16):
+        if place in places:
+            coordinates.append({times(one, places.index(place)): Fraction(1)})
+        else:
+            (_, lead), *rest = pivots[place].items()
+            monomials = [one if column == -16 else times(one, places.index(-column)) for (column,), _ in rest]
+            values = [Fraction(-value, lead) for _, value in rest]
+            coordinates.append(dict(zip(monomials, values, strict=True)))
+    quadrics = [cleared_terms(quadric) for quadric in motion_quadrics(coordinates, g, {one: Fraction(1)})]
+    return places, [*quadrics, *[{one: 1}] * (16 in pivots)]
+
+
+def cleared_terms(polynomial: Affine) -> Terms:
+    """An integer multiple."""
+    return dict(zip(polynomial, cleared(list(polynomial.values())), strict=True))
+
+
+def added(*terms: tuple[Fraction | int, Affine]) -> Affine:
+    """The combination of polynomials."""
+    total: Affine = {}
+    for scalar, polynomial in terms:
+        for monomial, value in polynomial.items():
+            total[monomial] = total.get(monomial, Fraction(0)) + scalar * value
+    return {monomial: value for monomial, value in total.items() if value}
+
+
+def multiplied(a: Affine, b: Affine) -> Affine:
+    """The product."""
+    total: Affine = {}
+    for one, x in a.items():
+        for other, y in b.items():
+            monomial = tuple(map(sum, zip(one, other, strict=True)))
+            total[monomial] = total.get(monomial, Fraction(0)) + x * y
+    return total
+
+
+def motion_quadrics(coordinates: Sequence[Affine], g: Metric, one: Affine) -> Iterator[Affine]:
+    """The equations of rigid motions in check 8, of u, C, s and R given as polynomials."""
+    u, c, s = coordinates[:3], coordinates[3:6], coordinates[6]
+    r = [coordinates[7 + 3 * i : 10 + 3 * i] for i in range(3)]
+    inverse = [Fraction(1, x) for x in g]
+    for i in range(3):
+        for j in range(i, 3):
+            same = int(i == j)
+            yield added(*((g[k], multiplied(r[k][i], r[k][j])) for k in range(3)), (-same * g[i], one))
+            yield added(*((inverse[k], multiplied(r[i][k], r[j][k])) for k in range(3)), (-same * inverse[i], one))
+        yield added(*((1, multiplied(r[i][k], u[k])) for k in range(3)), (-1, c[i]))
+        yield added(*((g[k], multiplied(r[k][i], c[k])) for k in range(3)), (-g[i], u[i]))
+    for v in (u, c):
+        yield added(*((g[k], multiplied(v[k], v[k])) for k in range(3)), (-1, s))
+    for i, j, k in CYCLIC:
+        for x, y, z in CYCLIC:
+            minor = (1, multiplied(r[j][y], r[k][z])), (-1, multiplied(r[j][z], r[k][y]))
+            yield added(*minor, (-g[i] * inverse[x], r[i][x]))
+            # row i of G^-1 (C x R e_x) = R G^-1 (u x e_x), where u x e_x = u_z e_y - u_y e_z
+            left = (inverse[i], multiplied(c[j], r[k][x])), (-inverse[i], multiplied(c[k], r[j][x]))
+            right = (-inverse[y], multiplied(r[i][y], u[z])), (inverse[z], multiplied(r[i][z], u[y]))
+            yield added(*left, *right)
+
+
+def echelon_form(rows: Sequence[Mapping[Monomial, int]]) -> list[Terms]:
+    """The reduced echelon form over Q, as primitive integer rows, monomials decreasing.
+
+    The columns of the pivots are found modulo a prime, where the rank r is at most that over Q. For them, rows E are
+    computed modulo a larger prime and lifted to rationals. If each given row is, over Q, the combination of E that its
+    entries at the pivots demand, then E spans all given rows, so their rank is r; if moreover each row of E begins at
+    its pivot, then E is the reduced echelon form, which is unique. If not, the prime was too small.
+    """
+    columns = sorted({monomial for row in rows for monomial in row}, key=order, reverse=True)
+    place = {monomial: number for number, monomial in enumerate(columns)}
+    matrix = [{place[monomial]: value for monomial, value in row.items() if value} for row in rows]
+    matrix = [row for row in matrix if row]
+    if not matrix:
+        return []
+    rank = min(len(rows), len(columns))
+    bits = max(abs(value).bit_length() for row in matrix for value in row.values())
+    estimate = rank * rank * (len(columns) - rank + 1) * (bits + len(columns).bit_length())
+    affordable(estimate <= MAX_ECHELON_BITS, "elimination: a matrix is too large")
+    pivots = pivots_modulo(matrix, MERSENNE[0])
+    for n in [n for n in MERSENNE if n >= min(2 * bits, MERSENNE[-1])]:
+        lifted = lifted_rows(solved_modulo(matrix, pivots, n), n)
+        if (
+            lifted is not None
+            and all(min(row) == pivot for pivot, row in lifted.items())
+            and all(is_combination(row, lifted) for row in matrix)
+        ):
+            return [{columns[c]: lifted[pivot][c] for c in sorted(lifted[pivot])} for pivot in sorted(lifted)]
+    raise Refusal("too-large", f"elimination: an echelon form has numbers of more than {MERSENNE[-1] // 2} bits")
+
+
+def pivots_modulo(matrix: Sequence[Mapping[int, int]], n: int) -> set[int]:
+    """The columns of the pivots of the echelon form modulo 2^n - 1."""
+    found: dict[int, dict[int, int]] = {}
+    for given in sorted(matrix, key=min):
+        row = remainders(given, n)
+        while row:
+            lead = min(row)
+            factor = row.pop(lead)
+            if lead not in found:
+                found[lead] = scaled(row, factor, n)
+                break
+            subtract(row, factor, found[lead], n)
+    return set(found)
+
+
+def solved_modulo(matrix: Sequence[Mapping[int, int]], pivots: set[int], n: int) -> dict[int, dict[int, int]]:
+    """The rows modulo p = 2^n - 1 that have a 1, left out, at one of the pivots, by pivot, and 0 at the others.
+
+    Any order of elimination serves; to keep the rows sparse, the one with the fewest pivots is next (Markowitz 1957).
+    """
+    rows = [remainders(row, n) for row in matrix]
+    done = []
+    while rows:
+        row = rows.pop(min(range(len(rows)), key=lambda i: len(rows[i].keys() & pivots)))
+        candidates = sorted(row.keys() & pivots)
+        if not candidates:
+            continue
+        pivot = min(candidates, key=lambda column: sum(column in other for other in rows))
+        factor = row.pop(pivot)
+        row = scaled(row, factor, n)
+        done.append((pivot, row))
+        for other in rows:
+            if pivot in other:
+                subtract(other, other.pop(pivot), row, n)
+    solved: dict[int, dict[int, int]] = {}
+    for pivot, row in reversed(done):
+        total = {column: value for column, value in row.items() if column not in pivots}
+        for known in sorted(row.keys() & pivots):
+            for column, value in solved[known].items():
+                total[column] = total.get(column, 0) - row[known] * value
+        solved[pivot] = remainders(total, n)
+    return solved
+
+
+def remainders(row: Mapping[int, int], n: int) -> dict[int, int]:
+    """A row modulo 2^n - 1, without zeros."""
+    return {column: rest for column, value in row.items() if (rest := folded(value, n))}
+
+
+def folded(value: int, n: int) -> int:
+    """The remainder modulo p = 2^n - 1, where 2^n is 1."""
+    p = (1 << n) - 1
+    value = (value & p) + (value >> n)
+    return value if 0 <= value < p else value % p
+
+
+def scaled(row: Mapping[int, int], divisor: int, n: int) -> dict[int, int]:
+    """A row divided by a number, modulo 2^n - 1."""
+    inverse = pow(divisor, -1, (1 << n) - 1)
+    return {column: folded(value * inverse, n) for column, value in row.items()}
+
+
+def subtract(row: dict[int, int], factor: int, other: Mapping[int, int], n: int) -> None:
+    """Subtract a multiple of another row, modulo 2^n - 1."""
+    p = (1 << n) - 1
+    for column, value in other.items():
+        entry = row.get(column, 0) - factor * value
+        entry = (entry & p) + (entry >> n)
+        if not 0 <= entry < p:
+            entry %= p
+        if entry:
+            row[column] = entry
+        else:
+            row.pop(column, None)
+
+
+def lifted_rows(pivots: Mapping[int, Mapping[int, int]], n: int) -> dict[int, dict[int, int]] | None:
+    """Primitive integer rows that are the given ones modulo p = 2^n - 1; None if they are not clearly smaller."""
+    p, lifted = (1 << n) - 1, {}
+    for pivot in sorted(pivots, reverse=True):
+        denominator = 1
+        for value in pivots[pivot].values():
+            denominator *= least_denominator(value * denominator % p, p)
+            if 2 * denominator.bit_length() > n:
+                return None
+        row = {column: value * denominator % p for column, value in pivots[pivot].items()}
+        row = {column: value - p if 2 * value > p else value for column, value in row.items()}
+        largest = max(map(abs, row.values()), default=0)
+        if largest.bit_length() + denominator.bit_length() + 20 > n:
+            return None
+        lifted[pivot] = {pivot: denominator, **row}
+    return lifted
+
+
+def least_denominator(value: int, p: int) -> int:
+    """The denominator of the fraction, numerator below sqrt(p), that is this value modulo p (Wang 1981)."""
+    bound = isqrt(p)
+    older, newer, before, now = p, min(value, p - value), 0, 1
+    while newer > bound:
+        quotient = older // newer
+        older, newer = newer, older - quotient * newer
+        before, now = now, before - quotient * now
+    return abs(now)
+
+
+def is_combination(row: Mapping[int, int], lifted: Mapping[int, Mapping[int, int]]) -> bool:
+    """Whether a row is the combination of the lifted rows that its entries at their pivots demand, over Q."""
+    pivots = [column for column in row if column in lifted]
+    scale = lcm(*(lifted[pivot][pivot] for pivot in pivots))
+    rest = {column: -scale * value for column, value in row.items()}
+    for pivot in pivots:
+        factor = row[pivot] * (scale // lifted[pivot][pivot])
+        for column, value in lifted[pivot].items():
+            rest[column] = rest.get(column, 0) + factor * value
+    return not any(rest.values())
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 9: the algebra that an elimination defines, and multiplicities
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Vector(NamedTuple):
+    """Rational coordinates on the basis of an algebra, with a common denominator."""
+
+    numerators: list[int]
+    denominator: int
+
+
+def combined(terms: Sequence[tuple[int, Vector]], divisor: int, length: int) -> Vector:
+    """The combination of vectors, divided by a number."""
+    common = lcm(*(vector.denominator for _, vector in terms))
+    total = [0] * length
+    for scalar, vector in terms:
+        factor = scalar * (common // vector.denominator)
+        for place, value in enumerate(vector.numerators):
+            total[place] += factor * value
+    shared = gcd(common * divisor, *total)
+    return Vector([value // shared for value in total], common * divisor // shared)
+
+
+@dataclass(frozen=True)
+class Algebra:
+    """The algebra of all poses: row b of ``unknowns[i]`` is the i-th unknown times the b-th monomial of the basis."""
+
+    basis: list[Monomial]
+    unknowns: list[list[Vector]]
+
+    def times_unknown(self, vector: Vector, axis: int) -> Vector:
+        """The product of an element and an unknown."""
+        terms = [(value, row) for value, row in zip(vector.numerators, self.unknowns[axis], strict=True) if value]
+        return combined(terms, vector.denominator, len(self.basis))
+
+    def traces(self) -> tuple[list[list[Vector]], list[Fraction]]:
+        """The products of any two monomials of the basis, and the trace of multiplication by each."""
+        size = len(self.basis)
+        products = {self.basis[0]: [Vector([int(i == j) for j in range(size)], 1) for i in range(size)]}
+        for monomial in self.basis[1:]:
+            axis = next(axis for axis, exponent in enumerate(monomial) if exponent)
+            smaller = tuple(exponent - (place == axis) for place, exponent in enumerate(monomial))
+            products[monomial] = [self.times_unknown(row, axis) for row in products[smaller]]
+        tables = [products[monomial] for monomial in self.basis]
+        diagonals = [[Fraction(row.numerators[i], row.denominator) for i, row in enumerate(rows)] for rows in tables]
+        return tables, [sum(diagonal, Fraction(0)) for diagonal in diagonals]
+
+
+class Reduction:
+    """Coordinates of polynomials modulo the elements, each monomial reduced once."""
+
+    def __init__(self, elimination: Elimination, basis: Sequence[Monomial]) -> None:
+        self.elements = dict(zip(elimination.leading, elimination.elements, strict=True))
+        self.known = {m: Vector([int(m == other) for other in basis], 1) for m in basis}
+        self.basis = set(basis)
+        self.order = list(basis)
+
+    def polynomial(self, terms: Mapping[Monomial, int], divisor: int = 1) -> Vector:
+        """Coordinates of a polynomial divided by a number."""
+        return combined([(value, self.monomial(m)) for m, value in terms.items()], divisor, len(self.order))
+
+    def monomial(self, monomial: Monomial) -> Vector:
+        """Coordinates of a monomial: by the element that it leads, or as an unknown times a smaller monomial."""
+        if monomial not in self.known:
+            if monomial in self.elements:
+                (_, lead), *tail = self.elements[monomial].items()
+                self.known[monomial] = self.polynomial({m: -value for m, value in tail}, lead)
+            else:
+                self.known[monomial] = self.from_smaller(monomial)
+        return self.known[monomial]
+
+    def from_smaller(self, monomial: Monomial) -> Vector:
+        """The case that the monomial leads no element: divided by some unknown it is not standard either."""
+        for axis, exponent in enumerate(monomial):
+            smaller = tuple(e - (place == axis) for place, e in enumerate(monomial))
+            if exponent and smaller not in self.basis:
+                vector = self.monomial(smaller)
+                break
+        terms = zip(self.order, vector.numerators, strict=True)
+        return self.polynomial({times(m, axis): value for m, value in terms if value}, vector.denominator)
+
+
+def quotient_algebra(elimination: Elimination, basis: list[Monomial]) -> Algebra | None:
+    """The algebra, or None if the matrices do not commute or an element is not 0 in it (Mourrain 1999)."""
+    reduction = Reduction(elimination, basis)
+    border = {times(m, axis) for m in basis for axis in range(len(elimination.places))}
+    for m in sorted(border.union(*elimination.elements), key=order):  # smaller ones first, so that recursion is shallow
+        reduction.monomial(m)
+    unknowns = [[reduction.monomial(times(m, axis)) for m in basis] for axis in range(len(elimination.places))]
+    algebra = Algebra(basis, unknowns)
+    for one, other in combinations(range(len(unknowns)), 2):
+        for left, right in zip(unknowns[one], unknowns[other], strict=True):
+            if algebra.times_unknown(left, other) != algebra.times_unknown(right, one):
+                return None
+    if any(any(reduction.polynomial(element).numerators) for element in elimination.elements):
+        return None
+    return algebra
+
+
+def multiplicity_polynomial(
+    algebra: Algebra, representation: Representation, certificate: Certificate, places: Sequence[int]
+) -> Polynomial | None:
+    """V with V(t) = m(t) h0'(t) at each root t of h0, where m(t) is the multiplicity; None if it is not found.
+
+    The algebra must have D distinct solutions: those at the roots of h0. For a combination u of unknowns,
+    Tr(u^k) is the sum of m(t) u(t)^k. Modulo p, u is a polynomial in T modulo h0, by the representation. If
+    1, u, u^2, .. are independent there, these equations yield s_j = sum of m(t) t^j, and V = sum of m(t) h0 / (T - t)
+    follows. Now V is an integer polynomial: the sum over m of m a' b, where h0 = a b and the roots of a are those of
+    multiplicity m. Its coefficients are at most n^2 D 2^D times the size of h0 (Mignotte), less than p / 2.
+    """
+    h0 = primitive_part(representation.h)
+    tables, traces = algebra.traces()
+    rows: list[Terms] = [
+        {(-j,): value for j, value in enumerate(cleared([inner(row, traces) for row in table])) if value}
+        for table in tables
+    ]
+    if len(echelon_form(rows)) != len(h0) - 1:  # the rank of the trace form
+        return None
+    bound = 2 * len(algebra.basis) ** 2 * len(h0) * size(h0) << len(h0)
+    for n, weight in ((n, weight) for n in MERSENNE if bound >> n == 0 for weight in (3, 5, 7)):
+        p = (1 << n) - 1
+        weights = [pow(weight, power, p) for power in range(len(places))]
+        powers = powers_modulo(representation, certificate.metric, places, weights, p)
+        sums = power_sums(algebra, traces, weights, p, len(h0) - 1)
+        if powers is None or sums is None:
+            continue
+        solved = solved_modulo(
+            [dict(enumerate([*power, total])) for power, total in zip(powers, sums, strict=True)],
+            set(range(len(h0) - 1)),
+            n,
+        )
+        if len(solved) == len(h0) - 1:
+            s = [solved[j].get(len(h0) - 1, 0) for j in range(len(h0) - 1)]
+            v = [sum(x * y for x, y in zip(h0[i:], s, strict=False)) % p for i in range(1, len(h0))]
+            return [x - p if 2 * x > p else x for x in v]
+    raise Refusal("rejected", "elimination: no form in its unknowns tells the multiple solutions apart")
+
+
+def inner(vector: Vector, values: Sequence[Fraction]) -> Fraction:
+    """The value of a linear form at a vector."""
+    return sum((x * y for x, y in zip(vector.numerators, values, strict=True)), Fraction(0)) / vector.denominator
+
+
+def powers_modulo(
+    representation: Representation, g: Metric, places: Sequence[int], weights: Sequence[int], p: int
+) -> list[list[int]] | None:
+    """1, u, .., u^(D - 1) as polynomials in T modulo p and h0; None if p is not suitable."""
+    h0 = primitive_part(representation.h)
+    if not h0[-1] % p:
+        return None
+    placed = motion_modulo(representation, g, h0, p)
+    ordered = [*placed.turned, *placed.position, placed.square, *placed.by_rows()]
+    inverse = inverse_modulo(placed.norm.polynomial(), h0, p)
+    if inverse is None:
+        return None
+    ring: Residues = placed.norm.ring
+    u = combination(weights, [ordered[place] for place in places]) * ring.element(inverse)
+    powers = [ring.element([1])]
+    for _ in range(ring.degree - 1):
+        powers.append(powers[-1] * u)
+    return [power.value for power in powers]
+
+
+def inverse_modulo(a: Polynomial, g: Polynomial, p: int) -> Polynomial | None:
+    """The inverse modulo g and a prime; None if there is none. Each remainder of Euclid's algorithm is c a modulo g."""
+    older: tuple[Polynomial, Polynomial] = (reduced(g, p), [])
+    newer: tuple[Polynomial, Polynomial] = (a, [1])
+    while len(newer[0]) > 1:
+        quotient, rest = divided(older[0], newer[0], p)
+        step = product(quotient, newer[1], p)
+        length = max(len(step), len(older[1]))
+        c = [x - y for x, y in zip(padded(older[1], length), padded(step, length), strict=True)]
+        older, newer = newer, (rest, reduced(c, p))
+    return [c * pow(newer[0][0], -1, p) % p for c in newer[1]] if newer[0] else None
+
+
+def padded(polynomial: Polynomial, length: int) -> list[int]:
+    """The coefficients, with zeros up to a length."""
+    return [*polynomial, *[0] * (length - len(polynomial))]
+
+
+def power_sums(
+    algebra: Algebra, traces: Sequence[Fraction], weights: Sequence[int], p: int, number: int
+) -> list[int] | None:
+    """Tr(1), Tr(u), .. modulo p; None if p divides a denominator."""
+    vectors = [row for rows in algebra.unknowns for row in rows]
+    if any(x % p == 0 for x in [*(v.denominator for v in vectors), *(trace.denominator for trace in traces)]):
+        return None
+    tau = [trace.numerator * pow(trace.denominator, -1, p) % p for trace in traces]
+    matrix = [[0] * len(tau) for _ in tau]
+    for weight, rows in zip(weights, algebra.unknowns, strict=True):
+        for target, row in zip(matrix, rows, strict=True):
+            factor = weight * pow(row.denominator, -1, p)
+            target[:] = [(x + factor * y) % p for x, y in zip(target, row.numerators, strict=True)]
+    vector = [1] + [0] * (len(tau) - 1)
+    sums = []
+    for _ in range(number):
+        sums.append(sum(x * y for x, y in zip(vector, tau, strict=True)) % p)
+        vector = [sum(x * row[j] for x, row in zip(vector, matrix, strict=True)) % p for j in range(len(tau))]
+    return sums
+
+
+def multiplicities(v: Polynomial, representation: Representation) -> dict[Ends, int]:
+    """V / h0' at the real roots, by the texts of their isolating intervals."""
+    h0 = primitive_part(representation.h)
+    found = {}
+    for root in isolated(h0):
+        finer, p = root, 64
+        while True:
+            slope = enclosed(derivative(h0), finer, p)
+            if not slope.contains_zero():
+                value = enclosed(padded(v, len(h0) - 1), finer, p).over(slope)
+                if value.high - value.low < 1 << (p - 1):
+                    break
+            finer = refined(h0, finer, 2 * max(finer.k, 32))
+        found[ends(root.m, root.m + (not root.exact), root.k)] = (value.low + value.high + (1 << p)) >> (p + 1)
+    return found
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Checks 9 and 10: counts and claims
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Proved(NamedTuple):
+    """What is proved of all solutions; ``multiplicity`` by parameter, None where they are not known."""
+
+    claim: str
+    route: str | None
+    total: int | None
+    has_multiple: bool
+    multiplicity: dict[Ends, int] | None
+
+
+def check_claims(certificate: Certificate) -> Iterator[str]:
+    """The claim is what is proved, no more and no less."""
+    claimed, listed = certificate.counts[2], len(certificate.poses)
+    require(claimed == listed, f"real poses: {claimed} claimed, {listed} listed")
+    check_parts(certificate)
+    if certificate.boxes is not None:
+        yield from boxes_listed(certificate, certificate.boxes)
+    elif certificate.representation is None:
+        yield from nothing_listed(certificate)
+    elif certificate.claim == "positive-dimensional-proved":
+        yield from check_self_motion(certificate, certificate.representation)
+    else:
+        yield from solutions_listed(certificate, certificate.representation)
+
+
+def check_parts(certificate: Certificate) -> None:
+    """What a certificate must have depends on its method and claim."""
+    boxes = certificate.boxes is not None
+    if certificate.method == "krawczyk":
+        alone = boxes and certificate.representation is None and certificate.elimination is None
+        require(alone, "method: krawczyk needs boxes, and neither a representation nor an elimination")
+    else:
+        beside = not boxes or certificate.claim.startswith("positive-dimensional")
+        require(beside, "method: exact, but boxes around solutions, and no positive dimension is claimed")
+
+
+def nothing_listed(certificate: Certificate) -> Iterator[str]:
+    """Without a representation, an elimination may prove that there is nothing; else nothing is proved."""
+    nothing = not any(certificate.counts) and not certificate.poses
+    require(nothing, "representation: missing, but solutions are claimed")
+    claim = certificate.claim, certificate.route
+    if certificate.elimination is None and claim == ("not-proven-complete", None):
+        yield "not proven complete: no solution is listed, and none is excluded"
+    elif certificate.elimination is None and claim == ("positive-dimensional-detected", None):
+        yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
+    elif certificate.elimination is not None and claim == ("inconsistent", "exact-elimination"):
+        elimination = eliminate(certificate.legs, certificate.metric, certificate.elimination)
+        origin = (0,) * len(elimination.places)
+        require(not elimination.is_standard(origin), "elimination: it leaves more than 0 monomials")
+        yield "inconsistent: 1 = 0 follows from the leg lengths, there is no solution, real or complex"
+    else:
+        raise Refusal("rejected", f"claim: {certificate.claim} is not proved by what is in the certificate")
+
+
+def solutions_listed(certificate: Certificate, representation: Representation) -> Iterator[str]:
+    """The claim, the counts and the multiplicities beside solutions."""
+    total, distinct, _ = certificate.counts
+    number = len(representation.h) - 1
+    require(distinct == number, f"distinct solutions: {distinct} claimed, {number} proved")
+    proved = proved_of_all(certificate, representation)
+    claimed = f"{certificate.claim} by {certificate.route or 'no route'}"
+    require(
+        (certificate.claim, certificate.route) == (proved.claim, proved.route),
+        f"claim: {claimed}, but what is proved is {proved.claim} by {proved.route or 'no route'}",
+    )
+    require(proved.total in (None, total), f"complex solutions: {total} claimed, {proved.total} proved")
+    possible = number <= total <= GREATEST_NUMBER
+    require(possible, f"complex solutions: {total} claimed, {number} distinct ones proved")
+    for place, pose in enumerate(certificate.poses, 1):
+        expected = None if proved.multiplicity is None else proved.multiplicity.get(pose.parameter or ("", ""), 1)
+        same = pose.multiplicity == expected
+        require(same, f"multiplicity: that of pose {place} differs from what is proved")
+    yield from solution_lines(number, total, proved)
+
+
+def solution_lines(number: int, total: int, proved: Proved) -> Iterator[str]:
+    """What is proved, in words."""
+    if proved.total is None:
+        yield (
+            f"complex solutions: {number} distinct; not proved that all are simple, and the number {total} with "
+            "multiplicity is not proved"
+        )
+    elif proved.has_multiple:
+        yield f"complex solutions: {number} distinct, {total} with multiplicity"
+    else:
+        yield f"complex solutions: {number}, each isolated and simple, its leg lines are independent"
+    if proved.route == "refined-bezout":
+        yield f"complete: {number} isolated solutions are the degree of the rigid motions, there is no other"
+    elif proved.route == "exact-elimination":
+        yield f"complete: polynomials over Q that vanish at all poses leave room for {proved.total}, there is no other"
+    else:
+        yield f"not proven complete: {number} solutions are proved, others are not excluded"
+
+
+def proved_of_all(certificate: Certificate, representation: Representation) -> Proved:
+    """The strongest claim that is proved.
+
+    Argument (1) of check 10 is used for simple solutions alone. Where it closes with double ones, n is the dimension of
+    the algebra of all poses, so the standard monomials are a basis of it, and argument (2), used here, closes as well.
+    """
+    number = len(representation.h) - 1
+    simple = are_simple(representation, certificate.legs, certificate.metric)
+    if certificate.elimination is None:
+        if simple and number == GREATEST_NUMBER and len(certificate.legs) == 6:
+            return Proved("complete", "refined-bezout", number, False, {})
+        return Proved("not-proven-complete", None, number if simple else None, False, {} if simple else None)
+    elimination = eliminate(certificate.legs, certificate.metric, certificate.elimination)
+    basis = elimination.basis()
+    if simple and len(basis) == number:
+        return Proved("complete", "exact-elimination", number, False, {})
+    algebra = quotient_algebra(elimination, basis) if basis else None
+    v = multiplicity_polynomial(algebra, representation, certificate, elimination.places) if algebra else None
+    if v is None:
+        line = f"elimination: it leaves {len(basis)} monomials, the solutions are not proved to fill them"
+        raise Refusal("rejected", line)
+    has_multiple = v != derivative(primitive_part(representation.h))
+    return Proved("complete", "exact-elimination", len(basis), has_multiple, multiplicities(v, representation))
+
+
+def check_self_motion(certificate: Certificate, representation: Representation) -> Iterator[str]:
+    """The witnesses, poses by checks 1 to 5, lie on a set of poses of positive dimension: three arguments."""
+    nothing = certificate.boxes is not None or not (any(certificate.counts) or certificate.poses)
+    require(nothing, "claim: beside positive dimension, isolated solutions are claimed without boxes")
+    alone = certificate.route is None and certificate.elimination is None
+    require(alone, "claim: beside positive dimension, completeness is claimed")
+    planar = len(certificate.legs) == 3
+    freedom = 3 if planar else 6
+    rank = rank_of([quantities_form(leg, certificate.metric, planar=planar) for leg in certificate.legs])
+    sides = [leg.base for leg in certificate.legs], [leg.platform for leg in certificate.legs]
+    turning = max(turning_dimension(joints, planar=planar) for joints in sides)
+    if freedom - rank > turning:
+        yield f"positive dimension: the legs have rank {rank}, the robot moves in dimension {freedom - rank} at least"
+    elif turning:
+        yield f"positive dimension: joints lie on a line or in a point, the robot turns in dimension {turning} at least"
+    else:
+        parallel = legs_are_one_vector(certificate, representation)
+        require(parallel, "claim: positive-dimensional-proved is not proved by the witnesses")
+        path = "circle" if planar else "sphere"
+        yield f"positive dimension: all legs are the same vector, the platform moves on a {path} without turning"
+
+
+def rank_of(rows: Sequence[Sequence[int]]) -> int:
+    """The rank over Q."""
+    return len(echelon_form([{(-place,): value for place, value in enumerate(row)} for row in rows]))
+
+
+def quantities_form(leg: Leg, g: Metric, *, planar: bool) -> list[int]:
+    """L on the 17 quantities; of a planar robot on N (1, r11, r21 / g1, C1, C2, u1, u2, |C|^2)."""
+    form = leg_form(leg, g)
+    if not planar:
+        return form
+    constant, r11, r12, r21, r22 = (form[place] for place in (0, 1, 2, 4, 5))
+    return [constant, r11 + r22, g[0] * r21 - g[1] * r12, *form[10:12], *form[13:15], form[16]]
+
+
+def turning_dimension(joints: Sequence[Point], *, planar: bool) -> int:
+    """The dimension of the turns that leave all joints where they are."""
+    shifts = [[x - y for x, y in zip(joint, joints[0], strict=True)] for joint in joints[1:]]
+    spanned = rank_of([cleared(shift) for shift in shifts])
+    turns = {0: 1} if planar else {0: 3, 1: 1}
+    return turns.get(spanned, 0)
+
+
+def legs_are_one_vector(certificate: Certificate, representation: Representation) -> bool:
+    """Whether h0 divides the entries of N R (B_i - B_1) - N (A_i - A_1)."""
+    first, *others = certificate.legs
+    forms = []
+    for leg in others:
+        shift = cleared(
+            [
+                Fraction(1),
+                *map(Fraction.__sub__, leg.platform, first.platform),
+                *map(Fraction.__sub__, leg.base, first.base),
+            ]
+        )
+        forms.append((shift[1:4], shift[4:]))
+    scale = max(size([*platform, *base]) for platform, base in forms)
+    multiples, placed = evaluated(representation, certificate.metric, scale)
+    return all(
+        multiples.include(combination([*platform, -base[i]], [*placed.rotation[i], placed.norm]))
+        for platform, base in forms
+        for i in range(3)
+    )
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 11: boxes with one solution each, by the operator of Krawczyk
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class System:
+    """n equations in n Study coordinates: x^T Q x = 0, where ``forms`` are the matrices 2 Q, and chart.x = 1."""
+
+    places: tuple[int, ...]
+    forms: list[list[list[int]]]
+    chart: list[int]
+    norm: list[int]
+
+    def restricted(self, box: Box) -> Box:
+        """The box in the coordinates of the system."""
+        kept = self.places
+        return replace(box, centre=tuple(box.centre[i] for i in kept), radius=tuple(box.radius[i] for i in kept))
+
+    def slopes(self, x: Sequence[Gaussian]) -> list[list[Gaussian]]:
+        """F'(x)."""
+        rows = [[dot(row, x) for row in form] for form in self.forms]
+        return [*rows, [weight * UNIT for weight in self.chart]]
+
+    def values(self, x: Sequence[Gaussian], slopes: Sequence[Sequence[Gaussian]]) -> list[Gaussian]:
+        """F(x), as quadratic forms are half of x^T (2 Q) x."""
+        products = [total(a * b for a, b in zip(row, x, strict=True)) for row in slopes]
+        return [*(Fraction(1, 2) * value for value in products[:-1]), products[-1] - UNIT]
+
+
+def total(values: Iterable[Gaussian]) -> Gaussian:
+    """The sum."""
+    result = NULL
+    for value in values:
+        result = result + value
+    return result
+
+
+def dot(scalars: Sequence[int], x: Sequence[Gaussian]) -> Gaussian:
+    """The combination."""
+    return total(scalar * value for scalar, value in zip(scalars, x, strict=True) if scalar)
+
+
+def chart_system(legs: Sequence[Leg], g: Metric, chart: Sequence[int]) -> System:
+    """Legs, Study's condition and chart. The values of a form at sums of two unit vectors give its matrix."""
+    planar = len(legs) == 3
+    places = (0, 3, 5, 6) if planar else tuple(range(8))
+
+    def at(*indices: int) -> Motion:
+        x = [indices.count(place) for place in range(8)]
+        return motion(x[:4], x[4:], g)
+
+    single = [at(i) for i in places]
+    double = [[at(i, j) for j in places] for i in places]
+
+    def matrix(value: Callable[[Motion], int]) -> list[list[int]]:
+        alone = [value(placed) for placed in single]
+        return [[value(double[i][j]) - alone[i] - alone[j] for j in range(len(places))] for i in range(len(places))]
+
+    forms = [leg_form(leg, g) for leg in legs]
+    matrices = [matrix(partial(form_value, form)) for form in forms]
+    if not planar:
+        matrices.append(matrix(lambda placed: placed.study))
+    norm = [placed.norm for placed in single]
+    return System(places, matrices, [chart[place] if place < 4 else 0 for place in places], norm)
+
+
+def form_value(form: Sequence[int], placed: Motion) -> int:
+    """A form in the 17 quantities at a motion over Z."""
+    return int(combination(form, placed.quantities()))
+
+
+def has_one_solution(system: System, box: Box, p: int) -> bool:
+    """Whether Krawczyk's operator proves that the box holds exactly one zero of F, a regular one, and no zero of N.
+
+    Let m be the centre, r the radii, Y any matrix, z = 1 - Y F'(m), and |z| = |Re z| + |Im z|. For x = m + h in the box
+
+        x - Y F(x) - m = -Y F(m) + (z - Y F''(h, .) / 2) h,
+
+    and derivatives of x - Y F(x) differ from z by Y F''(h, .). So if for each i
+
+        |Y F(m)|_i + sum_j (|z|_ij + sum_k |Y|_ik sum_l |F''|_kjl |h_l|) r_j < r_i,
+
+    where |h_l| is at most r_l in a real box and 2 r_l in another, then x -> x - Y F(x) maps the box into its interior
+    and contracts it, in the norm max (|Re x_i|, |Im x_i|) / r_i: there is one fixed point. As Y F' is within less
+    than 1 of the unit matrix, Y and F' are regular, so it is a zero of F. The numbers are rational; none is rounded.
+    """
+    slopes = system.slopes(box.centre)
+    y = near_inverse(slopes, p)
+    if y is None:
+        return False
+    reach = [(1 if box.real else 2) * r for r in box.radius]
+    bends = [
+        [sum((abs(value) * h for value, h in zip(row, reach, strict=True)), Fraction(0)) for row in form]
+        for form in [*system.forms, [[0] * len(reach)] * len(reach)]
+    ]
+    values = system.values(box.centre, slopes)
+    for i, row in enumerate(y):
+        image = total(a * b for a, b in zip(row, values, strict=True)).size()
+        for j, r in enumerate(box.radius):
+            z = (UNIT if i == j else NULL) - total(a * line[j] for a, line in zip(row, slopes, strict=True))
+            bend = sum((a.size() * line[j] for a, line in zip(row, bends, strict=True)), Fraction(0))
+            image += (z.size() + bend) * r
+        if image >= box.radius[i]:
+            return False
+    return norm_is_not_zero(system, box, reach)
+
+
+def norm_is_not_zero(system: System, box: Box, reach: Sequence[Fraction]) -> bool:
+    """Whether N(e) is not 0 in the box: |N(m + h) - N(m)| <= sum of g (2 |m| + |h|) |h|."""
+    value, change = NULL, Fraction(0)
+    for g, m, h in zip(system.norm, box.centre, reach, strict=True):
+        value = value + g * (m * m)
+        change += g * (2 * m.size() + h) * h
+    return max(abs(value.re), abs(value.im)) > change
+
+
+def near_inverse(matrix: Sequence[Sequence[Gaussian]], p: int) -> list[list[Gaussian]] | None:
+    """A matrix near the inverse, by elimination in units of 2^-p, rounded; None if a pivot vanishes."""
+    n, rows = len(matrix), []
+    for i, row in enumerate(matrix):
+        largest = max(entry.size() for entry in row)
+        if not largest:
+            return None
+        scale = (1 << p) / largest
+        unit = [(int(scale) if i == j else 0, 0) for j in range(n)]
+        rows.append([*((int(scale * entry.re), int(scale * entry.im)) for entry in row), *unit])
+    for column in range(n):
+        best = max(range(column, n), key=lambda i: abs(rows[i][column][0]) + abs(rows[i][column][1]))
+        rows[column], rows[best] = rows[best], rows[column]
+        c, d = rows[column][column]
+        norm = c * c + d * d
+        if not norm:
+            return None
+        rows[column] = [((a * c + b * d << p) // norm, (b * c - a * d << p) // norm) for a, b in rows[column]]
+        for i in range(n):
+            c, d = rows[i][column]
+            if i != column and (c or d):
+                pairs = zip(rows[i], rows[column], strict=True)
+                rows[i] = [(a - (c * x - d * y >> p), b - (c * y + d * x >> p)) for (a, b), (x, y) in pairs]
+    return [[Gaussian(Fraction(a, 1 << p), Fraction(b, 1 << p)) for a, b in row[n:]] for row in rows]
+
+
+def narrowed(system: System, box: Box, p: int) -> Box | None:
+    """A box of radius 2^-p with one solution, inside a box that has one: the same. None if Newton's method fails."""
+    x, precisions = box.centre, [2 * p + 64] * 3
+    while precisions[0] > 2 * box.bits + 64:
+        precisions.insert(0, precisions[0] // 2 + 32)
+    for precision in precisions:
+        slopes = system.slopes(x)
+        y = near_inverse(slopes, precision)
+        if y is None:
+            return None
+        values = system.values(x, slopes)
+        steps = [total(a * b for a, b in zip(row, values, strict=True)) for row in y]
+        x = tuple((a - step).rounded(min(precision, p + 4)) for a, step in zip(x, steps, strict=True))
+    finer = Box(x, (Fraction(1, 1 << p),) * len(x), p, real=box.real)
+    return finer if box.holds(finer) and has_one_solution(system, finer, 2 * p + 64) else None
+
+
+def is_nearest(system: System, box: Box) -> bool:
+    """Whether the solution is within 1/2 + 2^-20 units of the centre, a unit being a quarter of the radius."""
+    finer = narrowed(system, box, min(box.radius).denominator.bit_length() + 40)
+    if finer is None:
+        return False
+    limits = [r / 4 * (Fraction(1, 2) + Fraction(1, 1 << 20)) for r in box.radius]
+    gaps = [a - b for a, b in zip(finer.centre, box.centre, strict=True)]
+    return all(
+        max(abs(gap.re), abs(gap.im)) + r <= limit for gap, r, limit in zip(gaps, finer.radius, limits, strict=True)
+    )
+
+
+def check_pairs(others: Sequence[Box]) -> None:
+    """Complex boxes hold no real solution; the first imaginary part that is not 0 is positive; centres are in order."""
+    for number, box in enumerate(others, 1):
+        require(box.is_disjoint(box.conjugate()), f"boxes: complex box {number} meets its conjugate")
+        first = next((m.im for m in box.centre if m.im), Fraction(0))
+        require(first > 0, f"boxes: complex box {number} is not the one of its pair that is listed")
+    keys = [[part for m in box.centre for part in (m.re, m.im)] for box in others]
+    require(keys == sorted(keys), "boxes: the complex ones are not listed in their order")
+
+
+def check_boxes(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
+    """Check 11: each box holds one solution, and boxes and conjugates are disjoint."""
+    system = chart_system(certificate.legs, certificate.metric, boxes.w)
+    named = [(f"real box {number}", box) for number, box in enumerate(boxes.real, 1)]
+    named += [(f"complex box {number}", box) for number, box in enumerate(boxes.others, 1)]
+    for name, box in named:
+        flat = all(m == NULL for place, m in enumerate(box.centre) if place not in system.places)
+        require(flat, f"boxes: {name} leaves the plane of the robot")
+        inner = system.restricted(box)
+        proved = any(has_one_solution(system, inner, 2 * box.bits + more) for more in (64, 256, 1024))
+        require(proved, f"boxes: not proved that {name} holds exactly one solution")
+        nearest = is_nearest(system, inner)
+        require(nearest, f"boxes: the centre of {name} is not the grid point nearest to the solution")
+    yield f"boxes: each of {len(named)} holds exactly one solution, simple, and N(e) is not 0 there"
+    check_pairs(boxes.others)
+    for (name, one), (other_name, other) in combinations(named, 2):
+        apart = one.is_disjoint(other) and one.is_disjoint(other.conjugate())
+        require(apart, f"boxes: {name} and {other_name} meet")
+    number = boxes.number()
+    yield f"boxes: pairwise disjoint, {number} solutions with conjugate ones, {len(boxes.real)} of them real"
+
+
+def check_poses_in_boxes(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
+    """Check 6 for poses from real boxes around solutions, which check 11 has proved."""
+    listed = len(certificate.poses)
+    require(listed == len(boxes.real), f"real poses: {listed} listed, there are {len(boxes.real)} real boxes")
+    without = all(pose.parameter is None for pose in certificate.poses)
+    require(without, "real poses: a parameter is given, but there is no eliminant")
+    yield f"real poses: {listed}, one in each real box"
+    system = chart_system(certificate.legs, certificate.metric, boxes.w)
+    enclosures = [partial(at_solution, system, certificate.metric, system.restricted(box)) for box in boxes.real]
+    found = [cells_of(enclose, certificate.box_exponent) for enclose in enclosures]
+    in_order = all(one[:12] < other[:12] for one, other in pairwise(found))
+    require(in_order, "real poses: not listed in the order of their boxes")
+    yield from check_cells(certificate, found)
+
+
+def at_solution(system: System, g: Metric, box: Box, p: int) -> list[Interval] | None:
+    """Enclosures of the coordinates of the pose in a box."""
+    finer = narrowed(system, box, p)
+    if finer is None:
+        return None
+    x = [Interval(0, 0, p)] * 8
+    for place, m, r in zip(system.places, finer.centre, finer.radius, strict=True):
+        low, high = (m.re - r) * (1 << p), (m.re + r) * (1 << p)
+        x[place] = Interval(low.__floor__(), high.__ceil__(), p)
+    return ordinary(x, g, p)
+
+
+def boxes_listed(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
+    """The claims and counts beside boxes that were proved to hold one solution each."""
+    number, (total, distinct, _) = boxes.number(), certificate.counts
+    same = total == distinct == number
+    require(same, f"complex solutions: {total}, {distinct} distinct claimed, {number} proved")
+    for place, pose in enumerate(certificate.poses, 1):
+        require(pose.multiplicity == 1, f"multiplicity: that of pose {place} differs from what is proved")
+    claim = certificate.claim, certificate.route
+    if certificate.method == "exact":
+        yield f"isolated: {number} solutions, {len(boxes.real)} of them real, lie on no curve of poses"
+        if certificate.claim == "positive-dimensional-proved" and certificate.representation is not None:
+            yield from check_self_motion(certificate, certificate.representation)
+            return
+        detected = claim == ("positive-dimensional-detected", None)
+        require(detected, f"claim: {certificate.claim} is not proved by what is in the certificate")
+        yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
+        return
+    degree = PLANAR_NUMBER if len(certificate.legs) == 3 else GREATEST_NUMBER
+    proved = ("complete", "refined-bezout") if number == degree else ("not-proven-complete", None)
+    require(claim == proved, f"claim: what is proved is {proved[0]} by {proved[1] or 'no route'}")
+    if number == degree:
+        yield f"complete: {degree} isolated solutions are the degree of the motions, there is no other"
+    else:
+        yield f"not proven complete: {number} solutions are proved, others are not excluded"
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# The checker and its command
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def check_bytes(data: bytes) -> Verdict:
+    r"""The verdict on the content of a certificate file.
+
+    Parameters
+    ----------
+    data : bytes
+        Anything; nothing is raised on account of it, and the work is bounded.
+
+    Returns
+    -------
+    Verdict
+        "accepted" if every claim was proved again, from the robot and the polynomials alone (``docs/certificates.md``).
+        "rejected" means not proved, which is not to say false.
+
+    Examples
+    --------
+    >>> check_bytes(b"{}\n")
+    Verdict(status='malformed', lines=('file: not a JSON object with a digest',))
+    """
+    lines = []
+    try:
+        certificate = read(data)
+        lines.append("digest: that of the content")
+        for line in checks(certificate):
+            lines.append(line)  # noqa: PERF402 - the lines before a refusal stay
+    except Refusal as refusal:
+        return Verdict(refusal.status, (*lines, refusal.line))
+    return Verdict("accepted", tuple(lines))
+
+
+def checks(certificate: Certificate) -> Iterator[str]:
+    """One line per claim that is proved."""
+    representation = certificate.representation
+    if representation is not None:
+        yield from check_eliminant(representation)
+        yield from check_distinct(representation)
+        yield from check_poses(representation, certificate.legs, certificate.metric)
+        if certificate.claim != "positive-dimensional-proved":
+            yield from check_real_poses(certificate, representation)
+    if certificate.boxes is not None:
+        yield from check_boxes(certificate, certificate.boxes)
+        yield from check_poses_in_boxes(certificate, certificate.boxes)
+    yield from check_claims(certificate)
+
+
+def check_file(path: str) -> int:
+    """Print the verdict on a file; its exit code."""
+    name = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in path)
+    try:
+        with Path(path).open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        sys.stderr.write(f"error: {name}: cannot be read ({reason}); give the path of a certificate\n")
+        return 2
+    verdict = check_bytes(data)
+    sys.stdout.write("".join(f"{name}: {line}\n" for line in (*verdict.lines, verdict.status)))
+    sys.stdout.flush()
+    return {"accepted": 0, "rejected": 1}.get(verdict.status, 2)
+
+
+def main(paths: Sequence[str]) -> int:
+    """Check files; the exit code: 0 all accepted, 1 one rejected, otherwise 2."""
+    if not paths:
+        sys.stderr.write("usage: python pure.py CERT.json...\n")
+        return 2
+    codes = [check_file(path) for path in paths]
+    return 1 if 1 in codes else max(codes)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

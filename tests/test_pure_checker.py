@@ -1,0 +1,407 @@
+"""The second checker, in plain Python: it answers what the first one answers, whatever the file."""
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterable
+from fractions import Fraction
+from pathlib import Path
+from random import Random
+from types import FunctionType, ModuleType
+from typing import Any
+
+import pytest
+import test_certificate_check
+import test_certificate_fraud
+import test_certificate_tamper
+import test_multiplicities
+import test_self_motion
+from certificate_tools import CERTS, at, golden, golden_bytes, leaves, neighbours, nodes, restructured, with_entry
+from flint import fmpq_mat, fmpz_poly
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pkm_exact.certify import pure
+from pkm_exact.certify.build import canonical_bytes, certificate, sealed
+from pkm_exact.certify.check import Verdict, check_bytes
+from pkm_exact.certify.checker import realposes
+from pkm_exact.geometry.reader import read_robot
+from pkm_exact.numeric.engine import solve_krawczyk
+
+SOURCE = Path(pure.__file__)
+ALL = sorted(path.stem for path in CERTS.glob("*.json"))
+SMALL = ("3-prr", "3-rpr-double-q", "3-rpr-triple", "mourrain-l", "robocrane-r", "similar-planar-s")
+
+
+def both(data: bytes) -> Verdict:
+    """The verdict of the first checker, after making sure that the second one gives it, for the same reason."""
+    one, other = check_bytes(data), pure.check_bytes(data)
+    assert (str(one.status), _reason(one.lines)) == (other.status, _reason(other.lines)), (one.lines, other.lines)
+    if one.status == "accepted":
+        assert one.lines == other.lines
+    return one
+
+
+def _reason(lines: tuple[str, ...]) -> str:
+    return lines[-1].partition(":")[0].partition("[")[0]
+
+
+def both_resealed(content: dict[str, Any]) -> Verdict:
+    """The verdict of both on a changed certificate whose digest was made to fit."""
+    return both(canonical_bytes(sealed(content)))
+
+
+# Certificates in the repository
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in SMALL else pytest.mark.slow) for n in ALL])
+def test_golden_certificates_are_accepted_with_the_same_lines(name: str) -> None:
+    assert both(golden_bytes(name)).status == "accepted"
+
+
+def test_it_runs_alone(tmp_path: Path) -> None:
+    (tmp_path / "copy.py").write_bytes(SOURCE.read_bytes())
+    (tmp_path / "good.json").write_bytes(golden_bytes("3-rpr-triple"))
+    (tmp_path / "changed.json").write_bytes(golden_bytes("3-rpr-triple").replace(b"cusp", b"kink"))
+    (tmp_path / "none.json").write_bytes(b"[]")
+    for names, code in (
+        (["good"], 0),
+        (["good", "changed", "none"], 1),
+        (["good", "none"], 2),
+        (["missing"], 2),
+        ([], 2),
+    ):
+        command = [sys.executable, "-I", "-S", "copy.py", *(f"{name}.json" for name in names)]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.returncode == code, done.stderr
+        lines = done.stdout.splitlines()
+        assert all(line.startswith(tuple(names)) for line in lines)
+        assert ("good.json: accepted" in lines) == ("good" in names)
+        assert ("changed.json: rejected" in lines) == ("changed" in names)
+        assert "Traceback" not in done.stderr
+
+
+def test_it_imports_only_the_standard_library() -> None:
+    for node in ast.walk(ast.parse(SOURCE.read_text())):
+        names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        names += [str(node.module)] if isinstance(node, ast.ImportFrom) else []
+        assert all(name.split(".")[0] in sys.stdlib_module_names for name in names)
+
+
+# The same files as the first checker is tested with: deceitful, malformed, too large
+
+
+@pytest.fixture(autouse=True)
+def _by_both(monkeypatch: pytest.MonkeyPatch) -> None:
+    for module in (test_certificate_check, test_certificate_fraud, test_multiplicities, test_self_motion):
+        monkeypatch.setattr(module, "check_resealed", both_resealed)
+    monkeypatch.setattr(test_certificate_check, "check_bytes", both)
+
+
+QUICK_FRAUDS = (
+    "test_a_numerator_is_changed_by_a_multiple_of_the_eliminant",
+    "test_a_robot_without_poses_is_inconsistent",
+    "test_an_elimination_uses_what_there_is_not",
+    "test_boxes_of_different_poses_meet",
+    "test_e_and_f_are_no_motion",
+    "test_n_of_e_is_zero",
+    "test_one_pose_is_listed_under_forty_parameters",
+    "test_self_motions_are_certified",
+    "test_two_poses_exchange_their_boxes",
+)
+OTHER_FILES = (
+    "test_nothing_listed_and_nothing_claimed_is_accepted",
+    "test_nothing_listed_proves_nothing",
+    "test_nothing_listed_counts_nothing",
+    "test_malformed",
+    "test_malformed_entries",
+    "test_too_large",
+    "test_a_lone_surrogate_is_text",
+    "test_any_bytes_get_a_verdict",
+)
+
+
+def _take(module: ModuleType, names: Iterable[str], *, slow: bool) -> None:
+    """Make tests of another module tests of this one, with its marks, and slow ones if asked for."""
+    for name in names:
+        test = vars(module)[name]
+        copy = FunctionType(test.__code__, test.__globals__, name, test.__defaults__, test.__closure__)
+        copy.__kwdefaults__ = test.__kwdefaults__
+        copy.__dict__.update(test.__dict__)
+        globals()[name] = pytest.mark.slow(copy) if slow else copy
+
+
+def _names(module: ModuleType) -> list[str]:
+    return [name for name in vars(module) if name.startswith("test_")]
+
+
+_take(test_certificate_check, OTHER_FILES, slow=False)
+_take(test_certificate_check, ["test_any_json_in_place_of_an_entry_gets_a_verdict"], slow=True)
+_take(test_certificate_fraud, QUICK_FRAUDS, slow=False)
+_take(test_certificate_fraud, sorted({*_names(test_certificate_fraud)} - {*QUICK_FRAUDS}), slow=True)
+_take(test_multiplicities, _names(test_multiplicities), slow=True)
+_take(test_self_motion, _names(test_self_motion), slow=True)
+
+
+# Changes of one entry
+
+
+@pytest.mark.parametrize("name", ["3-rpr-double-q", "3-rpr-triple"])
+@pytest.mark.parametrize("step", [7, pytest.param(1, marks=pytest.mark.slow)])
+def test_a_changed_entry_with_a_new_digest(name: str, step: int) -> None:
+    content = golden(name)
+    for path, value in list(leaves(content))[::step]:
+        for other in neighbours(value):
+            both_resealed(with_entry(content, path, other))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["3-prr", "mourrain-l", "robocrane-r", "similar-planar-s"])
+def test_every_changed_entry_with_a_new_digest(name: str) -> None:
+    content = test_certificate_tamper.without_proof(golden(name))
+    for path, value in leaves(content):
+        for other in neighbours(value):
+            both_resealed(with_entry(content, path, other))
+
+
+@pytest.mark.parametrize("step", [3, pytest.param(1, marks=pytest.mark.slow)])
+def test_entries_dropped_doubled_moved_or_renamed(step: int) -> None:
+    content = golden("3-rpr-triple")
+    del content["digest"]
+    for path, _ in list(nodes(content))[::step]:
+        for changed in restructured(at(content, path)):
+            both_resealed(with_entry(content, path, changed))
+
+
+@pytest.mark.parametrize("name", ["3-rpr-triple", "mourrain-l"])
+def test_a_changed_byte(name: str) -> None:
+    data = golden_bytes(name)
+    for place in range(0, len(data), len(data) // 40):
+        for byte in (data[place] ^ 1, data[place] ^ 0x80):
+            both(data[:place] + bytes([byte]) + data[place + 1 :])
+
+
+# Boxes around solutions
+
+
+def _boxed(name: str) -> dict[str, Any]:
+    """A certificate of the numeric engine."""
+    robot = read_robot(CERTS.parent / "models" / f"{name}.toml")
+    configuration = robot.configuration(None)
+    content = certificate(robot, configuration.name, solve_krawczyk(robot.problem(configuration)))
+    assert content["method"] == "krawczyk"
+    return content
+
+
+@pytest.fixture(scope="module", params=["3-rrr", pytest.param("mourrain-l", marks=pytest.mark.slow)])
+def boxed(request: pytest.FixtureRequest) -> dict[str, Any]:
+    return _boxed(request.param)
+
+
+@pytest.mark.parametrize("name", ["3-rrr", "mourrain-l", pytest.param("rolland-6-6", marks=pytest.mark.slow)])
+def test_boxes_are_accepted(name: str) -> None:
+    answer = both_resealed(_boxed(name))
+    assert answer.status == "accepted"
+    assert answer.lines[-1].startswith("complete: ")
+
+
+def test_changed_boxes(boxed: dict[str, Any]) -> None:
+    real, others = boxed["krawczyk"]["real"], boxed["krawczyk"]["complex"]
+    moved = {**real[0], "centre": [hex(int(real[0]["centre"][0], 16) + 64), *real[0]["centre"][1:]]}
+    as_complex = {**real[0], "centre": [[value, "0x0"] for value in real[0]["centre"]]}
+    conjugate = [{**box, "centre": [[x, hex(-int(y, 16))] for x, y in box["centre"]]} for box in others[:1]]
+    changes = {
+        ("real",): [real[1:], [real[0], *real[:-1]], [moved, *real[1:]], real[::-1]],
+        ("complex",): [[*others, as_complex], [*others, *others[:1]], [*others[1:], *conjugate], [*others, *conjugate]],
+        ("chart",): [[0, 0, 0, 0], [7, 1, 1, 1]],
+        ("real", 0, "exponents"): [[0, 0], [4, 4], [2048, 2048], [2049, 0], [-1, 0], [3]],
+        ("real", 0, "centre"): [["0x0"] * 8, real[0]["centre"][:7], ["0x1" + "0" * 1025] * 8, as_complex["centre"]],
+    }
+    statuses = set()
+    for path, values in changes.items():
+        for value in values:
+            statuses.add(str(both_resealed(with_entry(boxed, ("krawczyk", *path), value)).status))
+    assert {"accepted", "rejected", "malformed", "too-large"} >= statuses >= {"rejected", "malformed", "too-large"}
+
+
+def test_pairs_of_boxes_are_spelled_in_one_way(boxed: dict[str, Any]) -> None:
+    """The conjugate of a complex box stands for the same two solutions, but is not listed."""
+    others = boxed["krawczyk"]["complex"]
+    turned = [{**box, "centre": [[x, hex(-int(y, 16))] for x, y in box["centre"]]} for box in others]
+    for place in range(0, len(others), 7):
+        boxes = [*others[:place], turned[place], *others[place + 1 :]]
+        assert both_resealed(with_entry(boxed, ("krawczyk", "complex"), boxes)).status == "rejected"
+    if len(others) > 1:
+        assert both_resealed(with_entry(boxed, ("krawczyk", "complex"), others[::-1])).status == "rejected"
+
+
+def test_claims_beside_boxes(boxed: dict[str, Any]) -> None:
+    exact = golden("3-rrr" if len(boxed["robot"]["base"]) == 3 else "mourrain-l")
+    for changed in (
+        {"method": "exact"},
+        {"krawczyk": None},
+        {"representation": exact["representation"]},
+        {"elimination": []},
+        {"claim": "not-proven-complete", "completeness_route": None},
+        {"completeness_route": "exact-elimination"},
+        {"claim": "positive-dimensional-detected"},
+        {"method": "exact", "claim": "positive-dimensional-detected"},
+        {"method": "exact", "claim": "positive-dimensional-detected", "completeness_route": None},
+        {"method": "exact", "claim": "positive-dimensional-proved", "completeness_route": None},
+        {"complex_solutions": 39},
+        {"distinct_solutions": 5},
+        {"real_poses": 0},
+        {"poses": exact["poses"]},
+        {"poses": boxed["poses"][::-1]},
+        {"poses": [{**pose, "multiplicity": None} for pose in boxed["poses"]]},
+        {"box_exponent": boxed["box_exponent"] + 1},
+    ):
+        both_resealed(boxed | changed)
+
+
+def test_fewer_boxes_prove_less(boxed: dict[str, Any]) -> None:
+    content = with_entry(boxed, ("krawczyk", "complex"), [])
+    number = len(boxed["krawczyk"]["real"])
+    content |= {"complex_solutions": number, "distinct_solutions": number}
+    assert both_resealed(content).status == ("accepted" if not boxed["krawczyk"]["complex"] else "rejected")
+    weaker = content | {"claim": "not-proven-complete", "completeness_route": None}
+    assert both_resealed(weaker).status == ("accepted" if boxed["krawczyk"]["complex"] else "rejected")
+
+
+def test_another_robot_has_other_solutions(boxed: dict[str, Any]) -> None:
+    length = Fraction(boxed["configuration"]["lengths_squared"][0])
+    path = ("configuration", "lengths_squared", 0)
+    assert both_resealed(with_entry(boxed, path, str(length + Fraction(1, 1000)))).status == "rejected"
+
+
+@pytest.mark.slow
+def test_every_changed_box(boxed: dict[str, Any]) -> None:
+    for path, value in list(leaves(boxed["krawczyk"]))[::3]:
+        both_resealed(with_entry(boxed, ("krawczyk", *path), neighbours(value)[0]))
+
+
+# Its arithmetic
+
+integers = st.integers(-(10**6), 10**6)
+polynomials = st.lists(integers, min_size=1, max_size=6).filter(lambda p: p[-1])
+
+
+@given(polynomials.filter(lambda p: len(p) > 1), polynomials, polynomials)
+def test_multiples(h: list[int], q: list[int], r: list[int]) -> None:
+    """h0 divides h0 q, and h0 q + r if and only if it divides r."""
+    h0 = pure.primitive_part(h)
+    q = q[: len(h0) - 1]
+    product = fmpz_poly(h0) * fmpz_poly(q)
+    other = product + fmpz_poly(r[: len(h0)])
+    bound = max(sum(abs(int(c)) for c in p.coeffs()) for p in (product, other))
+    multiples = pure.Multiples(h0, bound)
+    assert multiples.include(pure.at_power([int(c) for c in product.coeffs()], multiples.k))
+    divides = not divmod(other, fmpz_poly(h0))[1]
+    assert multiples.include(pure.at_power([int(c) for c in other.coeffs()], multiples.k)) == divides
+
+
+def test_an_exact_quotient_of_values_is_not_enough() -> None:
+    """At X = 2^k the value of X - 1 divides that of 2^k - 1, and of every polynomial that vanishes there."""
+    multiples = pure.Multiples([-1, 1], 5)
+    assert multiples.include(pure.at_power([-2, 1, 1], multiples.k))
+    assert not multiples.include((1 << multiples.k) - 1 << multiples.k - 1)
+
+
+@given(st.lists(st.tuples(st.integers(-20, 20), st.integers(-20, 20), st.integers(1, 20)), min_size=1, max_size=5))
+def test_both_isolate_alike(factors: list[tuple[int, int, int]]) -> None:
+    h = fmpz_poly([1])
+    for factor in factors:
+        h *= fmpz_poly(list(factor))
+    for factor, power in h.factor_squarefree()[1]:
+        h //= factor ** (power - 1)
+    cells, exponent = realposes._parameter_cells(h)
+    roots = pure.isolated(pure.primitive_part([int(c) for c in h.coeffs()]))
+    assert [(root.m, root.m + (not root.exact)) for root in roots] == cells
+    assert all(root.k == exponent for root in roots)
+
+
+def test_roots_close_to_each_other_to_a_grid_point_and_to_the_axis() -> None:
+    for factors in (
+        ([-1, 3], [-1, 3 * 2**40], [0, 1], [-2, 0, 1]),
+        ([0, 1], [1, 3 * 2**32]),
+        ([1, 0, 2**200], [-5, 1]),
+        ([-1, 2**90], [-(2**50) - 1, 2**140], [-1, 1]),
+        ([-(10**40), 1], [1, 10**40]),
+    ):
+        h = fmpz_poly([1])
+        for factor in factors:
+            h *= fmpz_poly(factor)
+        cells, exponent = realposes._parameter_cells(h)
+        roots = pure.isolated([int(c) for c in h.coeffs()])
+        assert [(root.m, root.m + (not root.exact)) for root in roots] == cells
+        assert all(root.k == exponent for root in roots)
+
+
+@given(st.tuples(*[integers] * 4), st.tuples(integers, integers, st.integers(1, 10**6), integers))
+def test_intervals_contain_what_they_must(ends: tuple[int, ...], others: tuple[int, ...]) -> None:
+    p = 10
+    a, b = sorted(ends[:2])
+    c, d = sorted(abs(x) + 1 for x in others[:2])
+    one, other = pure.Interval(a, b, p), pure.Interval(c, d, p)
+    for x in (Fraction(a, 1 << p), Fraction(b, 1 << p), Fraction(a + b, 2 << p)):
+        for y in (Fraction(c, 1 << p), Fraction(d, 1 << p), Fraction(c + d, 2 << p)):
+            for interval, value in (
+                (one + other, x + y),
+                (one - other, x - y),
+                (one * other, x * y),
+                (one.over(other), x / y),
+                (ends[2] * one, ends[2] * x),
+            ):
+                assert interval.low <= value * (1 << p) <= interval.high
+            root = other.root()
+            assert root.low**2 <= y * (1 << (2 * p)) <= root.high**2
+
+
+def test_determinants_without_division() -> None:
+    random = Random(5)
+    for size in (3, 6):
+        rows = [[random.randrange(-9, 10) for _ in range(size)] for _ in range(size)]
+        assert pure.determinant(rows) == int(fmpq_mat(rows).det().p)
+
+
+@given(st.integers(1, 7), st.integers(1, 9), st.integers(0, 10**6), st.sampled_from([3, 10**40]))
+def test_echelon_forms(height: int, width: int, seed: int, largest: int) -> None:
+    """Of matrices of any rank, with small and with large entries."""
+    random = Random(seed)
+    rank = random.randrange(1, height + 1)
+    left = [[random.randrange(-2, 3) for _ in range(rank)] for _ in range(height)]
+    right = [[random.randrange(-largest, largest + 1) for _ in range(width)] for _ in range(rank)]
+    rows = [
+        [sum(x * y for x, y in zip(row, column, strict=True)) for column in zip(*right, strict=True)] for row in left
+    ]
+    found = pure.echelon_form([{(-place,): value for place, value in enumerate(row)} for row in rows])
+    expected, number = fmpq_mat(rows).rref()
+    assert len(found) == number
+    for place, row in enumerate(found):
+        lead = next(iter(row.values()))
+        values = [Fraction(row.get((-column,), 0), lead) for column in range(width)]
+        assert values == [Fraction(int(x.p), int(x.q)) for x in expected.tolist()[place]]
+        assert lead > 0
+
+
+@pytest.mark.parametrize("prime", pure.PRIMES)
+def test_residues(prime: int) -> None:
+    random = Random(6)
+    g = [random.randrange(prime) for _ in range(5)] + [7]
+    ring = pure.Residues(g, prime)
+    a, b = ([random.randrange(prime) for _ in range(5)] for _ in range(2))
+    product = (ring.element(a) * ring.element(b)).polynomial()
+    assert product == pure.divided(pure.product(a, b, prime), pure.reduced(g, prime), prime)[1]
+    inverse = pure.inverse_modulo(a, g, prime)
+    assert inverse is not None
+    assert (ring.element(a) * ring.element(inverse)).polynomial() == [1]
+
+
+def test_its_primes_are_primes() -> None:
+    """Lucas and Lehmer: 2^n - 1 is prime iff s(n - 2) = 0 modulo it, for s(0) = 4, s(i + 1) = s(i)^2 - 2."""
+    exponents = {prime.bit_length() for prime in pure.PRIMES} | {n for n in pure.MERSENNE if n < 5000}
+    for n in sorted(exponents):
+        s = 4
+        for _ in range(n - 2):
+            s = (s * s - 2) % ((1 << n) - 1)
+        assert s == 0
