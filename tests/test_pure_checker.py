@@ -1,6 +1,7 @@
 """The second checker, in plain Python: it answers what the first one answers, whatever the file."""
 
 import ast
+import json
 import subprocess
 import sys
 from collections.abc import Iterable
@@ -26,6 +27,7 @@ from pkm_exact.certify.build import canonical_bytes, certificate, sealed
 from pkm_exact.certify.check import Verdict, check_bytes
 from pkm_exact.certify.checker import realposes
 from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric.engine import solve_krawczyk
 
 SOURCE = Path(pure.__file__)
@@ -405,3 +407,17 @@ def test_its_primes_are_primes() -> None:
         for _ in range(n - 2):
             s = (s * s - 2) % ((1 << n) - 1)
         assert s == 0
+
+
+@pytest.mark.parametrize("power", [22, 30, 95])
+def test_boxes_of_a_robot_in_huge_units_are_accepted_by_both(power: int) -> None:
+    model = read_robot(Path(__file__).parent.parent / "models" / "3-rpr-merlet-p.toml")
+    base, platform = (
+        tuple(tuple(value * 10**power for value in joint) for joint in side)
+        for side in (model.base_joints, model.platform_joints)
+    )
+    robot = Robot("large", "3-RPR", "m", "made up", base, platform)  # type: ignore[arg-type]
+    squares = [square * 100**power for square in model.configuration().lengths_squared]
+    data = canonical_bytes(certificate(robot, None, solve_krawczyk(robot.problem(squares))))
+    assert json.loads(data)["method"] == "krawczyk"
+    assert str(check_bytes(data).status) == str(pure.check_bytes(data).status) == "accepted"

@@ -417,3 +417,11 @@ def test_the_command_refuses(words: list[str], part: str, tmp_path: Path, capsys
     assert part in captured.err
     assert captured.err.count("\n") == 1
     assert not captured.out
+
+
+@pytest.mark.parametrize("tolerance", ["1e-40", "1e-60", "1e-150"])
+def test_certificates_of_tiny_tolerances_are_accepted(tolerance: str, tmp_path: Path) -> None:
+    """Bounds of what hardly changes, such as the third column of a planar rotation, are confirmed by other rounding."""
+    model, target = Path(__file__).parent.parent / "models" / "3-rpr-merlet-p.toml", tmp_path / "tolerance.json"
+    assert main(["solve", str(model), "--tolerance", tolerance, "-o", str(target)]) == 0
+    assert main(["check", str(target)]) == 0

@@ -2085,14 +2085,14 @@ def narrowed(system: System, box: Box, p: int) -> Box | None:
 
 def is_nearest(system: System, box: Box) -> bool:
     """Whether the solution is within 1/2 + 2^-20 units of the centre, a unit being a quarter of the radius."""
-    finer = narrowed(system, box, min(box.radius).denominator.bit_length() + 40)
-    if finer is None:
-        return False
     limits = [r / 4 * (Fraction(1, 2) + Fraction(1, 1 << 20)) for r in box.radius]
-    gaps = [a - b for a, b in zip(finer.centre, box.centre, strict=True)]
-    return all(
-        max(abs(gap.re), abs(gap.im)) + r <= limit for gap, r, limit in zip(gaps, finer.radius, limits, strict=True)
-    )
+    for more in (40, 160, 640):  # a coordinate that is very large needs finer boxes for the others
+        finer = narrowed(system, box, min(box.radius).denominator.bit_length() + more)
+        if finer is not None:
+            gaps = [a - b for a, b in zip(finer.centre, box.centre, strict=True)]
+            spans = zip(gaps, finer.radius, limits, strict=True)
+            return all(max(abs(gap.re), abs(gap.im)) + r <= limit for gap, r, limit in spans)
+    return False
 
 
 def check_pairs(others: Sequence[Box]) -> None:

@@ -118,10 +118,10 @@ def chosen_problem(
         raise InputError(f"{model}: {error}") from None
 
 
-def require_other_file(path: Path, model: str, option: str) -> None:
-    """Refuse an output that is the model itself: it would be overwritten."""
-    if path.exists() and path.samefile(model):
-        raise InputError(f"{path}: is the model file itself; give {option} another path")
+def require_other_file(path: Path, source: str, option: str, what: str = "the model file") -> None:
+    """Refuse an output that is an input itself: it would be overwritten."""
+    if path.exists() and path.samefile(source):
+        raise InputError(f"{path}: is {what} itself; give {option} another path")
 
 
 def require_writable(path: Path, option: str) -> None:

@@ -74,8 +74,8 @@ def track(model: str, path: str, number: int, width: Fraction, output: str, verb
 
     robot = read_robot(model)
     joints = read_path(path, robot)
-    for other in (model, path):
-        arguments.require_other_file(target, other, "-o")
+    arguments.require_other_file(target, model, "-o")
+    arguments.require_other_file(target, path, "-o", "the file of the path")
     arguments.require_writable(target, "-o")
 
     from pkm_exact.cli.progress import Progress

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Final
 
-from flint import acb, arb, arb_mat
+from flint import acb, arb, arb_mat, ctx
 
 from pkm_exact.numeric.parametric import (
     DataErrors,
@@ -29,6 +29,8 @@ from pkm_exact.roots.interval import Interval
 
 MARGIN: Final = 1 + 2**-16
 """Bounds are a little larger than computed, so that a computation in another order confirms them."""
+ROUNDING_BITS: Final = 32
+"""Bounds leave room for rounding in all but so many of the bits computed with."""
 POSITION_ROWS: Final = (0, 1, 2)
 QUATERNION_ROWS: Final = (12, 13, 14, 15)
 AXES: Final = ("x", "y", "z")
@@ -129,14 +131,20 @@ def pose_bounds(near: Linearisation, errors: DataErrors, radii: Sequence[arb]) -
         sum((row[i].abs_upper() * bounds[i] for i in range(len(legs))), offset.abs_upper())
         for row, offset in zip(effects, offsets, strict=True)
     ]
-    components = tuple(
-        interval(value + arb(0, (MARGIN * r).upper())) for value, r in zip(here.values, reach, strict=True)
-    )
+    components = tuple(interval(_widened(value, r)) for value, r in zip(here.values, reach, strict=True))
     distance = _greatest(effects, offsets, legs, POSITION_ROWS)
     chord = _greatest(effects, offsets, legs, QUATERNION_ROWS)
     if not chord < 1:
         return None
     return PoseBounds(components, interval(distance), interval(4 * (chord / 2).asin()))
+
+
+def _widened(value: arb, reach: arb) -> arb:
+    """The value and what it can change by, with room for the rounding of another program that computes both."""
+    if reach == 0 and value.is_exact():
+        return value
+    rounding = arb(2) ** (ROUNDING_BITS - ctx.prec) * (1 + abs(value))
+    return value + arb(0, (MARGIN * reach + rounding).upper())
 
 
 def _real(entries: Sequence[acb], size: int) -> arb_mat:
