@@ -22,9 +22,9 @@ from pkm_exact import read_robot, solve
 from pkm_exact.geometry.inverse import distance_squared, rotation_of
 from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.numeric.engine import solve_krawczyk
 from pkm_exact.numeric.nearby import nearby_start
 from pkm_exact.numeric.start import StartSection
+from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.solution import Solution
 

@@ -28,12 +28,12 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Configuration as Configuration
     from pkm_exact.geometry.robot import Robot as Robot
     from pkm_exact.geometry.tolerances import Tolerances as Tolerances
-    from pkm_exact.numeric.engine import solve_krawczyk as solve_krawczyk
-    from pkm_exact.numeric.many import ManySolutions as ManySolutions
-    from pkm_exact.numeric.many import solve_many as solve_many
+    from pkm_exact.many import ManySolutions as ManySolutions
+    from pkm_exact.many import solve_many as solve_many
     from pkm_exact.numeric.tolerance import tolerance_boxes as tolerance_boxes
     from pkm_exact.numeric.tolerance_result import ToleranceResult as ToleranceResult
     from pkm_exact.numeric.trajectory import track_branch as track_branch
+    from pkm_exact.numeric_engine import solve_krawczyk as solve_krawczyk
     from pkm_exact.policy import Policy as Policy
     from pkm_exact.poses.pose import Interval as Interval
     from pkm_exact.poses.pose import Pose as Pose
@@ -51,7 +51,7 @@ _HOME: Final = {
     "InputError": "errors",
     "Interval": "poses.pose",
     "Leg": "geometry.problem",
-    "ManySolutions": "numeric.many",
+    "ManySolutions": "many",
     "PkmExactError": "errors",
     "Policy": "policy",
     "Pose": "poses.pose",
@@ -63,8 +63,8 @@ _HOME: Final = {
     "check_bytes": "certify.check",
     "read_robot": "geometry.reader",
     "solve": "engine",
-    "solve_krawczyk": "numeric.engine",
-    "solve_many": "numeric.many",
+    "solve_krawczyk": "numeric_engine",
+    "solve_many": "many",
     "tolerance_boxes": "numeric.tolerance",
     "track_branch": "numeric.trajectory",
     "write_certificate": "certify.build",

@@ -23,7 +23,7 @@ from pkm_exact.formulations.turned import candidate_turns, formulate_turned
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.notes import isolated_note, motion_note, open_question, singular_notes, turn_notes
 from pkm_exact.policy import Policy
-from pkm_exact.poses.boxes import exponent_for_width, in_order, pose_boxes, root_enclosures
+from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width, in_order, pose_boxes, root_enclosures
 from pkm_exact.poses.completeness import CompletenessProof, prove_complete, prove_inconsistent
 from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.modular import ModularPoses, modular_poses
@@ -45,7 +45,6 @@ from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Stages
 from pkm_exact.verdict import Claim
 
-DEFAULT_WIDTH = Fraction(1, 10**9)
 SELF_MOTION_ATTEMPTS = 2
 """Lists of further legs tried on a robot that can only move; if its poses are all at infinity, none has a solution."""
 
@@ -279,21 +278,21 @@ class _Run:
         """The poses of each multiplicity over Q, verified, and all of them together; None after an unlucky choice."""
         equations = StudyEquations(self.problem, chosen.chart, self.policy.seed + attempt)
         form = [chosen.form[k] for k in equations.free]
-        multimodular = self.policy.lifting == "multimodular"
+        bits = self.policy.lifting_bits
+        images = _further_images(start, chosen, self.problem)
         parts = []
         try:
+            if self.policy.lifting == "multimodular":
+                parts.append(lift_by_primes(form, images, bits, self._acceptance(chosen, "lifting by primes")))
+                return pose_representation(chosen.chart, self.problem, parts[0])
             for multiplicity, modular in chosen.modular.parts(start.formulated.fibre).items():
-                if multiplicity == 1 and not multimodular:
+                if multiplicity == 1:
                     accept = self._acceptance(chosen, "p-adic lifting")
-                    parts.append(lift_by_newton(equations, form, modular, self.policy.lifting_bits, accept))
-                    continue
-                images = _further_images(start, chosen, self.problem)
-                accept = self._acceptance(chosen, "lifting by primes")
-                if not multimodular:
-                    images = _parts(images, multiplicity, start, self.policy.attempts)
-                parts.append(lift_by_primes(form, images, self.policy.lifting_bits, accept))
-                if multimodular:
-                    break
+                    parts.append(lift_by_newton(equations, form, modular, bits, accept))
+                else:
+                    accept = self._acceptance(chosen, "lifting by primes")
+                    some = _parts(images, multiplicity, start, self.policy.attempts)
+                    parts.append(lift_by_primes(form, some, bits, accept))
         except UnluckyPrimeError:
             return None
         self.stages.enter("verification")

@@ -28,7 +28,7 @@ from pkm_exact.certify.check import Verdict, check_bytes
 from pkm_exact.certify.checker import realposes
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.numeric.engine import solve_krawczyk
+from pkm_exact.numeric_engine import solve_krawczyk
 
 SOURCE = Path(pure.__file__)
 ALL = sorted(path.stem for path in CERTS.glob("*.json"))

@@ -29,9 +29,9 @@ from pkm_exact.cli.main import main
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import robot_from_toml
 from pkm_exact.geometry.tolerances import Tolerances
-from pkm_exact.numeric.engine import solve_krawczyk
 from pkm_exact.numeric.tolerance import tolerance_boxes
 from pkm_exact.numeric.tolerance_result import ToleranceResult
+from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.solution import Solution
 
 ROLLAND = MODELS[[path.stem for path in MODELS].index("rolland-6-6")]

@@ -31,10 +31,10 @@ from pkm_exact.geometry.path_reader import path_from_csv, read_path
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.numeric.centred import centred_frames, centred_robot
-from pkm_exact.numeric.engine import solve_krawczyk
 from pkm_exact.numeric.path_forms import JointRow, has_cranks, path_forms, problem_at
 from pkm_exact.numeric.trajectory import TrackedSample, TrackingStopped, TrackPolicy, track_branch
 from pkm_exact.numeric.tube import FloatPath, predict, prove, station
+from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Pose
 from pkm_exact.solution import Solution
 

@@ -134,3 +134,14 @@ def require_writable(path: Path, option: str) -> None:
         raise InputError(f"{path}: the folder {path.parent} does not exist; create it or give {option} another path")
     if not os.access(path.parent, os.W_OK):
         raise InputError(f"{path}: the folder {path.parent} is not writable; give {option} another path")
+
+
+configuration_option = click.option(
+    "--configuration", metavar="NAME", help="Configuration of the model file.  [default: the first one]"
+)
+lengths_option = click.option(
+    "--lengths",
+    callback=lengths,
+    metavar="L1,..,L6",
+    help="Leg lengths instead, exact: 1250 or 12.5 or 25/2. Three if planar.",
+)

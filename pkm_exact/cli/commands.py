@@ -43,13 +43,8 @@ certify_poses.add_command(track)
 
 @certify_poses.command(short_help="All real poses of a robot, and a certificate.")
 @click.argument("model", type=click.Path())
-@click.option("--configuration", metavar="NAME", help="Configuration of the model file.  [default: the first one]")
-@click.option(
-    "--lengths",
-    callback=arguments.lengths,
-    metavar="L1,..,L6",
-    help="Leg lengths instead, exact: 1250 or 12.5 or 25/2. Three if planar.",
-)
+@arguments.configuration_option
+@arguments.lengths_option
 @click.option(
     "--method",
     type=click.Choice(METHODS),

@@ -17,13 +17,8 @@ MOST_STARTS = 10_000
 
 @click.command(short_help="Numeric methods held against the certified poses.")
 @click.argument("model", type=click.Path())
-@click.option("--configuration", metavar="NAME", help="Configuration of the model file.  [default: the first one]")
-@click.option(
-    "--lengths",
-    callback=arguments.lengths,
-    metavar="L1,..,L6",
-    help="Leg lengths instead, exact: 1250 or 12.5 or 25/2. Three if planar.",
-)
+@arguments.configuration_option
+@arguments.lengths_option
 @click.option(
     "--starts",
     type=click.IntRange(1, MOST_STARTS),

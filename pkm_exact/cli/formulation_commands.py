@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @click.command(short_help="All formulations on one robot, side by side.")
 @click.argument("model", type=click.Path())
-@click.option("--configuration", metavar="NAME", help="Configuration of the model file.  [default: the first one]")
+@arguments.configuration_option
 @click.option("--json", "output", type=click.Path(), metavar="FILE", help="Write the rows to this file as well.")
 @click.option(
     "--only",
@@ -82,7 +82,7 @@ def formulations(
     help=f"System of equations: {', '.join(formulation_codes())}, or with an option: AFD1:zxz, AFP1:124.",
 )
 @click.option("--to", "target", type=click.Choice(TARGETS), required=True, help="Program to write for.")
-@click.option("--configuration", metavar="NAME", help="Configuration of the model file.  [default: the first one]")
+@arguments.configuration_option
 @click.option(
     "--localised",
     is_flag=True,

@@ -54,7 +54,7 @@ def solved(
         return solved_by_newton(problem, start)
     engine: Callable[..., Solution]
     if method == "krawczyk":
-        from pkm_exact.numeric.engine import solve_krawczyk
+        from pkm_exact.numeric_engine import solve_krawczyk
 
         engine = partial(solve_krawczyk, width=width)
     else:

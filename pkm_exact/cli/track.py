@@ -143,8 +143,8 @@ def _follow(
 
 
 def _poses(robot: Robot, joints: JointPath, width: Fraction, progress: Progress) -> tuple[Pose, ...]:
-    from pkm_exact.numeric.engine import solve_krawczyk
     from pkm_exact.numeric.path_forms import problem_at
+    from pkm_exact.numeric_engine import solve_krawczyk
 
     return solve_krawczyk(problem_at(robot, joints.rows[0]), width=width, progress=progress).poses
 

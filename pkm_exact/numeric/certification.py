@@ -26,8 +26,6 @@ SURELY_CONVERGING = arb(2) ** -20
 """Relative steps as small as this are not damped any more."""
 GREATEST_DAMPING = 1 << 10
 """Steps are not made shorter than by this factor."""
-
-
 CLEARLY_COMPLEX = 1e-6
 """Imaginary parts, relative to the point, from which a point is not taken for its own conjugate."""
 SAME = 1e-10

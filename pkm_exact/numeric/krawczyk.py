@@ -63,36 +63,16 @@ class Box:
         """Whether the two boxes have no point in common."""
         return any(self._are_apart(other, index) for index in range(8))
 
-    def contains(self, other: Box) -> bool:
-        """Whether every point of the other box, real ones if that is real, lies in this one."""
-        return all(self._spans(other, index) for index in range(8)) and (other.is_real or not self.is_real)
-
     def conjugate(self) -> Box:
         """The box of the complex conjugate points."""
         return Box(self.exponents, tuple((real, -imaginary) for real, imaginary in self.centre))
 
     def _are_apart(self, other: Box, index: int) -> bool:
-        (mine, theirs), offsets = self._radii(other, index), self._offsets(other, index)
-        return any(offset > mine + theirs for offset in offsets)
-
-    def _spans(self, other: Box, index: int) -> bool:
-        (mine, theirs), offsets = self._radii(other, index), self._offsets(other, index)
-        return all(offset + theirs <= mine for offset in offsets)
-
-    def _radii(self, other: Box, index: int) -> tuple[int, int]:
-        """Both radii in a coordinate, in units of the finer grid."""
-        finest = max(self.exponent(index), other.exponent(index))
-        return RADIUS << (finest - self.exponent(index)), RADIUS << (finest - other.exponent(index))
-
-    def _offsets(self, other: Box, index: int) -> tuple[int, int]:
-        """How far apart the centres are in a coordinate, real and imaginary parts, in units of the finer grid."""
         mine, theirs = self.exponent(index), other.exponent(index)
         finest = max(mine, theirs)
-        real, imaginary = (
-            abs((a << (finest - mine)) - (b << (finest - theirs)))
-            for a, b in zip(self.centre[index], other.centre[index], strict=True)
-        )
-        return real, imaginary
+        reach = (RADIUS << (finest - mine)) + (RADIUS << (finest - theirs))
+        pairs = zip(self.centre[index], other.centre[index], strict=True)
+        return any(abs((a << (finest - mine)) - (b << (finest - theirs))) > reach for a, b in pairs)
 
 
 class ChartSystem:

@@ -14,7 +14,7 @@ import numpy as np
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.start import DEGREES, StartSection, generic_start, joined, start_quadrics
 from pkm_exact.numeric.study_system import numeric_section, section_quadrics
-from pkm_exact.numeric.tracker import TrackerPolicy, polished, track
+from pkm_exact.numeric.tracker import polished, track
 
 OFFSET: Final = 0.15
 """How far the complex squared lengths are from the real ones, for a robot of size 1."""
@@ -22,8 +22,6 @@ ATTEMPTS: Final = 3
 """Times that paths are tracked, each time others, before the robot counts as one with fewer solutions."""
 GREATEST_CHANGE: Final = 1e-5
 """An end point that Newton's method still moves by more than this is not taken for a solution."""
-POLICY: Final = TrackerPolicy(steps=500)
-"""Paths that need more steps than this lead to no start."""
 
 
 def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
@@ -58,9 +56,8 @@ def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
     solutions = start.solutions[:0]
     for attempt in range(ATTEMPTS):
         with np.errstate(all="ignore"):
-            ends, arrived = track(
-                start.solutions, start_quadrics(start, seed + attempt, planar=problem.planar), quadrics, POLICY
-            )
+            from_here = start_quadrics(start, seed + attempt, planar=problem.planar)
+            ends, arrived = track(start.solutions, from_here, quadrics)
             ends, change = polished(ends[arrived], quadrics)
         solutions = joined(solutions, ends[change < GREATEST_CHANGE])
         if len(solutions) == DEGREES[problem.planar]:

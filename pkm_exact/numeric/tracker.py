@@ -54,7 +54,7 @@ class TrackerPolicy:
     contraction: float = 5e-2
     noise: float = 1e-6
     smallest_step: float = 1e-10
-    steps: int = 2000
+    steps: int = 500
 
 
 def track(

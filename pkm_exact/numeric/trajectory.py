@@ -18,7 +18,6 @@ from typing import Final
 
 from flint import acb, acb_mat, arb, arb_mat, ctx
 
-from pkm_exact.engine import DEFAULT_WIDTH
 from pkm_exact.errors import InputError, InternalContradictionError, PkmExactError
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric.centred import CentredFrames, CentredRobot, Chart, centred_frames, centred_robot
@@ -27,7 +26,7 @@ from pkm_exact.numeric.parametric import Linearisation, spread
 from pkm_exact.numeric.path_forms import JointRow, path_forms, problem_at
 from pkm_exact.numeric.pose_maps import pose_map
 from pkm_exact.numeric.tube import FloatPath, Prediction, Tube, floats, in_weights, predict, prove, station
-from pkm_exact.poses.boxes import disjoint_cells, exponent_for_width, pose_in_cells
+from pkm_exact.poses.boxes import DEFAULT_WIDTH, disjoint_cells, exponent_for_width, pose_in_cells
 from pkm_exact.poses.pose import Pose
 
 STEP_PRECISION: Final = 96

@@ -19,6 +19,8 @@ from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.poses.representation import PoseRepresentation
 from pkm_exact.roots.isolation import isolate_real_roots, real_root_enclosures
 
+DEFAULT_WIDTH = Fraction(1, 10**9)
+"""Largest width of a box if none is asked for, in every coordinate."""
 NEAR_EXPONENT = 32
 """A value within 2^-32 of a grid point gets a box around that point."""
 GUARD_BITS = 48

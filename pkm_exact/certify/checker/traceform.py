@@ -85,9 +85,34 @@ class _Reduction:
         ]
 
     def row(self, monomial: Monomial) -> fmpq_mat:
-        if monomial not in self.known:
-            self.known[monomial] = self._found(monomial)
+        """Coordinates of a monomial; what they follow from is found first, without recursion however long the chain."""
+        pending = [monomial]
+        while pending:
+            missing = [other for other in self._needed(pending[-1]) if other not in self.known]
+            if missing:
+                pending += missing
+                continue
+            last = pending.pop()
+            if last not in self.known:
+                self.known[last] = self._found(last)
         return self.known[monomial]
+
+    def _needed(self, monomial: Monomial) -> list[Monomial]:
+        """Smaller monomials from whose coordinates those of this one follow, as far as they are known by now."""
+        if monomial in self.known or monomial in self.place:
+            return []
+        if monomial in self.leading:
+            return list(self.leading[monomial])[1:]
+        axis, smaller = self._lowered(monomial)
+        if smaller not in self.known:
+            return [smaller]
+        values = zip(self.basis, self.known[smaller].entries(), strict=True)
+        return [_shifted(other, axis, 1) for other, value in values if value]
+
+    def _lowered(self, monomial: Monomial) -> tuple[int, Monomial]:
+        """The first unknown by which a monomial that is neither standard nor leading can be divided to be so again."""
+        lowered = ((axis, _shifted(monomial, axis, -1)) for axis in range(self.size) if monomial[axis])
+        return next((axis, other) for axis, other in lowered if other not in self.place)
 
     def combination(self, terms: Iterable[tuple[Monomial, int]]) -> fmpq_mat:
         """Coordinates of a polynomial."""
@@ -104,8 +129,7 @@ class _Reduction:
             (_, lead), *tail = self.leading[monomial].items()
             total = self.combination(tail) * fmpq(-1, lead)
         else:
-            lowered = ((axis, _shifted(monomial, axis, -1)) for axis in range(self.size) if monomial[axis])
-            axis, smaller = next((axis, other) for axis, other in lowered if other not in self.place)
+            axis, smaller = self._lowered(monomial)
             for other, value in zip(self.basis, self.row(smaller).entries(), strict=True):
                 if value:
                     total += self.row(_shifted(other, axis, 1)) * value

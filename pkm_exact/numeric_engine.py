@@ -11,13 +11,14 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Final
 
-from pkm_exact.engine import DEFAULT_WIDTH, solve
+from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.certification import IsolatedSolutions
 from pkm_exact.numeric.krawczyk import ChartSystem
 from pkm_exact.numeric.poses import approximations, certified_solutions, motion_degree, real_poses
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.policy import Policy
+from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.poses.completeness import CompletenessProof
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Stages

@@ -17,17 +17,18 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pkm_exact.engine import DEFAULT_WIDTH, solve
+from pkm_exact.engine import solve
 from pkm_exact.errors import InputError, PkmExactError
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.rational import parse_positive
+from pkm_exact.geometry.rational import NumberText, parse_positive
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.numeric.engine import solve_krawczyk
 from pkm_exact.numeric.nearby import nearby_start
 from pkm_exact.numeric.start import StartSection
+from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.policy import Policy
+from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.solution import Solution
 
@@ -136,7 +137,7 @@ def solve_many(
     robot : Robot or path
         Actuated by its leg lengths; or the path of its model file.
     lengths : (n, 6) array, or (n, 3) of a planar robot
-        Exact: integers, fractions, decimals, or strings such as "1250.5" or "2501/2".
+        Exact: integers, fractions, decimals, or strings such as "1250.5", "1.2505e3" or "2501/2".
     squared : bool
         Whether they are squared lengths.
     doubles_are_exact : bool
@@ -162,7 +163,7 @@ def solve_many(
     >>> [(str(row["claim"]), int(row["count"])) for row in found.rows], found.poses["det_sign"].tolist()
     ([('complete', 2), ('error', 0)], [-1, 1])
     >>> found.rows["note"][1]
-    "lengths, row 2, leg 3: '-1' is not positive; give a number greater than 0"
+    "lengths, row 2, leg 3: -1 is not positive; give a number greater than 0"
     """
     if not isinstance(robot, Robot):
         robot = read_robot(Path(robot))
@@ -221,6 +222,8 @@ def _exact(value: object, where: str, doubles_are_exact: bool) -> Fraction:
         if not -inf < value < inf:
             raise InputError(f"{where}: {value!r} is not a finite number; give one")
         value = Fraction(value)
+    if isinstance(value, str) and "/" not in value:
+        value = NumberText(value)  # with an exponent too, as on the command line
     return parse_positive(value, where)
 
 
@@ -238,7 +241,10 @@ class _Solver:
         middle = _middle([problem for problem in problems if isinstance(problem, ForwardProblem)])
         if middle is None:
             return cls(width, policy, None, is_numeric=True)
-        start = nearby_start(middle, policy.seed)
+        try:
+            start = nearby_start(middle, policy.seed)
+        except OverflowError:
+            return cls(width, policy, None, is_numeric=True)
         return cls(width, policy, start, is_numeric=start is not None)
 
     def row(self, number: int, problem: ForwardProblem | str) -> tuple[tuple[Any, ...], NDArray[Record]]:
@@ -275,7 +281,6 @@ def _middle(problems: Sequence[ForwardProblem]) -> ForwardProblem | None:
         return None
     try:
         squares = np.array([[float(leg.length_squared) for leg in problem.legs] for problem in problems])
-        [float(value) for leg in problems[0].legs for value in (*leg.base, *leg.platform)]
     except OverflowError:
         return None
     with np.errstate(all="ignore"):
