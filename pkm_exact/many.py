@@ -163,7 +163,7 @@ def solve_many(
     >>> [(str(row["claim"]), int(row["count"])) for row in found.rows], found.poses["det_sign"].tolist()
     ([('complete', 2), ('error', 0)], [-1, 1])
     >>> found.rows["note"][1]
-    "lengths, row 2, leg 3: -1 is not positive; give a number greater than 0"
+    'lengths, row 2, leg 3: -1 is not positive; give a number greater than 0'
     """
     if not isinstance(robot, Robot):
         robot = read_robot(Path(robot))

@@ -1,0 +1,142 @@
+"""The command ``solve``. Everything heavy is imported inside it."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import click
+
+from pkm_exact.cli import arguments, tolerance_report
+from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.methods import METHODS, report_uncertified, require_fitting, solved
+from pkm_exact.errors import InputError
+from pkm_exact.formulations.registry import formulation_codes
+
+
+@click.command(short_help="All real poses of a robot, and a certificate.")
+@click.argument("model", type=click.Path())
+@arguments.configuration_option
+@arguments.lengths_option
+@click.option(
+    "--method",
+    type=click.Choice(METHODS),
+    default=METHODS[0],
+    show_default=True,
+    help="exact: elimination. krawczyk: continuation, then proof. newton: one pose from a start, nothing proved.",
+)
+@click.option(
+    "--formulation",
+    callback=arguments.code,
+    metavar="CODE",
+    default=formulation_codes()[0],
+    show_default=True,
+    help=f"System of equations to solve: {', '.join(formulation_codes())}, or with an option: AFD1:zxz, AFP1:124.",
+)
+@click.option(
+    "--start",
+    callback=arguments.start,
+    metavar="X,Y,Z,Q0,..,Q3",
+    help="For newton: position and quaternion to start from. X,Y,DEGREES if planar.  [default: a home pose, the "
+    "platform over the base]",
+)
+@click.option(
+    "--width",
+    callback=arguments.width,
+    metavar="W",
+    default="1e-9",
+    show_default=True,
+    help="Greatest width of a box, exact: 1e-9 or 1/1000.",
+)
+@click.option(
+    "--time-limit",
+    callback=arguments.time_limit,
+    metavar="S",
+    help="Seconds after which exact or krawczyk is given up, and uncertified poses are the answer.  [default: none]",
+)
+@click.option(
+    "--tolerance",
+    callback=tolerance_report.parse,
+    is_flag=False,
+    flag_value=tolerance_report.OF_THE_MODEL,
+    metavar="[T]",
+    help="Boxes for all robots whose joints and lengths are off by at most T; without T, by the model's tolerances.",
+)
+@click.option("-o", "--output", type=click.Path(), metavar="CERT.json", help="Write the certificate to this file.")
+@click.option(
+    "--format",
+    "layout",
+    type=click.Choice(["table", "json", "csv"]),
+    default="table",
+    show_default=True,
+    help="What to print: decimals, or exact bounds as json or csv.",
+)
+@click.option("-v", "--verbose", is_flag=True, help="Say more: method, box widths, stages on a terminal.")
+def solve(
+    model: str,
+    configuration: str | None,
+    lengths: tuple[Fraction, ...] | None,
+    method: str,
+    formulation: str,
+    start: tuple[float, ...] | None,
+    width: Fraction,
+    time_limit: float | None,
+    tolerance: Fraction | str | None,
+    output: str | None,
+    layout: str,
+    verbose: bool,
+) -> int:
+    """Find all real poses of the robot in the file MODEL for one configuration, or for given leg lengths.
+
+    Prints the poses and, with -o, writes a certificate that `certify-poses check` replays. A pose of the method newton,
+    and those found instead of a certified answer when --time-limit is over, are uncertified: points and not boxes, exit
+    code 3, and no certificate.
+
+    \b
+    Examples:
+      certify-poses solve models/rolland-6-6.toml -o rolland.json
+      certify-poses solve models/hexa.toml --configuration level --time-limit 10
+      certify-poses solve models/rolland-6-6.toml --method newton --start 0,0,800,1,0,0,0
+    """
+    if configuration is not None and lengths is not None:
+        raise click.UsageError("--configuration and --lengths exclude each other.")
+    require_fitting(click.get_current_context(), method)
+    tolerance_report.require_fitting(click.get_current_context(), tolerance, method, layout)
+    from pkm_exact.geometry.reader import read_robot
+
+    robot = read_robot(model)
+    chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
+    name = chosen.name if chosen else None
+    tolerances = None if tolerance is None else tolerance_report.chosen_tolerances(robot, model, tolerance)
+    if output is not None:
+        arguments.require_other_file(Path(output), model, "-o")
+        arguments.require_writable(Path(output), "-o")
+
+    from pkm_exact.cli.progress import Progress
+    from pkm_exact.numeric.uncertified import UncertifiedSolution
+
+    with Progress(verbose=verbose) as progress:
+        try:
+            solution = solved(problem, method, formulation, start, width, time_limit, progress)
+        except InputError as error:
+            raise InputError(f"{model}: {error}") from None
+    if isinstance(solution, UncertifiedSolution):
+        return report_uncertified(robot, name, solution, layout, output, verbose=verbose)
+    if tolerances is not None:
+        with Progress(verbose=verbose) as progress:
+            return tolerance_report.report_tolerances(
+                robot, name, solution, tolerances, output, layout, verbose=verbose, progress=progress
+            )
+    if output is not None:
+        from pkm_exact.certify.build import certificate, write_certificate
+
+        try:
+            write_certificate(Path(output), certificate(robot, name, solution))
+        except OSError as error:
+            raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
+
+    from pkm_exact.cli.report import report
+    from pkm_exact.verdict import Claim
+
+    report(robot, name, solution, layout, verbose=verbose)
+    return ExitCode.DONE if solution.claim in (Claim.COMPLETE, Claim.INCONSISTENT) else ExitCode.WEAKER_CLAIM
