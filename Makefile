@@ -1,5 +1,6 @@
 # make poses   certify the reference robot, print its poses, check the certificate
 # make test    lint, types and tests
+# make bench   compare with other programs and measure growth; the report goes to build/bench
 # make notebooks   run the documents in notebooks/ and write them to build/notebooks as HTML
 # All need Python 3.11 or newer and make, nothing else: they set up .venv themselves.
 
@@ -38,8 +39,11 @@ golden: $(VENV)/.installed
 		$(BIN)/certify-poses solve $$model -o certs/$$(basename $$model .toml).json >/dev/null || test $$? -eq 3 || exit 1; \
 	done
 
+# An error says that a limit was not kept.
 bench: $(VENV)/.installed-test
-	@for script in benchmarks/bench_*.py; do $(BIN)/python $$script || exit 1; done
+	@$(PIP) install --no-deps passagemath-giac || echo "giac is not available here: it will not be compared" >&2
+	@$(BIN)/python benchmarks/bench.py --output build/bench $(BENCH)
+	@$(BIN)/python benchmarks/bench_krawczyk.py --json build/bench/krawczyk.json
 
 notebooks: $(VENV)/.installed-notebooks
 	@mkdir -p build/notebooks

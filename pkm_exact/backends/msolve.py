@@ -97,9 +97,9 @@ def run_msolve(system: PolynomialSystem, *, seconds: float, program: Path | None
         return parse_msolve(target.read_text(encoding="ascii"), system.unknowns)
 
 
-def msolve_command(program: Path, source: Path, target: Path) -> list[str]:
-    """The command line: one thread, real solutions and their parametrisation."""
-    return [str(program), "-f", str(source), "-o", str(target), "-t", "1", "-P", "1"]
+def msolve_command(program: Path, source: Path, target: Path, threads: int = 1) -> list[str]:
+    """The command line: real solutions and their parametrisation."""
+    return [str(program), "-f", str(source), "-o", str(target), "-t", str(threads), "-P", "1"]
 
 
 def msolve_input(system: PolynomialSystem) -> str:

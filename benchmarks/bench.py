@@ -1,0 +1,129 @@
+"""All benchmarks in one run: programs side by side, engines by stage, formulations, growth, batches.
+
+Writes report.md, report.json and pictures. The programs run in turn, so that all meet the same load; read the ratios.
+The exit code is 1 if a limit is not kept.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+from typing import Any
+
+from growth import METHODS, batches, digits, exponent
+from machine import machine
+from programs import programs
+from report import draw, markdown
+from side_by_side import formulations, warm_engines, whole_processes
+
+MODELS = Path(__file__).parent.parent / "models"
+GENERAL = ("rolland-6-6", "dietmaier", "mourrain-l", "similar-planar-s", "3-rpr-merlet-p")
+FAMILY = ("6-6p", "6-6pp", "ssm-exact", "ssm-rounded", "tssm", "mssm", "hexa", "hexaglide")
+"""The other robots of the reference chapter's Table 5, each on our two engines and msolve only."""
+SIDE = ("exact", "krawczyk", "msolve", "msolve-2")
+PARTS = ("programs", "engines", "formulations", "digits", "batches")
+DIGITS = (3, 6, 12, 24, 48)
+BATCHES = (1, 10, 100, 1000)
+QUICK_RATIO, SLOW_RATIO, SECONDS = 1.0, 2.0, 10.0
+"""Limits: of the exact engine to msolve, of a formulation to msolve on the same system, or in seconds."""
+
+
+def main() -> int:
+    """Run what is asked for and write the report."""
+    arguments = _arguments()
+    start = perf_counter()
+
+    def log(line: str) -> None:
+        print(f"{perf_counter() - start:7.1f} s  {line}", file=sys.stderr, flush=True)
+
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    contenders = {key: each for key, each in programs().items() if each.version is not None}
+    results: dict[str, Any] = {"machine": machine(programs().values())}
+    robots = [MODELS / f"{name}.toml" for name in arguments.robots]
+    family = [MODELS / f"{name}.toml" for name in arguments.family]
+    if "programs" in arguments.parts:
+        some = {key: each for key, each in contenders.items() if key in SIDE}
+        measured = whole_processes(robots, contenders, arguments.runs, arguments.limit, log)
+        measured |= whole_processes(family, some, arguments.runs, arguments.limit, log)
+        titles = {key: (each.title, each.job) for key, each in contenders.items()}
+        results["whole processes"] = {"titles": titles, "robots": measured}
+    if "engines" in arguments.parts:
+        results["engines"] = warm_engines(robots + family, arguments.runs, log)
+    if "formulations" in arguments.parts:
+        runs = min(arguments.runs, 3)
+        results["formulations"] = {path.stem: formulations(path, runs, arguments.limit, log) for path in robots[:1]}
+    if "digits" in arguments.parts:
+        results["digits"] = digits(arguments.digits, min(arguments.runs, 3), arguments.limit, log)
+    if "batches" in arguments.parts:
+        limit = 100 * arguments.limit
+        results["batches"] = batches(robots[0], arguments.batches, (1, 2), METHODS, limit, log)
+    results["limits"] = _limits(results)
+    (arguments.output / "report.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+    text = markdown(results)
+    (arguments.output / "report.md").write_text(text, encoding="utf-8")
+    draw(results, arguments.output)
+    print(text)
+    return int(not all(each["kept"] for each in results["limits"]))
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--output", type=Path, default=Path("build/bench"), help="folder of the report (build/bench)")
+    parser.add_argument("--runs", type=int, default=5, help="runs of each, after one to warm up (default 5)")
+    parser.add_argument("--limit", type=float, default=100, help="seconds after which a program is ended (default 100)")
+    parser.add_argument("--parts", nargs="+", choices=PARTS, default=PARTS, help="what to measure (default all)")
+    parser.add_argument("--robots", nargs="+", default=GENERAL, metavar="NAME", help="models for all programs")
+    parser.add_argument("--family", nargs="*", default=FAMILY, metavar="NAME", help="models for msolve and us alone")
+    parser.add_argument("--digits", nargs="+", type=int, default=DIGITS, metavar="N", help="sizes of the data")
+    parser.add_argument("--batches", nargs="+", type=int, default=BATCHES, metavar="N", help="sizes of the sweeps")
+    return parser.parse_args()
+
+
+def _limits(results: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """What was promised, against what was measured; only what was measured."""
+    named = [*_engine_limits(results), *_formulation_limits(results), *_growth_limits(results)]
+    return [{"what": what, "value": value, "limit": limit, "kept": value <= limit} for what, value, limit in named]
+
+
+def _engine_limits(results: Mapping[str, Any]) -> Iterator[tuple[str, float, float]]:
+    robots = results.get("whole processes", {}).get("robots", {})
+    for robot in ("rolland-6-6", "dietmaier"):
+        process, engine = robots.get(robot, {}).get("msolve"), results.get("engines", {}).get(robot)
+        if process and process["is_answered"] and engine:
+            msolve = median(each["seconds"] for each in process["runs"])
+            for key, entry in engine.items():
+                yield f"{robot}: {key} engine in process / msolve", median(entry["seconds"]) / msolve, QUICK_RATIO
+
+
+def _formulation_limits(results: Mapping[str, Any]) -> Iterator[tuple[str, float, float]]:
+    for robot, entries in results.get("formulations", {}).items():
+        for code, entry in entries.items():
+            seconds, msolve = median(entry["engine"]), median(entry["msolve"] or [0.0])
+            if SLOW_RATIO * msolve <= SECONDS and msolve:
+                yield f"{robot}: {code} / msolve on the same system", seconds / msolve, SLOW_RATIO
+            else:
+                yield f"{robot}: {code}, seconds", seconds, SECONDS
+
+
+def _growth_limits(results: Mapping[str, Any]) -> Iterator[tuple[str, float, float]]:
+    for key, points in results.get("digits", {}).items():
+        slope = exponent(points)
+        if slope is not None and key != "msolve":
+            yield f"{key}: exponent of the growth with digits", slope, 2.0
+    done = [each for each in results.get("batches", []) if "memory" in each]
+    for method in METHODS:
+        some = [each for each in done if each["method"] == method and each["workers"] == 1]
+        if some and some[0]["rows"] == 1 < some[-1]["rows"]:
+            ratio = some[-1]["per_row"] / some[0]["per_row"]
+            yield f"sweep, {method}: a row of {some[-1]['rows']} / a single solve", ratio, 0.5
+    if done:
+        yield "sweep: peak memory of all processes, MB", max(each["memory"] for each in done) / 1e6, 500
+
+
+if __name__ == "__main__":
+    sys.exit(main())

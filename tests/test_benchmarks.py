@@ -1,0 +1,57 @@
+"""The benchmarks run: a small one, on a small robot."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SCRIPTS = Path(__file__).parent.parent / "benchmarks"
+
+
+def _run(script: str, *arguments: str, limit: float = 120) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, SCRIPTS / script, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
+
+
+def test_programs_and_engines_side_by_side(tmp_path: Path) -> None:
+    words = ["--runs", "1", "--limit", "20", "--robots", "3-rpr-merlet-p", "--family"]
+    done = _run("bench.py", "--output", str(tmp_path), *words, "--parts", "programs", "engines")
+    assert done.returncode == 0, done.stderr
+    results = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    entries = results["whole processes"]["robots"]["3-rpr-merlet-p"]
+    for method in ("exact", "krawczyk"):
+        assert entries[method]["answer"] == "2 real, complete"
+        assert all(run["memory"] > 1e7 and run["seconds"] > 0 for run in entries[method]["runs"])
+        assert results["engines"]["3-rpr-merlet-p"][method]["stages"]
+    if "msolve" in entries:
+        assert entries["msolve"]["answer"] == "6 complex, 2 real"
+    assert {"date", "processor", "cores", "memory", "versions"} <= set(results["machine"])
+    assert "| pkm_exact, exact |" in (tmp_path / "report.md").read_text(encoding="utf-8")
+    assert (tmp_path / "engines.svg").stat().st_size > 1000
+
+
+@pytest.mark.slow
+def test_growth(tmp_path: Path) -> None:
+    words = ["--runs", "1", "--limit", "30", "--digits", "2", "4", "--batches", "1", "3"]
+    done = _run("bench.py", "--output", str(tmp_path), *words, "--parts", "digits", "batches", limit=500)
+    results = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert [point["digits"] for point in results["digits"]["exact"]] == [2, 4], done.stderr
+    assert all(each["code"] == 0 and each["poses"] > 0 for each in results["batches"])
+    assert len(results["batches"]) == len(("exact", "krawczyk")) * len((1, 3)) * len((1, 2))
+
+
+def test_a_command_that_does_not_end_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(SCRIPTS))
+    from measure import run
+
+    done = run([sys.executable, "-c", "import time; print('begun', flush=True); time.sleep(60)"], 0.5, tmp_path)
+    assert done.code is None
+    assert done.output == "begun\n"
+    words = "block = bytearray(100 << 20); print(len(block)); raise SystemExit(7)"
+    done = run([sys.executable, "-c", words], 60, tmp_path)
+    assert done.code == 7
+    assert 100 << 20 <= done.memory < 200 << 20
