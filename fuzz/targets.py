@@ -1,0 +1,167 @@
+"""What the fuzzer calls: each takes bytes, and raises only if the program is at fault."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import shutil
+import sys
+from collections.abc import Callable, Mapping
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from pkm_exact.certify import pure
+from pkm_exact.certify.check import check_bytes
+from pkm_exact.cli.main import ExitCode, main
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.path_reader import read_path
+from pkm_exact.geometry.reader import read_robot, robot_from_toml
+
+ROOT = Path(__file__).parent.parent
+QUICK = ROOT / "models" / "3-rpr-merlet-p.toml"
+STATUSES = {"accepted", "rejected", "malformed"}
+
+
+class Finding(Exception):  # noqa: N818 - what a fuzzer looks for
+    """The program did what it never should."""
+
+
+def fuzz_model(data: bytes) -> None:
+    """A model file is read, or refused in one sentence; what is read can be posed as a problem."""
+    try:
+        robot = robot_from_toml(data.decode("utf-8-sig"))
+        for configuration in robot.configurations:
+            robot.problem(configuration)
+    except UnicodeDecodeError:
+        return
+    except InputError as error:
+        _require_sentence(str(error))
+
+
+def fuzz_certificate(data: bytes) -> None:
+    """The first checker has a verdict with a reason."""
+    verdict = check_bytes(data)
+    if str(verdict.status) not in STATUSES or not verdict.lines:
+        raise Finding(f"{verdict.status}: {verdict.lines}")
+
+
+def fuzz_checkers(data: bytes) -> None:
+    """Both checkers have the same verdict."""
+    first, second = check_bytes(data), pure.check_bytes(data)
+    if str(first.status) != str(second.status):
+        raise Finding(f"{first.status} {first.lines[-1:]}, but {second.status} {second.lines[-1:]}")
+
+
+def fuzz_path(data: bytes) -> None:
+    """A path is read, or refused in one sentence."""
+    robot = read_robot(QUICK)
+    with TemporaryDirectory() as name:
+        file = Path(name) / "path.csv"
+        file.write_bytes(data)
+        try:
+            path = read_path(file, robot)
+        except InputError as error:
+            _require_sentence(str(error))
+            return
+    if not path.rows or any(len(row) != 3 or min(row) <= 0 for row in path.rows):
+        raise Finding(f"a path that is none: {path.rows[:2]}")
+
+
+FILES = ("r.toml", "c.json", "p.csv", "none.toml", ".", "", "o.json", "/dev/null", "-", "no/o.json")
+WORDS = (
+    *"solve check track legs export new selftest report plot completion --help --version -o --method exact krawczyk".split(),
+    *"newton --configuration home --lengths 7,5,5 1e-3,1/3,0 --width 1e-9 1e-400 2 --format json csv table -v".split(),
+    *"--start 0,0,0 1 --position 1,2 --quaternion 1,0,0,0 --cayley 0,0,1 --matrix --to msolve singular latex".split(),
+    *"--formulation SE3 AFD1:zxz --tolerance 0 -1 --pure --localised --recompute nan inf 1e999999999 -- =".split(),
+    *("\x00", "\udcff", "--start=", "é", *FILES),
+)
+KEPT = {"r.toml", "c.json", "p.csv", "o.json"}
+PLAIN = (
+    "solve r.toml -o o.json",
+    "check c.json",
+    "track r.toml p.csv --start 1 -o o.json",
+    "legs r.toml --position 1,2",
+)
+
+
+def fuzz_command(data: bytes) -> None:
+    """A command line ends with one of the exit codes, and leaves nothing but whole files.
+
+    The bytes choose words: of a list, or letters of their own after the byte 255.
+    """
+    words = _words(data)
+    if not {"formulations", "compare", "sweep"}.isdisjoint(words):
+        return
+    home = Path.cwd()
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        shutil.copy(QUICK, folder / "r.toml")
+        shutil.copy(ROOT / "certs" / f"{QUICK.stem}.json", folder / "c.json")
+        (folder / "p.csv").write_text("7,5,5\n7.01,5,5\n", encoding="ascii")
+        os.chdir(folder)
+        try:
+            code, errors = _run(words)
+        finally:
+            os.chdir(home)
+        _require_tidy(folder, words, code)
+    if code not in set(ExitCode):
+        raise Finding(f"{words}: exit code {code}")
+    if code in (ExitCode.BAD_INPUT, ExitCode.NO_ANSWER) and not errors.strip():
+        raise Finding(f"{words}: exit code {code} without a word")
+
+
+def _words(data: bytes) -> list[str]:
+    words, position = [], 0
+    while position < len(data) and len(words) < 16:
+        index = data[position]
+        position += 1
+        if index == 255:
+            words.append(data[position : position + 6].decode("utf-8", errors="surrogateescape"))
+            position += 6
+        elif index >= 255 - len(PLAIN):
+            words += PLAIN[255 - len(PLAIN) - index].split()
+        else:
+            words.append(WORDS[index % len(WORDS)])
+    return words
+
+
+def _run(words: list[str]) -> tuple[int, str]:
+    output, errors = io.TextIOWrapper(io.BytesIO(), "utf-8"), io.TextIOWrapper(io.BytesIO(), "utf-8")
+    with redirect_stdout(output), redirect_stderr(errors):
+        try:
+            code = main(words)
+        except SystemExit as end:
+            raise Finding(f"{words}: left by exit {end.code}") from end
+        errors.flush()
+        return code, errors.buffer.getvalue().decode(errors="replace")  # type: ignore[attr-defined]
+
+
+def _require_tidy(folder: Path, words: list[str], code: int) -> None:
+    names = {path.name for path in folder.iterdir()}
+    written = names - KEPT
+    if any(name.startswith(".") or name.endswith((".part", ".tmp")) or "report" in name for name in written):
+        raise Finding(f"{words}: exit code {code}, left {sorted(written)}")
+    target = folder / "o.json"
+    if target.is_file() and not target.read_bytes().strip():
+        raise Finding(f"{words}: an empty file")
+    if target.is_file() and target.read_bytes().startswith(b"{"):
+        json.loads(target.read_bytes())
+
+
+def _require_sentence(text: str) -> None:
+    if not text or "\n" in text or len(text) > 2000:
+        raise Finding(f"not a sentence: {text[:200]!r}")
+
+
+TARGETS: Mapping[str, Callable[[bytes], None]] = {
+    "model": fuzz_model,
+    "certificate": fuzz_certificate,
+    "checkers": fuzz_checkers,
+    "path": fuzz_path,
+    "command": fuzz_command,
+}
+
+if __name__ == "__main__":
+    TARGETS[sys.argv[1]](Path(sys.argv[2]).read_bytes())
