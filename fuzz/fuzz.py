@@ -1,7 +1,7 @@
 """Coverage-guided fuzzing with atheris: ``python fuzz/fuzz.py TARGET [--seconds N] [--corpus FOLDER]``.
 
-What is found is written beside the corpus folder as crash-.., timeout-.. or oom-..; ``python fuzz/targets.py TARGET FILE``
-repeats it. Every run is bounded in time and memory.
+What is found is written beside the corpus folder as crash-.., timeout-.. or oom-..; it is repeated by
+``python fuzz/targets.py TARGET FILE``. Every run is bounded in time and memory.
 """
 
 from __future__ import annotations

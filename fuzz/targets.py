@@ -70,13 +70,13 @@ def fuzz_path(data: bytes) -> None:
 
 
 FILES = ("r.toml", "c.json", "p.csv", "none.toml", ".", "", "o.json", "/dev/null", "-", "no/o.json")
-WORDS = (
-    *"solve check track legs export new selftest report plot completion --help --version -o --method exact krawczyk".split(),
-    *"newton --configuration home --lengths 7,5,5 1e-3,1/3,0 --width 1e-9 1e-400 2 --format json csv table -v".split(),
-    *"--start 0,0,0 1 --position 1,2 --quaternion 1,0,0,0 --cayley 0,0,1 --matrix --to msolve singular latex".split(),
-    *"--formulation SE3 AFD1:zxz --tolerance 0 -1 --pure --localised --recompute nan inf 1e999999999 -- =".split(),
-    *("\x00", "\udcff", "--start=", "é", *FILES),
-)
+VOCABULARY = """
+solve check track legs export new selftest report plot completion --help --version -o --method exact krawczyk newton
+--configuration home --lengths 7,5,5 1e-3,1/3,0 --width 1e-9 1e-400 2 --format json csv table -v --start 0,0,0 1
+--position 1,2 --quaternion 1,0,0,0 --cayley 0,0,1 --matrix --to msolve singular latex --formulation SE3 AFD1:zxz
+--tolerance 0 -1 --pure --localised --recompute nan inf 1e999999999 -- =
+"""
+WORDS = (*VOCABULARY.split(), "\x00", "\udcff", "--start=", "é", *FILES)
 KEPT = {"r.toml", "c.json", "p.csv", "o.json"}
 PLAIN = (
     "solve r.toml -o o.json",
