@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 from pathlib import Path
 from secrets import token_hex
+from typing import Final
+
+_DRAFT: Final = re.compile(r"\..*\.[0-9a-f]{16}\.tmp")
 
 
 def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
@@ -28,3 +32,10 @@ def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
         draft.replace(target)
     finally:
         draft.unlink(missing_ok=True)
+
+
+def remove_drafts(folder: Path) -> None:
+    """Remove what a killed ``write_whole`` left in a folder to which nobody else writes."""
+    for path in folder.iterdir():
+        if _DRAFT.fullmatch(path.name):
+            path.unlink(missing_ok=True)

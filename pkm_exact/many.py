@@ -8,29 +8,24 @@ coordinate provably lies within its half-width of the midpoint.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
-from math import inf, nextafter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pkm_exact.engine import solve
 from pkm_exact.errors import InputError, PkmExactError
+from pkm_exact.facade import exact_length
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.rational import NumberText, parse_positive
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.numeric.nearby import nearby_start
-from pkm_exact.numeric.start import StartSection
-from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.poses.pose import Interval, Pose
-from pkm_exact.solution import Solution
+from pkm_exact.row_solver import RowSolver
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
@@ -39,12 +34,8 @@ ERROR: Final = "error"
 """In place of the claim of a row that could not be solved."""
 UNKNOWN_SIGN: Final = 2
 """In place of the sign of a determinant that was not decided."""
-SHARED_START: Final = 3
-"""Rows from which a start section of their own pays."""
 
 Record: TypeAlias = np.void
-Problems: TypeAlias = list[ForwardProblem | str]
-"""Of each row the problem, or what is wrong with it."""
 
 ROW: Final = np.dtype(
     [("claim", "U32"), ("method", "U8"), ("count", "i8"), ("complex_solutions", "i8"), ("note", object)]
@@ -119,6 +110,11 @@ class ManySolutions:
     def __repr__(self) -> str:
         return f"ManySolutions({len(self.rows)} rows, {len(self.poses)} poses)"
 
+    def _repr_html_(self) -> str:
+        from pkm_exact.display import many_html
+
+        return many_html(self)
+
 
 def solve_many(
     robot: Robot | str | Path,
@@ -153,7 +149,7 @@ def solve_many(
     Raises
     ------
     InputError
-        If the robot is not actuated by its lengths, or the array has the wrong shape or is of floating-point numbers.
+        If the robot is not actuated by its lengths, the array has the wrong shape, or a number in it is a binary float.
 
     Examples
     --------
@@ -172,10 +168,10 @@ def solve_many(
         _problem(robot, row, number, squared, doubles_are_exact)
         for number, row in enumerate(_table(robot, lengths, doubles_are_exact), 1)
     ]
-    solver = _Solver.of(problems, width, policy)
+    solver = RowSolver.of([problem for problem in problems if isinstance(problem, ForwardProblem)], width, policy)
     rows, poses = np.zeros(len(problems), ROW), []
     for number, problem in enumerate(problems):
-        rows[number], found = solver.row(number, problem)
+        rows[number], found = _row(solver, number, problem)
         poses.append(found)
         if progress is not None:
             progress(number + 1)
@@ -194,13 +190,22 @@ def _table(robot: Robot, lengths: Any, doubles_are_exact: bool) -> list[list[obj
     legs = KINDS[robot.kind].legs
     if array.ndim != 2 or array.shape[1] != legs:
         raise InputError(f"lengths: an array of shape {array.shape}; give rows of {legs} numbers, one per leg")
-    if array.dtype.kind == "f" and not doubles_are_exact:
-        raise InputError(
-            'lengths: binary floats are not exact; give strings such as "1250.5", or say that each float is meant to '
-            "be the rational number that it is in binary (doubles_are_exact=True)"
-        )
     rows: list[list[object]] = array.tolist()
+    if not doubles_are_exact:
+        _refuse_floats(rows)
     return rows
+
+
+def _refuse_floats(rows: Sequence[Sequence[object]]) -> None:
+    """A float is a slip of the program that calls, not of the data of one row: nothing is solved."""
+    for number, row in enumerate(rows, 1):
+        for leg, value in enumerate(row, 1):
+            if isinstance(value, float | np.floating):
+                raise InputError(
+                    f"lengths, row {number}, leg {leg}: {value!r} is a binary float, not exact; give strings such as "
+                    '"1250.5", or say that each float is meant to be the rational number that it is in binary '
+                    "(doubles_are_exact=True)"
+                )
 
 
 def _problem(
@@ -208,84 +213,25 @@ def _problem(
 ) -> ForwardProblem | str:
     try:
         values = [
-            _exact(value, f"lengths, row {number}, leg {leg}", doubles_are_exact) for leg, value in enumerate(row, 1)
+            exact_length(value, f"lengths, row {number}, leg {leg}", doubles_are_exact=doubles_are_exact)
+            for leg, value in enumerate(row, 1)
         ]
         return robot.problem(values if squared else [value * value for value in values])
     except PkmExactError as error:
         return str(error)
 
 
-def _exact(value: object, where: str, doubles_are_exact: bool) -> Fraction:
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, float) and doubles_are_exact:
-        if not -inf < value < inf:
-            raise InputError(f"{where}: {value!r} is not a finite number; give one")
-        value = Fraction(value)
-    if isinstance(value, str) and "/" not in value:
-        value = NumberText(value)  # with an exponent too, as on the command line
-    return parse_positive(value, where)
-
-
-@dataclass(frozen=True)
-class _Solver:
-    """How rows are solved: from which start, or that the numeric engine need not be tried."""
-
-    width: Fraction
-    policy: Policy
-    start: StartSection | None
-    is_numeric: bool
-
-    @classmethod
-    def of(cls, problems: Problems, width: Fraction, policy: Policy) -> _Solver:
-        middle = _middle([problem for problem in problems if isinstance(problem, ForwardProblem)])
-        if middle is None:
-            return cls(width, policy, None, is_numeric=True)
-        try:
-            start = nearby_start(middle, policy.seed)
-        except OverflowError:
-            return cls(width, policy, None, is_numeric=True)
-        return cls(width, policy, start, is_numeric=start is not None)
-
-    def row(self, number: int, problem: ForwardProblem | str) -> tuple[tuple[Any, ...], NDArray[Record]]:
-        """The entries of one row and of its poses."""
-        if isinstance(problem, str):
-            return (ERROR, "", 0, 0, problem), np.zeros(0, POSE)
-        try:
-            solution = self._solution(problem)
-            poses = np.array([_entry(number, pose) for pose in solution.poses], POSE)
-        except PkmExactError as error:
-            return (ERROR, "", 0, 0, f"lengths, row {number + 1}: {error}"), np.zeros(0, POSE)
-        return (
-            solution.claim.value,
-            solution.method,
-            len(poses),
-            solution.complex_solutions,
-            "; ".join(solution.notes),
-        ), poses
-
-    def _solution(self, problem: ForwardProblem) -> Solution:
-        if self.is_numeric:
-            return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start)
-        note = (
-            "the numeric engine finds fewer solutions than would prove the list complete, whatever the lengths of this "
-            "robot; the exact engine answered"
-        )
-        solution = solve(problem, width=self.width, policy=self.policy)
-        return replace(solution, notes=(*solution.notes, note))
-
-
-def _middle(problems: Sequence[ForwardProblem]) -> ForwardProblem | None:
-    """The row nearest to the mean of all; None if they are too few or too large for a start section of their own."""
-    if len(problems) < SHARED_START:
-        return None
+def _row(solver: RowSolver, number: int, problem: ForwardProblem | str) -> tuple[tuple[Any, ...], NDArray[Record]]:
+    """The entries of one row and of its poses."""
+    if isinstance(problem, str):
+        return (ERROR, "", 0, 0, problem), np.zeros(0, POSE)
     try:
-        squares = np.array([[float(leg.length_squared) for leg in problem.legs] for problem in problems])
-    except OverflowError:
-        return None
-    with np.errstate(all="ignore"):
-        distances = np.linalg.norm(squares - squares.mean(axis=0), axis=1)
-    return problems[int(np.argmin(distances))]
+        solution = solver.solution(problem)
+        poses = np.array([_entry(number, pose) for pose in solution.poses], POSE)
+    except PkmExactError as error:
+        return (ERROR, "", 0, 0, f"lengths, row {number + 1}: {error}"), np.zeros(0, POSE)
+    notes = "; ".join(solution.notes)
+    return (solution.claim.value, solution.method, len(poses), solution.complex_solutions, notes), poses
 
 
 def _entry(number: int, pose: Pose) -> tuple[Any, ...]:
@@ -316,9 +262,6 @@ def ball_of(interval: Interval) -> tuple[float, float]:
     (0.3333333333333333, True)
     """
     try:
-        middle = float(interval.midpoint)
-        exact = max(interval.hi - Fraction(middle), Fraction(middle) - interval.lo)
-        half_width = float(exact)
+        return interval.ball()
     except OverflowError:
         raise PkmExactError("a coordinate is too large for floating point; solve this row by itself") from None
-    return middle, half_width if Fraction(half_width) >= exact else nextafter(half_width, inf)

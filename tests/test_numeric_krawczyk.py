@@ -6,6 +6,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from random import Random
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from samples import MODELS, random_placed, random_vector, shipped, solved
 
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric import poses as numeric_poses
 from pkm_exact.numeric.certification import GRIDS, IsolatedSolutions, isolated_solutions, nearest_box, refined
 from pkm_exact.numeric.krawczyk import RADIUS, Box, ChartSystem, centre, certified
 from pkm_exact.numeric.poses import Approximations, approximations, box_enclosures, certified_solutions, motion_degree
@@ -200,6 +202,26 @@ def test_enclosures_hold_the_poses_of_the_exact_engine(precision: int) -> None:
         assert all(value.rad() * 2 ** (precision - 40) < 1 for value in values)
 
 
+@pytest.mark.parametrize("lost_bits", [None, -12, 40])
+def test_boxes_are_narrowed_to_the_same_poses_with_and_without_newton(
+    lost_bits: int | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not at all, around balls too small to hold the solution, and around larger ones than usual."""
+    expected = solve_krawczyk(shipped("rolland-6-6")).poses
+    near_limit, found = numeric_poses._near_limit, []
+
+    def noted(*arguments: Any) -> Any:
+        found.append(None if lost_bits is None else near_limit(*arguments))
+        return found[-1]
+
+    if lost_bits is not None:
+        monkeypatch.setattr(numeric_poses, "LOST_BITS", lost_bits)
+    monkeypatch.setattr(numeric_poses, "_near_limit", noted)
+    assert solve_krawczyk(shipped("rolland-6-6")).poses == expected
+    assert len(found) == len(expected)
+    assert all((enclosure is not None) == (lost_bits == 40) for enclosure in found)
+
+
 def test_newton_refines_to_the_same_box_on_every_grid() -> None:
     system, isolated = boxes_of(GENERAL)
     for box in isolated.real[:3]:
@@ -238,7 +260,7 @@ def test_numbers_beyond_floating_point_are_left_to_the_exact_engine(monkeypatch:
     monkeypatch.setattr("pkm_exact.numeric_engine.approximations", too_large)
     numeric = solve_krawczyk(shipped("3-rpr-merlet-p"))
     assert numeric.method == "exact"
-    assert "certified 0 of 6" in numeric.notes[-1]
+    assert "did not certify all of the 6" in numeric.notes[-1]
     assert_same_answer(numeric, solved("3-rpr-merlet-p"))
 
 

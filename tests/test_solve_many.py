@@ -111,19 +111,28 @@ def test_squared_lengths_are_not_squared_again() -> None:
     assert len(one.poses) > 0
 
 
-@pytest.mark.parametrize("kind", [np.float64, np.float32, np.float16])
-def test_arrays_of_floats_are_refused_with_the_remedy(kind: Any) -> None:
-    with pytest.raises(InputError, match=r'strings such as "1250\.5".*doubles_are_exact=True'):
-        solve_many(planar(), np.array([[7, 5, 5]], dtype=kind))
+FLOATS: list[Any] = [
+    *(np.array([[7, 5, 5]], dtype=kind) for kind in (np.float64, np.float32, np.float16)),
+    [[7.0, 5, 5]],
+    [[np.float64(7), 5, 5]],
+    [[np.float32(7), 5, 5]],
+    np.array([[7.0, "5", 5]], dtype=object),
+    [[float("nan"), 5, 5]],
+]
 
 
-def test_floats_in_lists_are_errors_of_their_rows() -> None:
-    found = solve_many(planar(), [[7.5, 5, 5], [7, 5, 5], [np.float64(7), 5, 5], [np.float32(7), 5, 5]])
-    assert found.rows["claim"].tolist() == ["error", "complete", "error", "error"]
-    assert found.errors == 3
-    assert 'lengths, row 1, leg 1: 7.5 is a binary float, not exact; write a string such as "1/4"' in str(
-        found.rows["note"][0]
-    )
+@pytest.mark.parametrize("lengths", FLOATS, ids=range(len(FLOATS)))
+def test_floats_are_refused_with_the_remedy_wherever_they_come_from(lengths: Any) -> None:
+    match = r'^lengths, row 1, leg 1: .* is a binary float, .* strings such as "1250\.5".*doubles_are_exact=True'
+    with pytest.raises(InputError, match=match):
+        solve_many(planar(), lengths)
+
+
+def test_one_float_among_exact_rows_is_found() -> None:
+    with pytest.raises(InputError, match=r"^lengths, row 3, leg 2: 5\.25 is a binary float"):
+        solve_many(planar(), [[7, 5, 5], ["x", 5, 5], [7, 5.25, 5]])
+    found = solve_many(planar(), [[7, 5, 5], ["x", 5, 5], [7, 5.25, 5]], doubles_are_exact=True)
+    assert found.rows["claim"].tolist() == ["complete", "error", "complete"]
 
 
 def test_doubles_are_exact_if_so_stated() -> None:

@@ -16,14 +16,13 @@ from typing import Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank
+from pkm_exact.geometry.csv_fields import exact_number, header_names, is_header, require_length
 from pkm_exact.geometry.kinds import KINDS
-from pkm_exact.geometry.rational import NumberText, parse_rational
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.wording import printable, shown
 
 MAX_BYTES: Final = 64 << 20
 TIME: Final = "time"
-_NOT_FINITE: Final = ("nan", "inf", "infinity")
 
 
 @dataclass(frozen=True)
@@ -106,11 +105,11 @@ def path_from_csv(text: str, robot: Robot) -> JointPath:
             line = f"line {reader.line_num}"
             if columns is None:
                 columns = _columns(fields, names, line)
-                if _is_header(fields):
+                if is_header(fields):
                     continue
             if len(fields) != len(columns):
                 raise InputError(f"{line}: {len(fields)} values; give {len(columns)}: {', '.join(columns)}")
-            values = [_number(field, f"{line}, {column}") for field, column in zip(fields, columns, strict=True)]
+            values = [exact_number(field, f"{line}, {column}") for field, column in zip(fields, columns, strict=True)]
             if columns[0] == TIME:
                 times.append(_increasing(values.pop(0), times, line))
             _require_lengths(values, names, line, robot)
@@ -123,28 +122,14 @@ def path_from_csv(text: str, robot: Robot) -> JointPath:
     return JointPath(tuple(rows), tuple(times) if columns[0] == TIME else None, tuple(lines))
 
 
-def _is_header(fields: list[str]) -> bool:
-    """Whether a line has names."""
-    return any(field[:1].isalpha() and field.lower() not in _NOT_FINITE for field in fields)
-
-
 def _columns(fields: list[str], names: tuple[str, ...], line: str) -> tuple[str, ...]:
     """The names of the columns, from a header or from their number."""
     with_time = (TIME, *names)
-    if _is_header(fields):
-        found = tuple(field.lower() for field in fields)
-        if found not in (names, with_time):
-            raise InputError(f"{line}: the columns are {shown(','.join(fields))}; name them [{TIME},]{','.join(names)}")
-        return found
+    if is_header(fields):
+        return header_names(fields, (names, with_time), f"[{TIME},]{','.join(names)}", line)
     if len(fields) not in (len(names), len(with_time)):
         raise InputError(f"{line}: {len(fields)} values; give {len(names)} ({', '.join(names)}), or {TIME} before them")
     return names if len(fields) == len(names) else with_time
-
-
-def _number(field: str, where: str) -> Fraction:
-    if not field:
-        raise InputError(f"{where}: is empty; give a number")
-    return parse_rational(field if "/" in field else NumberText(field), where)
 
 
 def _increasing(time: Fraction, before: list[Fraction], line: str) -> Fraction:
@@ -157,5 +142,4 @@ def _require_lengths(values: list[Fraction], names: tuple[str, ...], line: str, 
     if robot.chains:
         return
     for value, name in zip(values, names, strict=True):
-        if value <= 0:
-            raise InputError(f"{line}, {name}: {shown(value)} is not a length; give a number greater than 0")
+        require_length(value, f"{line}, {name}")

@@ -17,6 +17,7 @@ from flint import acb, acb_mat, arb, ctx
 
 from pkm_exact.numeric.krawczyk import GUARD_BITS, RADIUS, Balls, Box, ChartSystem, certified, middle
 from pkm_exact.numeric.study_system import Complex
+from pkm_exact.stages import Amount, Watch
 
 GRIDS = (28, 44, 72, 120, 200, 340, 600, 1000)
 """Exponents of the grids of e, tried one after another."""
@@ -56,7 +57,7 @@ class IsolatedSolutions:
         return len(self.real) + 2 * len(self.pairs)
 
 
-def isolated_solutions(system: ChartSystem, points: Complex) -> IsolatedSolutions:
+def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None = None) -> IsolatedSolutions:
     """The solutions near the given points, each once; points at which nothing can be proved are left out.
 
     Parameters
@@ -64,6 +65,8 @@ def isolated_solutions(system: ChartSystem, points: Complex) -> IsolatedSolution
     system : ChartSystem
     points : (p, n) complex array
         Approximate solutions in the system's chart; only the coordinates of its support.
+    watch : callable, optional
+        Gets how many solutions are certified, after each grid.
     """
     left = [_column(point) for point in _without_conjugates(points)]
     found: dict[Box, acb_mat] = {}
@@ -77,6 +80,9 @@ def isolated_solutions(system: ChartSystem, points: Complex) -> IsolatedSolution
         # Boxes that meet hold one solution or two; a finer grid tells.
         doubtful = _meeting(list(found))
         left += [found.pop(box) for box in doubtful]
+        if watch is not None:
+            count = sum(1 if box.is_real else 2 for box in found)
+            watch(Amount(count, len(points), "paths certified", detail=f"grid 2^-{exponent}"))
         if not left:
             break
     boxes = sorted(found, key=_centre)
@@ -181,31 +187,31 @@ def _size(column: acb_mat) -> arb:
 def nearest_box(system: ChartSystem, point: acb_mat, exponent: int) -> Box:
     """The box around the grid point nearest to a point; of it and its conjugate, the one whose first coordinate that is
     not real has a positive imaginary part."""
-    values = dict(zip(system.support, point.entries(), strict=True))
+    values = {index: _dyadic(value) for index, value in zip(system.support, point.entries(), strict=True)}
     sizes = [max(_exponent(values[i]) for i in half if i in values) for half in (range(4), range(4, 8))]
     exponents = (exponent, max(0, exponent - max(0, sizes[1] - sizes[0])))
-    centre = [
-        (_rounded(values[i].real, exponents[i // 4]), _rounded(values[i].imag, exponents[i // 4]))
-        if i in values
-        else (0, 0)
-        for i in range(8)
-    ]
+    centre = []
+    for index in range(8):
+        real, imaginary = values.get(index, ((0, 0), (0, 0)))
+        centre.append((_rounded(*real, exponents[index // 4]), _rounded(*imaginary, exponents[index // 4])))
     sign = next((-1 if imaginary < 0 else 1 for _, imaginary in centre if imaginary), 1)
     return Box(exponents, tuple((real, sign * imaginary) for real, imaginary in centre))
 
 
-def _exponent(value: acb) -> int:
+def _dyadic(value: acb) -> tuple[tuple[int, int], tuple[int, int]]:
+    """The midpoints of real and imaginary part, exactly: each an integer and the exponent of 2 that goes with it."""
+    parts = [part.mid().man_exp() for part in (value.real, value.imag)]
+    real, imaginary = [(int(mantissa), int(exponent)) for mantissa, exponent in parts]
+    return real, imaginary
+
+
+def _exponent(parts: Sequence[tuple[int, int]]) -> int:
     """The binary exponent of a number's size, roughly; that of 0 is very small."""
-    exponents = [-GRIDS[-1]]
-    for part in (value.real, value.imag):
-        mantissa, exponent = part.mid().man_exp()
-        if mantissa:
-            exponents.append(int(exponent) + int(mantissa).bit_length())
-    return max(exponents)
+    sizes = [exponent + mantissa.bit_length() for mantissa, exponent in parts if mantissa]
+    return max([-GRIDS[-1], *sizes])
 
 
-def _rounded(value: arb, exponent: int) -> int:
-    """The integer nearest to the midpoint times 2^exponent."""
-    mantissa, power = value.mid().man_exp()
-    shift = int(power) + exponent
-    return int(mantissa) << shift if shift >= 0 else ((int(mantissa) >> (-shift - 1)) + 1) >> 1
+def _rounded(mantissa: int, power: int, exponent: int) -> int:
+    """The integer nearest to mantissa times 2^power, in units of 2^-exponent."""
+    shift = power + exponent
+    return mantissa << shift if shift >= 0 else ((mantissa >> (-shift - 1)) + 1) >> 1

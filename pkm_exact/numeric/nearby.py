@@ -16,7 +16,7 @@ from pkm_exact.numeric.start import DEGREES, StartSection, generic_start, joined
 from pkm_exact.numeric.study_system import numeric_section, section_quadrics
 from pkm_exact.numeric.tracker import polished, track
 
-OFFSET: Final = 0.15
+OFFSET: Final = 0.06
 """How far the complex squared lengths are from the real ones, for a robot of size 1."""
 ATTEMPTS: Final = 3
 """Times that paths are tracked, each time others, before the robot counts as one with fewer solutions."""

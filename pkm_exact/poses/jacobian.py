@@ -11,8 +11,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from functools import cache, reduce
 from math import isqrt
+from typing import TypeAlias
 
 import numpy as np
 from flint import arb, arb_mat, ctx
@@ -32,6 +33,8 @@ OUTPUT_BITS = 32
 FINEST_EXPONENT = 256
 """Intervals returned lie on the grid 2^-256 at the finest: a bound that close to 0 says enough."""
 
+
+_Joints: TypeAlias = tuple[arb_mat, arb_mat]
 
 _ZERO = Interval(Fraction(0), Fraction(0))
 
@@ -104,17 +107,18 @@ def pose_jacobians(enclosures: Enclosures, problem: ForwardProblem, ranks: Seque
             raise InternalContradictionError("a regular Jacobian is not confirmed by its enclosures")
         with ctx.workprec(precision):
             left = [index for index, jacobian in enumerate(found) if jacobian is None]
+            joints = _joints(problem)
             for index, values in zip(left, enclosures(precision, left), strict=True):
-                found[index] = _regular_jacobian(problem, values[:3], values[3:12], length)
+                found[index] = _regular_jacobian(problem, joints, values[:3], values[3:12], length)
         precision *= 2
     return [jacobian for jacobian in found if jacobian is not None]
 
 
 def _regular_jacobian(
-    problem: ForwardProblem, position: Sequence[arb], rotation: Sequence[arb], length: Fraction
+    problem: ForwardProblem, joints: _Joints, position: Sequence[arb], rotation: Sequence[arb], length: Fraction
 ) -> LegJacobian | None:
     """The Jacobian at an enclosed pose where it is regular; None if the enclosures are too wide to show it."""
-    matrix = _matrix(problem, position, [rotation[0:3], rotation[3:6], rotation[6:9]], length)
+    matrix = _matrix(problem, joints, position, [rotation[0:3], rotation[3:6], rotation[6:9]], length)
     determinant = matrix.det()
     if not (determinant > 0 or determinant < 0):
         return None
@@ -130,12 +134,10 @@ def _regular_jacobian(
     return LegJacobian(1 if determinant > 0 else -1, len(problem.legs), smallest, condition, length)
 
 
-def _matrix(
-    problem: ForwardProblem, position: Sequence[arb], rotation: Sequence[Sequence[arb]], length: Fraction
-) -> arb_mat:
+def _joints(problem: ForwardProblem) -> _Joints:
+    """The joints of base and platform, one leg per row, in ordinary coordinates."""
     axes = [arb(g).sqrt() for g in problem.metric]
-    scale = arb(length.denominator) / length.numerator
-    base, arms = (
+    base, platform = (
         arb_mat(
             [
                 [axis * joint.numerator / joint.denominator for axis, joint in zip(axes, row, strict=True)]
@@ -144,6 +146,18 @@ def _matrix(
         )
         for side in ([leg.base for leg in problem.legs], [leg.platform for leg in problem.legs])
     )
+    return base, platform
+
+
+def _matrix(
+    problem: ForwardProblem,
+    joints: _Joints,
+    position: Sequence[arb],
+    rotation: Sequence[Sequence[arb]],
+    length: Fraction,
+) -> arb_mat:
+    scale = arb(length.denominator) / length.numerator
+    base, arms = joints
     turned = arms * arb_mat([list(row) for row in rotation]).transpose()
     rows = []
     for arm, start in zip(turned.tolist(), base.tolist(), strict=True):
@@ -173,12 +187,16 @@ def _largest_singular_value(matrix: arb_mat) -> arb | None:
     largest = reduce(arb.max, [abs(entry) for entry in entries[:: size + 1]])
     largest += arb(0, _norm([entry for place, entry in enumerate(entries) if place % (size + 1)]))
     for basis in (u, v):
-        unit = arb_mat(size, size, [int(place % (size + 1) == 0) for place in range(size * size)])
-        defect = _norm((basis.transpose() * basis - unit).entries())
+        defect = _norm((basis.transpose() * basis - _unit(size)).entries())
         if not defect < 1:
             return None
         largest /= (1 + arb(0, defect)).sqrt()
     return largest * arb(2) ** exponent if largest > 0 else None
+
+
+@cache
+def _unit(size: int) -> arb_mat:
+    return arb_mat(size, size, [int(place % (size + 1) == 0) for place in range(size * size)])
 
 
 def _exponent(matrix: arb_mat) -> int:
@@ -196,18 +214,30 @@ def _norm(entries: Sequence[arb]) -> arb:
 
 def _outward(value: arb) -> Interval:
     """A dyadic interval around an enclosure of a number that is not negative."""
-    low, high = _ends(value)
+    low, high, exponent = _ends(value)
     if high <= 0:
         return Interval(Fraction(0), Fraction(0))
-    shift = min(OUTPUT_BITS - (high.numerator.bit_length() - high.denominator.bit_length()), FINEST_EXPONENT)
-    scale = Fraction(2) ** shift
-    return Interval(max(Fraction(0), (low * scale).__floor__() / scale), -((-high * scale).__floor__() / scale))
-
-
-def _ends(value: arb) -> tuple[Fraction, Fraction]:
-    """Exact ends of an enclosure."""
-    middle, radius = (
-        Fraction(int(mantissa)) * Fraction(2) ** int(power)
-        for mantissa, power in (value.mid().man_exp(), value.rad().man_exp())
+    shift = min(OUTPUT_BITS + 1 - (high.bit_length() + exponent), FINEST_EXPONENT)
+    return Interval(
+        _dyadic(max(0, _floor(low, shift + exponent)), shift), _dyadic(-_floor(-high, shift + exponent), shift)
     )
-    return middle - radius, middle + radius
+
+
+def _floor(value: int, exponent: int) -> int:
+    """The integer below value times 2^exponent."""
+    return value << exponent if exponent >= 0 else value >> -exponent
+
+
+def _dyadic(value: int, shift: int) -> Fraction:
+    """The value times 2^-shift."""
+    return Fraction(value, 1 << shift) if shift >= 0 else Fraction(value << -shift)
+
+
+def _ends(value: arb) -> tuple[int, int, int]:
+    """The ends of an enclosure, exactly: two integers, to be multiplied by a common power of 2, and its exponent."""
+    (middle, first), (radius, second) = (
+        (int(mantissa), int(power)) for mantissa, power in (value.mid().man_exp(), value.rad().man_exp())
+    )
+    exponent = min(first, second)
+    middle, radius = middle << first - exponent, radius << second - exponent
+    return middle - radius, middle + radius, exponent

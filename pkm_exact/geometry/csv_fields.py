@@ -1,0 +1,76 @@
+"""What lines of CSV files with one column per leg have in common: headers, and numbers as they were written."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Final
+
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.rational import NumberText, parse_rational
+from pkm_exact.wording import shown
+
+_NOT_FINITE: Final = ("nan", "inf", "infinity")
+
+
+def is_header(fields: Sequence[str]) -> bool:
+    """Whether a line has names.
+
+    Examples
+    --------
+    >>> is_header(["l1", "l2", "l3"]), is_header(["7", "1e1", "nan"])
+    (True, False)
+    """
+    return any(field[:1].isalpha() and field.lower() not in _NOT_FINITE for field in fields)
+
+
+def header_names(fields: Sequence[str], choices: Sequence[tuple[str, ...]], wanted: str, line: str) -> tuple[str, ...]:
+    """The names of the columns, which must be one of the choices.
+
+    Parameters
+    ----------
+    fields : sequence of str
+        Of the header.
+    choices : sequence of tuples of str
+        In small letters.
+    wanted : str
+        The choices as they are named to the user.
+    line : str
+        Where the header stands.
+
+    Raises
+    ------
+    InputError
+        If a name is there twice, or the names are none of the choices.
+    """
+    found = tuple(field.lower() for field in fields)
+    if found in choices:
+        return found
+    double = next((name for place, name in enumerate(found) if name in found[:place]), None)
+    if double is not None:
+        raise InputError(f"{line}: two columns are called {shown(double)}; name them {wanted}")
+    raise InputError(f"{line}: the columns are {shown(','.join(fields))}; name them {wanted}")
+
+
+def exact_number(field: str, where: str) -> Fraction:
+    """The number that a field denotes: an integer, a fraction, or a decimal, with an exponent too.
+
+    Raises
+    ------
+    InputError
+        If it denotes none, or one with too many digits.
+
+    Examples
+    --------
+    >>> exact_number("12.5e2", "line 1, l1"), exact_number("-1/3", "line 1, l2")
+    (Fraction(1250, 1), Fraction(-1, 3))
+    """
+    if not field:
+        raise InputError(f"{where}: is empty; give a number")
+    return parse_rational(field if "/" in field else NumberText(field), where)
+
+
+def require_length(value: Fraction, where: str) -> None:
+    """Refuse a number that is no length."""
+    if value <= 0:
+        raise InputError(f"{where}: {shown(value)} is not a length; give a number greater than 0")

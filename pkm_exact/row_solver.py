@@ -1,0 +1,91 @@
+"""Many length vectors of one robot, each solved as if it were alone, from what is found once for all of them.
+
+The numeric engine tracks short paths from a start section near the robot (``numeric.nearby``). The start is a matter of
+time only: what is proved lies on fixed grids, so that the answer has the same boxes whatever it was tracked from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final
+
+import numpy as np
+
+from pkm_exact.engine import solve
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric.nearby import nearby_start
+from pkm_exact.numeric.start import StartSection
+from pkm_exact.numeric_engine import solve_exactly_instead, solve_krawczyk
+from pkm_exact.policy import Policy
+from pkm_exact.solution import Solution
+
+METHODS: Final = ("krawczyk", "exact")
+SHARED_START: Final = 3
+"""Rows from which a start section of their own pays."""
+
+
+@dataclass(frozen=True)
+class RowSolver:
+    """How rows are solved: by which method, from which start, or that the numeric engine need not be tried.
+
+    Attributes
+    ----------
+    method : {"krawczyk", "exact"}
+    width : Fraction
+        Largest width of a box, in every coordinate.
+    policy : Policy
+    start : StartSection or None
+        Near the robot; None if the generic one is used.
+    is_numeric : bool
+        Whether the numeric engine is tried at all.
+    """
+
+    method: str
+    width: Fraction
+    policy: Policy
+    start: StartSection | None = None
+    is_numeric: bool = True
+
+    @classmethod
+    def of(
+        cls, problems: Sequence[ForwardProblem], width: Fraction, policy: Policy, method: str = METHODS[0]
+    ) -> RowSolver:
+        """The solver of rows like the given ones."""
+        middle = _middle(problems) if method == "krawczyk" else None
+        if middle is None:
+            return cls(method, width, policy)
+        try:
+            start = nearby_start(middle, policy.seed)
+        except OverflowError:
+            return cls(method, width, policy)
+        # A robot with fewer solutions for all lengths: their number will not prove any list complete.
+        return cls(method, width, policy, start, is_numeric=start is not None)
+
+    def solution(self, problem: ForwardProblem) -> Solution:
+        """The answer to one row.
+
+        Raises
+        ------
+        PkmExactError
+            As ``engine.solve``, if that has to be called.
+        """
+        if self.method == "exact":
+            return solve(problem, width=self.width, policy=self.policy)
+        if self.is_numeric:
+            return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start)
+        return solve_exactly_instead(problem, width=self.width, policy=self.policy)
+
+
+def _middle(problems: Sequence[ForwardProblem]) -> ForwardProblem | None:
+    """The row nearest to the mean of all; None if they are too few or too large for a start section of their own."""
+    if len(problems) < SHARED_START:
+        return None
+    try:
+        squares = np.array([[float(leg.length_squared) for leg in problem.legs] for problem in problems])
+    except OverflowError:
+        return None
+    with np.errstate(all="ignore"):
+        distances = np.linalg.norm(squares - squares.mean(axis=0), axis=1)
+    return problems[int(np.argmin(distances))]

@@ -1,0 +1,156 @@
+"""Workers on a Dask cluster, by its scheduler's address. The package distributed is imported here only.
+
+FLINT's working precision belongs to a process: a process answers one row at a time, however many threads it has.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Lock
+from time import monotonic
+from typing import Any, Final
+
+import pkm_exact
+from pkm_exact.errors import InputError, PkmExactError
+from pkm_exact.sweep.job import Answer, SweepJob
+from pkm_exact.sweep.lengths import LengthRow
+from pkm_exact.sweep.record import error_line
+from pkm_exact.wording import printable
+
+SECONDS: Final = 15
+"""For the scheduler to answer, and as long again for its first worker."""
+ROWS_PER_THREAD: Final = 4
+"""Rows that are sent at the same time: what comes next is there before an answer is fetched."""
+LEAST_ROWS: Final = 32
+SECONDS_WITHOUT_WORKERS: Final = 60
+
+_one_row = Lock()
+
+
+def solve_row(job: SweepJob, row: LengthRow) -> Answer:
+    """What a worker does."""
+    with _one_row:
+        return job.answer(row)
+
+
+def version() -> str:
+    """The version of the package that a worker has."""
+    return pkm_exact.__version__
+
+
+@contextmanager
+def cluster_workers(job: SweepJob, address: str) -> Iterator[ClusterWorkers]:
+    """The workers of a cluster; rows that they still have are cancelled when the block is left.
+
+    Raises
+    ------
+    InputError
+        If distributed is not installed, the scheduler cannot be reached, or it has no worker with this version.
+    PkmExactError
+        If the cluster fails.
+    """
+    try:
+        import distributed
+    except ImportError:
+        raise InputError(
+            "--scheduler: distributed is not installed; install it, for instance with pip install "
+            '"pkm_exact[distributed]", or leave --scheduler out'
+        ) from None
+    disabled = logging.root.manager.disable
+    logging.disable()  # what matters is said by exceptions
+    try:
+        client = _connected(distributed, address)
+        try:
+            _require_same_version(client, address)
+            yield ClusterWorkers(distributed, client, job)
+        finally:
+            client.close(timeout=SECONDS)
+    finally:
+        logging.disable(disabled)
+
+
+def _connected(distributed: Any, address: str) -> Any:
+    try:
+        return distributed.Client(address, timeout=SECONDS)
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"--scheduler {printable(address)}: cannot be reached within {SECONDS} seconds "
+            f"({_reason(error)}); give the address that the scheduler prints, such as tcp://127.0.0.1:8786"
+        ) from None
+
+
+def _require_same_version(client: Any, address: str) -> None:
+    """Other versions may give other bytes."""
+    name = f"--scheduler {printable(address)}"
+    try:
+        client.wait_for_workers(1, timeout=SECONDS)
+    except TimeoutError:
+        raise InputError(f"{name}: has no workers; start some with: dask worker {printable(address)}") from None
+    remedy = f"install pkm_exact {pkm_exact.__version__} there"
+    try:
+        versions: dict[str, str] = client.run(version)
+    except Exception as error:
+        raise InputError(f"{name}: a worker cannot load pkm_exact ({_reason(error)}); {remedy}") from None
+    for worker, found in sorted(versions.items()):
+        if found != pkm_exact.__version__:
+            raise InputError(f"{name}: worker {worker} has pkm_exact {found}; {remedy}")
+
+
+class ClusterWorkers:
+    """The workers of a cluster that is connected."""
+
+    def __init__(self, distributed: Any, client: Any, job: SweepJob) -> None:
+        self._distributed, self._client, self._job = distributed, client, job
+        self._rows: dict[Any, LengthRow] = {}
+        threads = sum(client.nthreads().values())
+        self.capacity = max(LEAST_ROWS, ROWS_PER_THREAD * threads)
+
+    def submit(self, row: LengthRow) -> None:
+        """Let them answer a row."""
+        # The job is sent each time, 10 kB: what is scattered once is lost with the worker that has it.
+        self._rows[self._client.submit(solve_row, self._job, row, pure=False, priority=-row.number)] = row
+
+    def finished(self) -> list[Answer]:
+        """Wait until at least one of the rows that they have is answered; those that are."""
+        idle_since = None
+        while True:
+            answers = self._answers()
+            if answers:
+                return answers
+            idle_since = None if self._client.nthreads() else idle_since or monotonic()
+            if idle_since is not None and monotonic() - idle_since > SECONDS_WITHOUT_WORKERS:
+                raise PkmExactError("the cluster has no workers any more; the same command goes on from here")
+
+    def _answers(self) -> list[Answer]:
+        """Those that are there or come soon."""
+        try:
+            done = self._distributed.wait(list(self._rows), timeout=SECONDS, return_when="FIRST_COMPLETED").done
+            found = [(future, self._answer(future)) for future in done]
+        except TimeoutError:
+            return []
+        except (Exception, self._distributed.CancelledError) as error:
+            raise _failure(error) from None
+        for future, _ in found:
+            del self._rows[future]
+        return [answer for _, answer in found]
+
+    def _answer(self, future: Any) -> Answer:
+        """The answer; a worker that has it and is killed before it is fetched costs time only."""
+        try:
+            answer: Answer = future.result(timeout=SECONDS)
+        except self._distributed.KilledWorker:
+            row, killed = self._rows[future], "every worker of the cluster that tried it was killed"
+            sentence = f"no answer: {killed}; perhaps the memory does not suffice"
+            return Answer(row.number, error_line(row, sentence))
+        return answer
+
+
+def _failure(error: BaseException) -> PkmExactError:
+    return PkmExactError(f"the cluster failed ({_reason(error)}); the same command goes on from here")
+
+
+def _reason(error: BaseException) -> str:
+    lines = str(error).splitlines()
+    return printable(lines[0]) if lines else type(error).__name__

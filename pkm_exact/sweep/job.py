@@ -1,0 +1,124 @@
+"""What a sweep does with each row: everything that the answer depends on, in one object that processes can be sent."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from hashlib import sha256
+from itertools import islice
+from pathlib import Path
+from typing import Final
+
+import pkm_exact
+from pkm_exact.certify.build import certificate_bytes
+from pkm_exact.errors import InputError, InternalError, PkmExactError
+from pkm_exact.failure_report import internal_error
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.policy import Policy
+from pkm_exact.row_solver import RowSolver
+from pkm_exact.sweep.lengths import LengthRow, LengthsFile, problem_of
+from pkm_exact.sweep.record import error_line, solution_line
+
+FIRST_ROWS: Final = 256
+"""Rows at the beginning of a file whose lengths say where the start section is put."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What is found for one row.
+
+    Attributes
+    ----------
+    number : int
+        Of the row.
+    line : bytes
+        Of the output.
+    certificate : bytes or None
+        If certificates are wanted and the row has one.
+    """
+
+    number: int
+    line: bytes
+    certificate: bytes | None = None
+
+
+@dataclass(frozen=True)
+class SweepJob:
+    """How the rows of a file are answered.
+
+    Attributes
+    ----------
+    robot : Robot
+    names : tuple of str
+        Of the columns.
+    solver : RowSolver
+    squared : bool
+        Whether rows have squared lengths.
+    certificates : bool
+        Whether certificates are wanted, not only their digests.
+    """
+
+    robot: Robot
+    names: tuple[str, ...]
+    solver: RowSolver
+    squared: bool
+    certificates: bool
+
+    def answer(self, row: LengthRow) -> Answer:
+        """The answer to a row, whatever happens on the way: the other rows are not affected."""
+        try:
+            solution = self.solver.solution(problem_of(self.robot, row, self.names, squared=self.squared))
+            data = certificate_bytes(self.robot, None, solution)
+            return Answer(row.number, solution_line(row, solution, data), data if self.certificates else None)
+        except InternalError as error:
+            sentence = _internal(error)
+        except InputError as error:
+            sentence = str(error)
+        except PkmExactError as error:
+            sentence = f"no answer: {error}"
+        except MemoryError:
+            sentence = "no answer: the memory is exhausted; solve this row by itself"
+        except Exception as error:
+            sentence = _internal(error)
+        return Answer(row.number, error_line(row, sentence))
+
+
+def _internal(error: Exception) -> str:
+    return f"no answer: internal error: {internal_error(error)}; solve this row by itself for a report to send"
+
+
+def sweep_job(
+    robot: Robot,
+    lengths: LengthsFile,
+    *,
+    method: str,
+    width: Fraction,
+    policy: Policy,
+    squared: bool,
+    certificates: bool,
+) -> SweepJob:
+    """The job for a file. The start section is that of the first rows, however many are solved by whom."""
+    problems = list(_problems(robot, lengths, squared=squared)) if method == "krawczyk" else []
+    return SweepJob(robot, lengths.names, RowSolver.of(problems, width, policy, method), squared, certificates)
+
+
+def _problems(robot: Robot, lengths: LengthsFile, *, squared: bool) -> Iterable[ForwardProblem]:
+    """Those of the first rows that pose one."""
+    for row in islice(lengths.rows(), FIRST_ROWS):
+        try:
+            yield problem_of(robot, row, lengths.names, squared=squared)
+        except InputError:
+            continue
+
+
+def identity(job: SweepJob, lengths: LengthsFile, certificates: Path | None) -> str:
+    """A digest of all that the output depends on. The start section is no part of it: answers do not depend on it."""
+    folder = None if certificates is None else os.path.realpath(certificates)
+    robot = job.robot
+    joints = (robot.kind, robot.metric, robot.base_joints, robot.platform_joints)
+    words = (pkm_exact.__version__, robot.name, robot.unit, robot.source, joints, lengths.digest)
+    options = (job.solver.method, job.solver.width, job.solver.policy, job.squared, folder)
+    return sha256(repr((words, options)).encode()).hexdigest()

@@ -1,0 +1,214 @@
+"""CSV files with one length vector per row, read line by line: a million rows take no more memory than one.
+
+One column per leg (``l1``, ``l2``, ..), numbers exact. A first line with these names may be left out. Blank lines and
+lines that begin with # are skipped. What is wrong with one row is said in its answer; the others are not affected.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from hashlib import file_digest
+from io import BufferedReader
+from pathlib import Path
+from typing import Final
+
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.csv_fields import exact_number, header_names, is_header, require_length
+from pkm_exact.geometry.path_reader import joint_names
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.wording import printable
+
+MAX_BYTES: Final = 1 << 32
+MAX_LINE: Final = 1 << 14
+"""Bytes of a line; six fractions of the largest size take less than a third of it."""
+_BYTE_ORDER: Final = b"\xef\xbb\xbf"
+_COMMENT: Final = b"#"
+
+
+@dataclass(frozen=True)
+class LengthRow:
+    """One row of a file.
+
+    Attributes
+    ----------
+    number : int
+        From 1; lines without numbers do not count.
+    line : int
+        Where it stands in the file, from 1.
+    fields : tuple of str
+        As they were written, without blanks around them.
+    defect : str or None
+        What is wrong with the line, if it has no fields.
+    """
+
+    number: int
+    line: int
+    fields: tuple[str, ...]
+    defect: str | None = None
+
+
+@dataclass(frozen=True)
+class LengthsFile:
+    """A file of length vectors.
+
+    Attributes
+    ----------
+    path : str
+    names : tuple of str
+        Of the columns.
+    digest : str
+        SHA-256 of its bytes.
+    count : int
+        Number of rows.
+    """
+
+    path: str
+    names: tuple[str, ...]
+    digest: str
+    count: int
+
+    def rows(self) -> Iterator[LengthRow]:
+        """The rows, each read when it is asked for; at the end it is made sure that they are those of the digest.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read any more, or was changed.
+        """
+        try:
+            with Path(self.path).open("rb") as stream:
+                yield from _rows(stream, self.names)
+            if _digest(self.path) != self.digest:
+                raise InputError("was changed while it was read; start again with a new output file")
+        except (OSError, InputError) as error:
+            raise _named(self.path, error) from None
+
+
+def read_lengths(path: str | os.PathLike[str], robot: Robot) -> LengthsFile:
+    """The file of length vectors of a robot. What concerns it as a whole is checked; its numbers are not read yet.
+
+    Raises
+    ------
+    InputError
+        With file, line, value and remedy.
+    """
+    name = os.fspath(path)
+    names = joint_names(robot)
+    try:
+        if robot.chains:
+            raise InputError(
+                f"the rods of a {robot.kind} robot have fixed lengths; solve its configurations one by one"
+            )
+        if not Path(name).exists():
+            raise InputError("does not exist; give the path of a CSV file")
+        if not Path(name).is_file():
+            raise InputError("is not a regular file; give the path of a CSV file")
+        if Path(name).stat().st_size > MAX_BYTES:
+            raise InputError(f"has more than {MAX_BYTES} bytes; cut it in pieces")
+        digest = _digest(name)
+        with Path(name).open("rb") as stream:
+            count = sum(1 for _ in _rows(stream, names))
+        if not count:
+            raise InputError(f"has no rows; give one row of {len(names)} lengths ({', '.join(names)}) per problem")
+    except (OSError, ValueError, InputError) as error:
+        raise _named(name, error) from None
+    return LengthsFile(name, names, digest, count)
+
+
+def lengths_squared(row: LengthRow, names: tuple[str, ...], *, squared: bool) -> list[Fraction]:
+    """The squared lengths that a row has, exactly.
+
+    Parameters
+    ----------
+    row : LengthRow
+    names : tuple of str
+        Of the columns.
+    squared : bool
+        Whether the row has squared lengths already.
+
+    Raises
+    ------
+    InputError
+        If they are not as many positive numbers as there are columns.
+
+    Examples
+    --------
+    >>> lengths_squared(LengthRow(1, 2, ("7", "5/2", "0.1")), ("l1", "l2", "l3"), squared=False)
+    [Fraction(49, 1), Fraction(25, 4), Fraction(1, 100)]
+    """
+    line = f"line {row.line}"
+    if row.defect is not None:
+        raise InputError(f"{line}: {row.defect}")
+    if len(row.fields) != len(names):
+        raise InputError(f"{line}: {len(row.fields)} values; give {len(names)}: {', '.join(names)}")
+    if is_header(row.fields) and tuple(field.lower() for field in row.fields) == names:
+        raise InputError(f"{line}: is a second header; remove it")
+    values = []
+    for field, name in zip(row.fields, names, strict=True):
+        value = exact_number(field, f"{line}, {name}")
+        require_length(value, f"{line}, {name}")
+        values.append(value if squared else value * value)
+    return values
+
+
+def problem_of(robot: Robot, row: LengthRow, names: tuple[str, ...], *, squared: bool) -> ForwardProblem:
+    """The problem that a row poses; errors as ``lengths_squared``."""
+    return robot.problem(lengths_squared(row, names, squared=squared))
+
+
+def _rows(stream: BufferedReader, names: tuple[str, ...]) -> Iterator[LengthRow]:
+    """The rows of a file from its beginning."""
+    number, is_first = 0, True
+    for line, text in enumerate(_lines(stream), 1):
+        row = _row(number + 1, line, text)
+        if row is None:
+            continue
+        if is_first and is_header(row.fields):
+            header_names(row.fields, (names,), ",".join(names), f"line {line}")
+        else:
+            yield row
+            number += 1
+        is_first = False
+
+
+def _lines(stream: BufferedReader) -> Iterator[bytes | None]:
+    """The lines of a file; None for one that is too long, comments shortened."""
+    stream.seek(len(_BYTE_ORDER) if stream.read(len(_BYTE_ORDER)) == _BYTE_ORDER else 0)
+    while line := stream.readline(MAX_LINE):
+        whole = line
+        while len(whole) == MAX_LINE and not whole.endswith(b"\n"):
+            whole = stream.readline(MAX_LINE)
+        yield line if whole is line else _COMMENT if line.lstrip().startswith(_COMMENT) else None
+
+
+def _row(number: int, line: int, data: bytes | None) -> LengthRow | None:
+    """The row in a line, or None if the line has none."""
+    if data is None:
+        return LengthRow(number, line, (), f"has more than {MAX_LINE} bytes; give one length per leg")
+    if data.lstrip().startswith(_COMMENT):
+        return None
+    try:
+        text = data.decode("utf-8")
+        fields = tuple(field.strip() for cells in csv.reader([text.rstrip("\r\n")]) for field in cells)
+    except UnicodeDecodeError:
+        return LengthRow(number, line, (), "is not UTF-8 text; save the file as UTF-8")
+    except csv.Error as error:
+        return LengthRow(number, line, (), f"is not CSV ({error}); separate numbers by commas")
+    return LengthRow(number, line, fields) if any(fields) else None
+
+
+def _digest(path: str) -> str:
+    with Path(path).open("rb") as stream:
+        return file_digest(stream, "sha256").hexdigest()
+
+
+def _named(path: str, error: Exception) -> InputError:
+    """The error with the name of the file before it."""
+    if isinstance(error, OSError):
+        return InputError(f"{printable(path)}: cannot be read ({error.strerror}); give the path of a CSV file")
+    return InputError(f"{printable(path)}: {error}")

@@ -1,0 +1,52 @@
+"""The answer to a row as one line of JSON; the fields are described in ``docs/sweep.md``."""
+
+from __future__ import annotations
+
+import json
+from hashlib import sha256
+from typing import Any
+
+from pkm_exact.poses.pose import Pose
+from pkm_exact.roots.interval import decimal
+from pkm_exact.solution import Solution
+from pkm_exact.sweep.lengths import LengthRow
+
+
+def solution_line(row: LengthRow, solution: Solution, certificate: bytes) -> bytes:
+    """What was found for a row, with the digest of its certificate."""
+    return _line(
+        row,
+        {
+            "claim": str(solution.claim),
+            "completeness_route": None if solution.completeness_route is None else str(solution.completeness_route),
+            "method": solution.method,
+            "complex_solutions": solution.complex_solutions,
+            "distinct_solutions": solution.distinct_solutions,
+            "real_poses": len(solution.poses),
+            "poses": [_pose(pose) for pose in solution.poses],
+            "notes": list(solution.notes),
+            "certificate_sha256": sha256(certificate).hexdigest(),
+        },
+    )
+
+
+def error_line(row: LengthRow, sentence: str) -> bytes:
+    """Why a row has no answer."""
+    place = f"line {row.line}"
+    return _line(row, {"error": sentence if sentence.startswith(place) else f"{place}: {sentence}"})
+
+
+def _line(row: LengthRow, content: dict[str, Any]) -> bytes:
+    lengths = list(row.fields) if row.defect is None else None
+    entry = {"row": row.number, "line": row.line, "lengths": lengths, **content}
+    return json.dumps(entry, separators=(",", ":"), ensure_ascii=True, allow_nan=False).encode("ascii") + b"\n"
+
+
+def _pose(pose: Pose) -> dict[str, Any]:
+    """Decimals as strings: the last digit is right to within one unit."""
+    return {
+        "position": [decimal(value) for value in pose.position],
+        "quaternion": [decimal(value) for value in pose.quaternion],
+        "det_sign": None if pose.jacobian is None else pose.jacobian.det_sign,
+        "multiplicity": pose.multiplicity,
+    }

@@ -1,0 +1,174 @@
+"""A sweep on a Dask cluster: the same bytes as without, and clear sentences where there is none."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
+from random import Random
+
+import pytest
+from samples import MODELS
+
+from pkm_exact.cli.main import main
+from pkm_exact.sweep import cluster
+
+Capture = pytest.CaptureFixture[str]
+MODEL = next(str(path) for path in MODELS if path.stem == "3-rpr-merlet-p")
+needs_distributed = pytest.mark.skipif(find_spec("distributed") is None, reason="distributed is not installed")
+
+# In a process of its own: Dask's warnings and its event loop do not belong to the suite.
+CLUSTER = """
+import sys
+from distributed import LocalCluster, Scheduler
+if __name__ == "__main__":
+    cluster = LocalCluster(
+        n_workers=int(sys.argv[1]), threads_per_worker=2, dashboard_address=None, silence_logs=50,
+        local_directory=sys.argv[2],
+    )
+    print(cluster.scheduler_address, *(worker.pid for worker in cluster.workers.values()), flush=True)
+    sys.stdin.read()
+"""
+
+
+class Cluster:
+    """A scheduler with some workers."""
+
+    def __init__(self, folder: Path, workers: int) -> None:
+        script = folder / "cluster.py"
+        script.write_text(CLUSTER)
+        command = [sys.executable, str(script), str(workers), str(folder / "dask")]
+        environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent)}
+        self.process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            env=environment,
+        )
+        assert self.process.stdout is not None
+        self.address, *pids = self.process.stdout.readline().split()
+        self.workers = [int(pid) for pid in pids]
+        assert all(pid > 1 for pid in self.workers)
+
+    def close(self) -> None:
+        self.process.kill()
+        self.process.communicate()
+
+
+@pytest.fixture(scope="module")
+def dask(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    cluster = Cluster(tmp_path_factory.mktemp("cluster"), 2)
+    yield cluster
+    cluster.close()
+
+
+def rows(folder: Path, count: int) -> Path:
+    random = Random(count)
+    lines = [",".join(str(random.randint(4000, 8000) / 1000) for _ in range(3)) for _ in range(count)]
+    lines[3] = "7,x,5"
+    path = folder / "lengths.csv"
+    path.write_text("\n".join(lines))
+    return path
+
+
+def words(folder: Path, lengths: Path, name: str, *options: str) -> list[str]:
+    return ["sweep", MODEL, str(lengths), "-o", str(folder / name), *options]
+
+
+def in_process(arguments: list[str]) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, "-m", "pkm_exact.cli.main", *arguments],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        text=True,
+    )
+
+
+def wait_for(path: Path, lines: int, process: subprocess.Popen[str]) -> None:
+    end = time.monotonic() + 120
+    while not path.exists() or path.read_bytes().count(b"\n") < lines:
+        assert process.poll() is None
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+@needs_distributed
+@pytest.mark.parametrize("method", ["krawczyk", pytest.param("exact", marks=pytest.mark.slow)])
+def test_a_cluster_gives_the_same_bytes(tmp_path: Path, dask: Cluster, method: str) -> None:
+    lengths = rows(tmp_path, 40)
+    options = ["--method", method, "--certificates"]
+    assert main(words(tmp_path, lengths, "here", "--workers", "1", *options, str(tmp_path / "c1"))) == 3
+    done = in_process(words(tmp_path, lengths, "there", "--scheduler", dask.address, *options, str(tmp_path / "c2")))
+    error = done.communicate(timeout=120)[1]
+    assert done.returncode == 3, error
+    assert error.count("\n") == 1
+    assert "40 rows" in error
+    assert (tmp_path / "here").read_bytes() == (tmp_path / "there").read_bytes()
+    for path in (tmp_path / "c1").iterdir():
+        assert path.read_bytes() == (tmp_path / "c2" / path.name).read_bytes()
+    assert len(list((tmp_path / "c2").iterdir())) == 39
+
+
+@needs_distributed
+@pytest.mark.slow
+def test_killed_workers_and_clients_change_nothing(tmp_path: Path, dask: Cluster) -> None:
+    lengths = rows(tmp_path, 300)
+    assert main(words(tmp_path, lengths, "here", "--workers", "1")) == 3
+    first = in_process(words(tmp_path, lengths, "there", "--scheduler", dask.address))
+    wait_for(tmp_path / "there.partial", 10, first)
+    first.send_signal(signal.SIGINT)
+    error = first.communicate(timeout=60)[1]
+    assert first.returncode == 130, error
+    assert "the same command goes on from there" in error
+    assert "Traceback" not in error
+    second = in_process(words(tmp_path, lengths, "there", "--scheduler", dask.address))
+    wait_for(tmp_path / "there.partial", 100, second)
+    os.kill(dask.workers[0], signal.SIGKILL)
+    error = second.communicate(timeout=120)[1]
+    assert second.returncode == 3, error
+    assert (tmp_path / "here").read_bytes() == (tmp_path / "there").read_bytes()
+
+
+@needs_distributed
+@pytest.mark.slow
+def test_a_scheduler_that_goes_away_is_one_sentence(tmp_path: Path) -> None:
+    lengths = rows(tmp_path, 400)
+    lost = Cluster(tmp_path, 1)
+    process = in_process(words(tmp_path, lengths, "out", "--scheduler", lost.address))
+    wait_for(tmp_path / "out.partial", 10, process)
+    lost.close()
+    error = process.communicate(timeout=120)[1]
+    assert process.returncode == 4, error
+    assert "no answer: the cluster failed" in error
+    assert "the same command goes on from here" in error
+    assert "Traceback" not in error
+    assert main(words(tmp_path, lengths, "out", "--workers", "2")) == 3
+    assert [json.loads(line)["row"] for line in (tmp_path / "out").read_bytes().splitlines()] == list(range(1, 401))
+
+
+@needs_distributed
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nonsense", "tcp://", "ftp://127.0.0.1:9"])
+def test_a_scheduler_that_is_not_there_is_one_sentence(
+    tmp_path: Path, address: str, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster, "SECONDS", 1)
+    assert main(words(tmp_path, rows(tmp_path, 5), "out", "--scheduler", address)) == 2
+    error = capsys.readouterr().err
+    assert f"--scheduler {address}: cannot be reached within 1 seconds" in error
+    assert error.count("\n") == 1
+
+
+def test_without_distributed_it_says_what_to_install(
+    tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert main(words(tmp_path, rows(tmp_path, 5), "out", "--scheduler", "tcp://127.0.0.1:8786")) == 2
+    assert 'pip install "pkm_exact[distributed]"' in capsys.readouterr().err
