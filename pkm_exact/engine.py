@@ -15,6 +15,8 @@ from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.lifting import Acceptance, lift_by_newton, lift_by_primes
 from pkm_exact.algebra.representation import UnivariateRepresentation, union
 from pkm_exact.algebra.rur import ModularRepresentation
+from pkm_exact.consistency import consistent
+from pkm_exact.contradiction import attached
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.base import FormulatedProblem
 from pkm_exact.formulations.registry import formulation as formulation_of
@@ -25,6 +27,7 @@ from pkm_exact.notes import isolated_note, motion_note, open_question, singular_
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width, in_order, pose_boxes, root_enclosures
 from pkm_exact.poses.completeness import CompletenessProof, prove_complete, prove_inconsistent
+from pkm_exact.poses.expected_size import expected_bits
 from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.modular import ModularPoses, modular_poses
 from pkm_exact.poses.parameters import Parameters, choose_parameters
@@ -42,7 +45,7 @@ from pkm_exact.poses.singularity import are_isolated, singularity
 from pkm_exact.poses.study_equations import StudyEquations, free_coordinates
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
-from pkm_exact.stages import Stages
+from pkm_exact.stages import Amount, Progress, Stages
 from pkm_exact.verdict import Claim
 
 SELF_MOTION_ATTEMPTS = 2
@@ -55,7 +58,7 @@ def solve(
     formulation: str = "SE3",
     width: Fraction = DEFAULT_WIDTH,
     policy: Policy | None = None,
-    progress: Callable[[str], None] | None = None,
+    progress: Progress | None = None,
 ) -> Solution:
     """All real poses of a robot whose leg lengths are given, each in a box, and what is proved about the list.
 
@@ -70,7 +73,7 @@ def solve(
     policy : Policy, optional
         Limits and random choices.
     progress : callable, optional
-        Gets one line when a stage starts.
+        Gets one line when a stage starts; its method ``amount``, if it has one, how much of it is done (``stages``).
 
     Raises
     ------
@@ -82,7 +85,8 @@ def solve(
         If a step contradicts another; no answer is given.
     """
     run = _Run(problem, formulation, policy or Policy(), Stages(progress))
-    return run.solution(width)
+    with attached(problem, run.stages, method="exact", formulation=formulation, width=width, policy=run.policy):
+        return consistent(run.solution(width))
 
 
 @dataclass
@@ -115,7 +119,7 @@ class _Run:
             return self._with_isolated(replace(result, statistics=statistics()), width)
         if start.poses.count == 0:
             self.stages.enter("completeness")
-            proof = prove_inconsistent(self.problem, self.policy)
+            proof = prove_inconsistent(self.problem, self.policy, self.stages.amount)
             if proof is not None:
                 note = "no pose, real or complex, has these leg lengths"
                 return replace(self._result(Claim.INCONSISTENT, exponent, note, proof), statistics=statistics())
@@ -123,7 +127,7 @@ class _Run:
             return replace(self._result(Claim.NOT_PROVEN_COMPLETE, exponent, note), statistics=statistics())
         representation = self._representation(start)
         self.stages.enter("completeness")
-        proof = prove_complete(representation, self.problem, self.policy)
+        proof = prove_complete(representation, self.problem, self.policy, self.stages.amount)
         self.stages.enter("real roots and boxes")
         exponent, poses = pose_boxes(representation, self.problem.metric, width)
         self.stages.enter("Jacobians")
@@ -225,7 +229,7 @@ class _Run:
             self.stages.enter("formulation")
             formulated = formulate_turned(formulation, self.problem, turn)
             self.stages.enter("Groebner basis")
-            elimination = Elimination(formulated.branches[0], self.policy)
+            elimination = Elimination(formulated.branches[0], self.policy, self.stages.amount)
             image = self._confirmed_image(elimination)
             poses = modular_poses(formulated, image.algebra, self.problem.metric)
             if formulated.is_chart and attempt == 0:
@@ -241,7 +245,7 @@ class _Run:
     def _reference_count(self) -> int | None:
         """Number of poses by the formulation that misses none, to see whether a chart does; None if infinite."""
         formulated = formulation_of(formulation_codes()[0]).formulate(self.problem)
-        return self._confirmed_image(Elimination(formulated.system, self.policy)).dimension
+        return self._confirmed_image(Elimination(formulated.system, self.policy, self.stages.amount)).dimension
 
     def _confirmed_image(self, elimination: Elimination) -> ModularImage:
         """The image at the first prime, or, if it has no solution or infinitely many, at one of two that agree."""
@@ -283,21 +287,32 @@ class _Run:
         parts = []
         try:
             if self.policy.lifting == "multimodular":
-                parts.append(lift_by_primes(form, images, bits, self._acceptance(chosen, "lifting by primes")))
+                accept, watch = self._acceptance(chosen, "lifting by primes"), self._watch(chosen.modular)
+                parts.append(lift_by_primes(form, images, bits, accept, watch))
                 return pose_representation(chosen.chart, self.problem, parts[0])
             for multiplicity, modular in chosen.modular.parts(start.formulated.fibre).items():
+                watch = self._watch(modular)
                 if multiplicity == 1:
                     accept = self._acceptance(chosen, "p-adic lifting")
-                    parts.append(lift_by_newton(equations, form, modular, bits, accept))
+                    parts.append(lift_by_newton(equations, form, modular, bits, accept, watch))
                 else:
                     accept = self._acceptance(chosen, "lifting by primes")
                     some = _parts(images, multiplicity, start, self.policy.attempts)
-                    parts.append(lift_by_primes(form, some, bits, accept))
+                    parts.append(lift_by_primes(form, some, bits, accept, watch))
         except UnluckyPrimeError:
             return None
         self.stages.enter("verification")
         lifted = pose_representation(chosen.chart, self.problem, union(parts))
         return lifted if len(parts) == 1 or lifted.is_verified(self.problem) else None
+
+    def _watch(self, modular: ModularRepresentation) -> Callable[[int], None]:
+        """Says how far the lifting of some solutions has come, of an estimate while there is more to do."""
+        expected = expected_bits(self.problem, modular.degree)
+
+        def watch(bits: int) -> None:
+            self.stages.amount(Amount(bits, expected if bits < expected else None, "bits", "about"))
+
+        return watch
 
     def _acceptance(self, chosen: Parameters, stage: str) -> Acceptance:
         """Enters the stage, and tells whether what it lifts are poses, exactly."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class PkmExactError(Exception):
     """Base class of every error that pkm_exact raises on purpose."""
@@ -15,5 +17,23 @@ class ReconstructionError(PkmExactError):
     """A lift from modular images did not settle within the limits of the policy."""
 
 
-class InternalContradictionError(PkmExactError):
-    """Two steps of the exact engine disagree; no answer is given."""
+class InternalError(PkmExactError):
+    """Something that a correct program never does; no answer is given (``contradiction``).
+
+    Attributes
+    ----------
+    facts : dict
+        What was found, by name: numbers and texts.
+    """
+
+    def __init__(self, sentence: str, facts: dict[str, Any] | None = None) -> None:
+        super().__init__(sentence)
+        self.facts = dict(facts or {})
+
+
+class InternalContradictionError(InternalError):
+    """Two steps of an engine disagree."""
+
+
+class UnexpectedError(InternalError):
+    """An exception that nobody raised on purpose."""

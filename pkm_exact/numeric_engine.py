@@ -11,6 +11,8 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Final
 
+from pkm_exact.consistency import consistent
+from pkm_exact.contradiction import attached, require
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.certification import IsolatedSolutions
@@ -28,6 +30,8 @@ ATTEMPTS: Final = 2
 """Times that all paths are tracked, each time along other paths, before the exact engine takes over."""
 FORMULATION: Final = "AFD5"
 """The equations are those of the legs and Study's condition in Study coordinates."""
+FALLBACK_NOTE: Final = "the numeric engine did not"
+"""How the note begins that says that the exact engine answered in its place."""
 
 
 def solve_krawczyk(
@@ -51,8 +55,8 @@ def solve_krawczyk(
     progress : callable, optional
         Gets one line when a stage starts.
     start : StartSection, optional
-        A section whose solutions are known, close to the robot's (``nearby.nearby_start``), for the first attempt; by
-        default the generic one.
+        A section whose solutions are known, close to the robot's (``nearby.nearby_start``), to be tried before the
+        generic one.
 
     Returns
     -------
@@ -65,22 +69,53 @@ def solve_krawczyk(
         As ``engine.solve``, if that has to be called.
     """
     policy, stages = policy or Policy(), Stages(progress)
-    best = 0
-    for attempt in range(ATTEMPTS):
+    with attached(problem, stages, method="krawczyk", width=width, policy=policy):
+        found = _by_numbers(problem, width, policy, stages, start)
+        if found is not None:
+            return consistent(found)
+    return solve_exactly_instead(problem, width=width, policy=policy, progress=progress)
+
+
+def _by_numbers(
+    problem: ForwardProblem, width: Fraction, policy: Policy, stages: Stages, start: StartSection | None
+) -> Solution | None:
+    """The answer of the numeric engine, or None if it cannot certify all solutions."""
+    degree = motion_degree(problem)
+    starts = [(None, policy.seed * attempt) for attempt in range(ATTEMPTS)]
+    for section, seed in starts if start is None else [(start, 0), *starts]:
         stages.enter("path tracking")
         try:
-            found = approximations(problem, None if attempt else start, policy.seed * attempt)
+            found = approximations(problem, section, seed, stages.amount)
         except OverflowError:
             break
         stages.enter("Krawczyk operator")
-        system, isolated = certified_solutions(problem, found)
-        best = max(best, isolated.count)
-        if isolated.count == motion_degree(problem):
+        system, isolated = certified_solutions(problem, found, stages.amount)
+        count = isolated.count
+        require(count <= degree, "more solutions than the variety of motions allows", certified=count, degree=degree)
+        if count == degree:
             return _solution(system, isolated, width, stages)
     stages.leave()
+    return None
+
+
+def solve_exactly_instead(
+    problem: ForwardProblem,
+    *,
+    width: Fraction = DEFAULT_WIDTH,
+    policy: Policy | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> Solution:
+    """What the exact engine finds, with a note that the numeric one did not suffice.
+
+    Raises
+    ------
+    PkmExactError
+        As ``engine.solve``.
+    """
     exact = solve(problem, width=width, policy=policy, progress=progress)
+    # How many solutions were certified depends on rounding, and so on the machine: it is not for a certificate.
     note = (
-        f"the numeric engine certified {best} of {motion_degree(problem)} solutions, which does not prove the list "
+        f"{FALLBACK_NOTE} certify all of the {motion_degree(problem)} solutions that would prove its list "
         "complete; the exact engine answered instead"
     )
     return replace(exact, notes=(*exact.notes, note))

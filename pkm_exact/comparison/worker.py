@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any
 
 from pkm_exact.comparison.measure import measure
 from pkm_exact.comparison.row import ResultFigures, Row, Status, SystemFigures
-from pkm_exact.errors import InputError, PkmExactError
+from pkm_exact.errors import InputError, InternalError, PkmExactError
+from pkm_exact.failure_report import reported
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.pose import Pose
 from pkm_exact.processes import end_with_parent, messages, process_apart
+from pkm_exact.stages import Amount, Progress, Relay, tell
 
 
 @dataclass(frozen=True)
@@ -23,17 +24,13 @@ class Outcome:
     poses: tuple[Pose, ...] | None = None
 
 
-def run_apart(
-    problem: ForwardProblem, code: str, seconds: float | None, progress: Callable[[str], None] | None = None
-) -> Outcome:
+def run_apart(problem: ForwardProblem, code: str, seconds: float | None, progress: Progress | None = None) -> Outcome:
     """The outcome of one formulation, measured in a new process that is killed after the given time."""
     with process_apart(_work, problem, code) as (receiver, process):
         return _outcome(receiver, process, code, seconds, progress or (lambda _: None))
 
 
-def _outcome(
-    receiver: Connection, process: Any, code: str, seconds: float | None, progress: Callable[[str], None]
-) -> Outcome:
+def _outcome(receiver: Connection, process: Any, code: str, seconds: float | None, progress: Progress) -> Outcome:
     system: SystemFigures | None = None
     stage = "start"
     try:
@@ -44,6 +41,8 @@ def _outcome(
                 case str():
                     stage = message
                     progress(f"{code}: {stage}")
+                case Amount():
+                    tell(progress, message)
                 case Status() as status, str(reason):
                     return Outcome(Row(code, status, reason, system))
                 case ResultFigures() as figures, tuple() as poses:
@@ -62,10 +61,14 @@ def _work(sender: Connection, problem: ForwardProblem, code: str) -> None:
     """What the process does: messages on the way, and at the end figures and poses or a sentence."""
     end_with_parent()
     try:
-        sender.send(measure(problem, code, written=sender.send, progress=sender.send))
+        sender.send(measure(problem, code, written=sender.send, progress=Relay(sender.send)))
     except InputError as error:
         sender.send((Status.NOT_APPLICABLE, str(error)))
+    except InternalError as error:
+        sender.send((Status.NO_ANSWER, reported(error)))
     except PkmExactError as error:
         sender.send((Status.NO_ANSWER, str(error)))
     except MemoryError:
         sender.send((Status.NO_ANSWER, "the memory is exhausted"))
+    except Exception as error:
+        sender.send((Status.NO_ANSWER, reported(error)))

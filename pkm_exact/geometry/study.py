@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import lru_cache
 from itertools import permutations
 from math import lcm
 from typing import Any
@@ -115,11 +116,17 @@ def support(problem: ForwardProblem) -> tuple[int, ...]:
 
 def pose_quadrics(problem: ForwardProblem) -> list[Quadric]:
     """Quadratic forms in (e, f) that vanish at the poses, and with the support at nothing else with N(e) not 0."""
+    return list(_pose_quadrics(problem))
+
+
+@lru_cache(maxsize=4)
+def _pose_quadrics(problem: ForwardProblem) -> tuple[Quadric, ...]:
+    """The same; every step of a solve asks for them."""
     legs = [leg_quadric(leg, problem.metric) for leg in problem.legs]
     if not problem.planar:
-        return [STUDY_CONDITION, *legs]
+        return STUDY_CONDITION, *legs
     kept = [{key: value for key, value in quadric.items() if set(key) <= set(PLANAR_SUPPORT)} for quadric in legs]
-    return [quadric for quadric in kept if quadric]
+    return tuple(quadric for quadric in kept if quadric)
 
 
 def evaluate(quadric: Quadric, products: Sequence[Sequence[Any]]) -> Any:

@@ -11,13 +11,15 @@ from typing import Any, Final
 
 from flint import fmpq, fmpq_mat, fmpz, fmpz_mat, fmpz_poly
 
-from pkm_exact.errors import PkmExactError
+from pkm_exact.errors import InternalError, PkmExactError
+from pkm_exact.failure_report import internal_error
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.levenberg_marquardt import solve_levenberg_marquardt
 from pkm_exact.numeric.robot import numeric_robot
 from pkm_exact.numeric.uncertified import UncertifiedSolution
 from pkm_exact.processes import end_with_parent, messages, process_apart
 from pkm_exact.solution import Solution
+from pkm_exact.stages import Amount, Relay, tell
 
 
 def solve_within(
@@ -57,6 +59,9 @@ def solve_within(
                     return message
                 if isinstance(message, BaseException):
                     raise message
+                if isinstance(message, Amount):
+                    tell(progress, message)
+                    continue
                 stage = str(message)
                 if progress is not None:
                     progress(stage)
@@ -82,9 +87,13 @@ def _work(sender: Connection, engine: Callable[..., Solution], problem: ForwardP
     """What the process does: the names of stages on the way, and at the end a solution or an exception."""
     end_with_parent()
     try:
-        sender.send_bytes(_packed(engine(problem, progress=sender.send)))
+        sender.send_bytes(_packed(engine(problem, progress=Relay(sender.send))))
+    except InternalError as error:
+        sender.send(internal_error(error))
     except (PkmExactError, MemoryError) as error:
         sender.send(error)
+    except Exception as error:
+        sender.send(internal_error(error))
 
 
 def _packed(solution: Solution) -> bytes:

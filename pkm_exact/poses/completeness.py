@@ -22,13 +22,14 @@ from pkm_exact.algebra.elimination import Elimination
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
 from pkm_exact.algebra.quotient import standard_monomials
-from pkm_exact.errors import InternalContradictionError
+from pkm_exact.contradiction import require
 from pkm_exact.formulations.motion_variety import SE3
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.multiplicity import Multiplicities, exact_multiplicities, least_multiplicities, total_of
 from pkm_exact.poses.representation import PoseRepresentation
 from pkm_exact.poses.singularity import are_isolated
+from pkm_exact.stages import Watch
 from pkm_exact.verdict import CompletenessRoute
 
 MOTION_DEGREE = 40
@@ -59,7 +60,7 @@ class CompletenessProof:
 
 
 def prove_complete(
-    representation: PoseRepresentation, problem: ForwardProblem, policy: Policy
+    representation: PoseRepresentation, problem: ForwardProblem, policy: Policy, watch: Watch | None = None
 ) -> CompletenessProof | None:
     """A proof that a verified representation is complete, or None if none of those known here applies."""
     degree = representation.univariate.degree
@@ -70,36 +71,39 @@ def prove_complete(
         and are_isolated(representation, problem, policy)
     ):
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)
-    basis = eliminate_exactly(problem, policy)
+    basis = eliminate_exactly(problem, policy, watch)
     bound = None if basis is None else solution_bound(basis, policy)
     if basis is None or bound is None:
         return None
+    require(bound >= degree, "there is room for fewer solutions than were verified", bound=bound, verified=degree)
     if bound == degree:
         return _elimination_proof(basis, bound)
     found = least_multiplicities(representation, problem, policy)
     if total_of(found) < bound:
         quotient = exact_quotient(basis, policy.dimension_limit)
-        if quotient is None or not quotient.commutes or quotient.distinct_solutions != degree:
+        if quotient is None or not quotient.commutes:
             return None
+        rank = quotient.distinct_solutions
+        require(rank == degree, "the trace form counts other solutions than were verified", rank=rank, verified=degree)
         found = exact_multiplicities(representation, problem, quotient, policy)
-    if total_of(found) != bound:
-        raise InternalContradictionError("the multiplicities do not sum to the number of solutions")
+    total = total_of(found)
+    require(total == bound, "the multiplicities do not sum to the number of solutions", sum=total, bound=bound)
     return _elimination_proof(basis, bound, found)
 
 
-def prove_inconsistent(problem: ForwardProblem, policy: Policy) -> CompletenessProof | None:
+def prove_inconsistent(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> CompletenessProof | None:
     """A proof that no complex pose exists, by an elimination over Q that ends in a constant; None if it does not."""
-    basis = eliminate_exactly(problem, policy)
+    basis = eliminate_exactly(problem, policy, watch)
     return _elimination_proof(basis, 0) if basis is not None and solution_bound(basis, policy) == 0 else None
 
 
-def eliminate_exactly(problem: ForwardProblem, policy: Policy) -> ExactBasis | None:
+def eliminate_exactly(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> ExactBasis | None:
     """The elimination over Q of the poses' ideal, along a trace modulo a prime; None if that is not finite there."""
     system = SE3().formulate(problem).system
     image = Elimination(system, policy).image(record=True)
     if image.algebra is None or image.basis.trace is None:
         return None
-    return exact_basis(system, image.basis.trace)
+    return exact_basis(system, image.basis.trace, watch)
 
 
 def solution_bound(basis: ExactBasis, policy: Policy) -> int | None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from pkm_exact.algebra.rur import ModularRepresentation
+from pkm_exact.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms
@@ -28,6 +29,7 @@ def choose_parameters(poses: ModularPoses, problem: ForwardProblem, policy: Poli
         if coordinates is None:
             continue
         count = poses.distinct_poses(coordinates, policy.seed)
+        require(0 < count <= poses.count, "more distinct poses than poses", distinct=count, poses=poses.count)
         for form in islice(candidate_forms(chart, policy.seed), policy.attempts):
             modular = poses.representation(coordinates, form, free_coordinates(chart, problem))
             if modular.degree == count:

@@ -15,6 +15,7 @@ from typing import cast
 
 from flint import acb, arb, ctx, fmpq, fmpz, fmpz_poly
 
+from pkm_exact.contradiction import require
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.roots.interval import Interval
 
@@ -46,6 +47,9 @@ def real_root_enclosures(polynomial: fmpz_poly, precision: int) -> list[arb]:
     with ctx.workprec(precision):
         pairs = cast("list[tuple[acb, int]]", polynomial.complex_roots())
         roots = [root.real for root, _ in pairs if root.imag == 0]
+        above = sum(1 for root, _ in pairs if root.imag > 0)
+    degree = int(polynomial.degree())
+    require(len(roots) + 2 * above == degree, "roots are missing", real=len(roots), above=above, degree=degree)
     return sorted(roots, key=lambda ball: _midpoint(ball))
 
 

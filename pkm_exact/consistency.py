@@ -1,0 +1,174 @@
+"""The last gate before an answer: a solution that contradicts itself does not get through.
+
+What an engine has proved, it has proved; this looks at the result as a whole, along other ways, and cheaply. The counts
+must fit each other and the degree of the variety of motions, solutions that are not real come in pairs, the
+representation must vanish on the robot modulo a prime, boxes must lie apart and on the robot
+(``poses.consistency``), and what is claimed must come with what proves it.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import fmpq, fmpz_poly, nmod_mat, nmod_poly
+
+from pkm_exact.algebra.primes import primes_below
+from pkm_exact.contradiction import require
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import evaluate, pose_quadrics
+from pkm_exact.numeric.consistency import require_sound_boxes
+from pkm_exact.poses.completeness import CompletenessProof
+from pkm_exact.poses.consistency import (
+    require_apart,
+    require_consistent_jacobians,
+    require_degree_zero,
+    require_on_robot,
+)
+from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.self_motion import SelfMotion
+from pkm_exact.roots.counting import roots_in_gaps
+from pkm_exact.solution import Solution
+from pkm_exact.verdict import Claim, CompletenessRoute
+
+MOTION_DEGREES = {False: 40, True: 6}
+"""Degree of the variety of rigid motions, or of planar ones."""
+_PROVED = (Claim.COMPLETE, Claim.INCONSISTENT)
+
+
+def consistent(solution: Solution) -> Solution:
+    """The solution itself, if it does not contradict itself.
+
+    Raises
+    ------
+    InternalContradictionError
+        If it does.
+    """
+    _require_proof_of_claim(solution)
+    _require_counts(solution)
+    for representation, problem in _representations(solution):
+        _require_representation(representation, problem)
+    if solution.isolated is not None:
+        counts = {"poses": len(solution.poses), "distinct": solution.distinct_solutions}
+        require(solution.isolated.count == counts["distinct"], "the boxes are not as many as the solutions", **counts)
+        require(len(solution.isolated.real) == counts["poses"], "real boxes are not as many as the poses", **counts)
+        require_sound_boxes(solution.isolated, solution.problem)
+    if isinstance(solution.self_motion, SelfMotion):
+        _require_mobility(solution.self_motion, solution.problem)
+    _require_poses(solution)
+    return solution
+
+
+def _require_proof_of_claim(solution: Solution) -> None:
+    """A claim comes with its proof, and a proof with its claim."""
+    proof, claim = solution.completeness, solution.claim
+    facts = {"claim": claim, "route": solution.completeness_route}
+    require((proof is not None) == (claim in _PROVED), "claim and proof of completeness do not fit", **facts)
+    moves = solution.self_motion is not None
+    require(moves == (claim == Claim.POSITIVE_DIMENSIONAL_PROVED), "claim and proof of motion do not fit", **facts)
+    if claim == Claim.INCONSISTENT:
+        require(not solution.poses and solution.complex_solutions == 0, "poses of a robot that has none", **facts)
+    if proof is None:
+        return
+    counts = {"total": proof.total, "complex": solution.complex_solutions, "distinct": solution.distinct_solutions}
+    require(proof.total == solution.complex_solutions, "the proof is one of another number of solutions", **counts)
+    if proof.route == CompletenessRoute.REFINED_BEZOUT:
+        degree = MOTION_DEGREES[solution.problem.planar]
+        require(solution.distinct_solutions == proof.total == degree, "fewer solutions than the degree", **counts)
+    _require_multiplicities(proof, solution)
+
+
+def _require_multiplicities(proof: CompletenessProof, solution: Solution) -> None:
+    """The factors have all solutions, and their multiplicities the sum that the proof has."""
+    found = proof.multiplicities or ((None, 1),)
+    degrees = [solution.distinct_solutions if factor is None else int(factor.degree()) for factor, _ in found]
+    total = sum(degree * multiplicity for degree, (_, multiplicity) in zip(degrees, found, strict=True))
+    require(sum(degrees) == solution.distinct_solutions, "the factors have another number of roots", degrees=degrees)
+    require(total == proof.total, "the multiplicities do not sum to the number of solutions", sum=total)
+
+
+def _require_counts(solution: Solution) -> None:
+    """Real ones, distinct ones, all: each at most the next, and the others come in conjugate pairs."""
+    real, distinct, count = len(solution.poses), solution.distinct_solutions, solution.complex_solutions
+    facts = {"real": real, "distinct": distinct, "complex": count}
+    require(real <= distinct <= count, "the numbers of solutions are out of order", **facts)
+    require((distinct - real) % 2 == 0, "solutions that are not real come in pairs", **facts)
+    limit = MOTION_DEGREES[solution.problem.planar]
+    require(distinct <= limit, "more solutions than the variety of motions allows", limit=limit, **facts)
+    if solution.claim == Claim.COMPLETE:
+        multiplicities = [pose.multiplicity for pose in solution.poses]
+        rest = count - sum(multiplicity or 0 for multiplicity in multiplicities)
+        require(count <= limit, "more solutions than the variety of motions allows", limit=limit, **facts)
+        require(None not in multiplicities, "a complete list has a pose of unknown multiplicity", **facts)
+        require(rest >= 0 and rest % 2 == 0, "solutions that are not real come in pairs", rest=rest, **facts)
+
+
+def _representations(solution: Solution) -> list[tuple[PoseRepresentation, ForwardProblem]]:
+    found = [] if solution.representation is None else [solution.representation]
+    if isinstance(solution.self_motion, SelfMotion):
+        found.append(solution.self_motion.representation)
+    return [(representation, solution.problem) for representation in found]
+
+
+def _require_representation(representation: PoseRepresentation, problem: ForwardProblem) -> None:
+    """Modulo a prime: w.e = h', c.(e, f) = T h', and the legs and Study's condition vanish, at all roots of h.
+
+    This holds for every prime that does not divide the leading coefficient, if it holds over Q.
+    """
+    h = representation.univariate.polynomial
+    prime = next(prime for prime in primes_below(61) if int(h.leading_coefficient()) % prime)
+    modulus, slope = _image(h, prime), _image(h.derivative(), prime)
+    x = [_image(numerator, prime) for numerator in representation.univariate.numerator_polynomials]
+    zero, unknown = nmod_poly([0], prime), nmod_poly([0, 1], prime)
+    chart = sum((weight * value for weight, value in zip(representation.chart, x[:4], strict=True)), zero)
+    require(chart == slope, "the chart of a representation does not hold", prime=prime)
+    form = sum((weight * value for weight, value in zip(representation.separating_form, x, strict=True)), zero)
+    require((form - unknown * slope) % modulus == zero, "a separating form has other values", prime=prime)
+    products = [[x[k] * x[m] % modulus if k <= m else zero for m in range(8)] for k in range(8)]
+    for number, quadric in enumerate(pose_quadrics(problem)):
+        require(evaluate(quadric, products) == zero, "solutions are not on the robot", equation=number, prime=prime)
+
+
+def _image(polynomial: fmpz_poly, prime: int) -> nmod_poly:
+    return nmod_poly(polynomial, prime)
+
+
+def _require_mobility(motion: SelfMotion, problem: ForwardProblem) -> None:
+    """The rank of the legs modulo a prime, as quadrics, is at most the one over Q that is said."""
+    prime = next(primes_below(61))
+    quadrics = pose_quadrics(problem)[0 if problem.planar else 1 :]
+    places = sorted({place for quadric in quadrics for place in quadric})
+    rows = [quadric.get(place, 0) % prime for quadric in quadrics for place in places]
+    rank = nmod_mat(len(quadrics), len(places), rows, prime).rank()
+    said = motion.mobility.rank
+    require(rank <= said, "the rank of the legs is greater modulo a prime than over Q", modular=rank, said=said)
+    require(motion.mobility.dimension > 0, "a self-motion of dimension 0", dimension=motion.mobility.dimension)
+
+
+def _require_poses(solution: Solution) -> None:
+    """Boxes apart, on the robot and in the intervals of their parameters; Jacobians; signs."""
+    problem, poses, representation = solution.problem, solution.poses, solution.representation
+    require_apart(poses)
+    require_consistent_jacobians(poses, len(problem.legs))
+    if solution.claim == Claim.COMPLETE:
+        require_degree_zero(poses)
+    if representation is not None:
+        require_on_robot(poses, problem, solution.box_exponent, representation.chart, representation.separating_form)
+        _require_all_roots(solution, representation.univariate.primitive_polynomial)
+    elif solution.isolated is not None:
+        require_on_robot(poses, problem, solution.box_exponent, solution.isolated.chart)
+
+
+def _require_all_roots(solution: Solution, h: fmpz_poly) -> None:
+    """Each interval has a real root of h, by the change of sign, and no other number is one, by another count."""
+    intervals = sorted((pose.parameter for pose in solution.poses if pose.parameter), key=lambda place: place.lo)
+    require(len(intervals) == len(solution.poses), "a pose has no parameter", intervals=len(intervals))
+    for number, place in enumerate(intervals):
+        low, high = _sign(h, place.lo), _sign(h, place.hi)
+        require(low * high <= 0 and (low or high or place.width == 0), "an interval has no root", interval=number)
+    gaps = roots_in_gaps(h, intervals)
+    require(True not in gaps, "a real root has no pose", gaps=gaps.count(True))
+
+
+def _sign(h: fmpz_poly, point: Fraction) -> int:
+    value = h(fmpq(point.numerator, point.denominator))
+    return (value > 0) - (value < 0)

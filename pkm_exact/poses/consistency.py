@@ -1,0 +1,236 @@
+"""Does a list of poses agree with the robot, with its own Jacobians and with the numbers it came from?
+
+Nothing here proves a pose; the engines do. These are conditions that every right list meets, computed along other ways
+than those of the engines and in a small fraction of their time: a list that fails one is not an answer.
+
+Signs. The leg lengths are a proper map from the rigid motions, an oriented manifold, to a space of the same dimension.
+It is not onto, as no length is negative; so its degree is 0 (Milnor, Topology from the Differentiable Viewpoint,
+section 5), and where the list is complete the local degrees of its poses sum to 0. At a regular pose the local degree
+is the sign of the determinant of the leg Jacobian; at one of multiplicity m it is m modulo 2, and at most m in absolute
+value (Eisenbud and Levine, Annals of Mathematics 106, 1977).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import pairwise
+
+from flint import arb, arb_mat, ctx, fmpq, fmpz_mat
+
+from pkm_exact.contradiction import require
+from pkm_exact.errors import InternalContradictionError
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.rotation import CYCLIC
+from pkm_exact.geometry.study import translation_coordinates
+from pkm_exact.poses.pose import Pose
+from pkm_exact.roots.interval import Interval
+
+GUARD_BITS = 64
+"""Boxes on the grid 2^-k are put into the equations with k + 64 bits."""
+
+
+def require_consistent_jacobians(poses: Sequence[Pose], legs: int) -> None:
+    """Rank, sign, singular values and multiplicity of every pose agree.
+
+    Raises
+    ------
+    InternalContradictionError
+    """
+    for number, pose in enumerate(poses):
+        jacobian, multiplicity = pose.jacobian, pose.multiplicity
+        if jacobian is None:
+            raise InternalContradictionError("a pose has no Jacobian", {"pose": number})
+        rank, sign, is_regular = jacobian.rank, jacobian.det_sign, jacobian.rank == legs
+        if not 0 <= rank <= legs:
+            wrong = "the rank of a Jacobian is out of range"
+        elif abs(sign) != is_regular:
+            wrong = "sign and rank of a Jacobian disagree"
+        elif not (jacobian.sigma_min.hi > 0) == is_regular == (jacobian.condition is not None):
+            wrong = "rank and singular values of a Jacobian disagree"
+        elif multiplicity is not None and not (multiplicity == 1 if is_regular else multiplicity >= 2 ** (legs - rank)):
+            wrong = "multiplicity and rank of a Jacobian disagree"
+        else:
+            continue
+        facts = {"pose": number, "rank": rank, "sign": sign, "multiplicity": multiplicity}
+        raise InternalContradictionError(wrong, facts)
+
+
+def require_degree_zero(poses: Sequence[Pose]) -> None:
+    """The signs of a complete list of poses cancel, up to what multiple poses can make up for.
+
+    Raises
+    ------
+    InternalContradictionError
+    """
+    regular = sum(pose.jacobian.det_sign for pose in poses if pose.jacobian is not None)
+    multiple = sum(pose.multiplicity or 0 for pose in poses if pose.jacobian is not None and not pose.jacobian.det_sign)
+    require(
+        abs(regular) <= multiple and (regular - multiple) % 2 == 0,
+        "the signs of the leg Jacobians of a complete list do not cancel",
+        sum=regular,
+        multiple=multiple,
+    )
+
+
+def require_apart(poses: Sequence[Pose]) -> None:
+    """No two boxes meet, and no two poses have the same place in their lists of parameters.
+
+    Raises
+    ------
+    InternalContradictionError
+    """
+    listed = sorted(range(len(poses)), key=lambda number: poses[number].position[0].lo)
+    boxes = {number: _box(poses[number]) for number in listed}
+    for place, first in enumerate(listed):
+        for second in listed[place + 1 :]:
+            if boxes[second][0].lo > boxes[first][0].hi:
+                break
+            meet = all(a.overlaps(b) for a, b in zip(boxes[first], boxes[second], strict=True))
+            require(not meet, "the boxes of two poses meet", first=first, second=second)
+    parameters = sorted((pose.parameter for pose in poses if pose.parameter is not None), key=lambda place: place.lo)
+    for left, right in pairwise(parameters):
+        require(left.hi <= right.lo and left != right, "two poses have one parameter", left=left, right=right)
+
+
+def _box(pose: Pose) -> list[Interval]:
+    return [*pose.position, *(entry for row in pose.rotation for entry in row)]
+
+
+def require_on_robot(
+    poses: Sequence[Pose],
+    problem: ForwardProblem,
+    exponent: int,
+    chart: Sequence[int],
+    form: Sequence[int] | None = None,
+) -> None:
+    """Every box has room for a pose of the robot: legs, rotation, quaternion, chart and parameter.
+
+    Parameters
+    ----------
+    poses : sequence of Pose
+    problem : ForwardProblem
+    exponent : int
+        Of the grid of the boxes.
+    chart : sequence of 4 int
+        w: the quaternion has the sign for which w.e > 0.
+    form : sequence of 8 int, optional
+        c: the parameter is c.(e, f) with w.e = 1.
+
+    Raises
+    ------
+    InternalContradictionError
+    """
+    if not poses:
+        return
+    with ctx.workprec(exponent + GUARD_BITS):
+        robot = _Robot(problem)
+        rows = _enclosures(poses, exponent)
+        for number, has_lengths in enumerate(robot.have_lengths(rows)):
+            require(has_lengths, "a box has no room for the leg lengths", pose=number)
+        for number, (pose, values) in enumerate(zip(poses, rows, strict=True)):
+            c, rotation, q = values[:3], [values[3:6], values[6:9], values[9:12]], values[12:]
+            require(_is_turn(rotation, q), "rotation matrix and quaternion disagree", pose=number)
+            e = robot.rational_quaternion(q)
+            scale = _dot(chart, e)
+            require(not scale <= 0, "a quaternion has the wrong sign", pose=number, chart=tuple(chart))
+            if form is not None and pose.parameter is not None and scale > 0:
+                value = _dot(form, [*e, *robot.translation(c, e)]) / scale
+                place = _enclosing(pose.parameter)
+                require(value.overlaps(place), "a box does not belong to its parameter", pose=number, value=value)
+
+
+class _Robot:
+    """Joints and squared lengths in ordinary coordinates, as balls."""
+
+    def __init__(self, problem: ForwardProblem) -> None:
+        self.metric = problem.metric
+        self.axes = [arb(g).sqrt() for g in problem.metric]
+        self.volume = self.axes[0] * self.axes[1] * self.axes[2]
+        platform, base = (
+            [
+                [_rational(value) * axis for value in row]
+                for axis, row in zip(self.axes, zip(*side, strict=True), strict=True)
+            ]
+            for side in ([leg.platform for leg in problem.legs], [leg.base for leg in problem.legs])
+        )
+        ones = [arb(1)] * len(problem.legs)
+        self.joints = arb_mat([*platform, ones, *([-value for value in row] for row in base)])
+        """B, 1 and -A: what R, C and 1 are multiplied with."""
+        self.squares = [_rational(leg.length_squared) for leg in problem.legs]
+
+    def have_lengths(self, rows: Sequence[Sequence[arb]]) -> Iterator[bool]:
+        """For each pose whether |C + R B - A|^2 = l^2 is possible for every leg."""
+        units = [[arb(int(i == j)) for j in range(3)] for i in range(3)]
+        parts = [[*values[3 + 3 * i : 6 + 3 * i], values[i], *units[i]] for values in rows for i in range(3)]
+        lines = (arb_mat(parts) * self.joints).tolist()
+        for place in range(0, len(lines), 3):
+            yield all(
+                (x * x + y * y + z * z).overlaps(square)
+                for x, y, z, square in zip(*lines[place : place + 3], self.squares, strict=True)
+            )
+
+    def rational_quaternion(self, q: Sequence[arb]) -> list[arb]:
+        """e, up to a positive factor, with respect to the metric."""
+        return [q[0] / self.volume, *(value / axis for value, axis in zip(q[1:], self.axes, strict=True))]
+
+    def translation(self, c: Sequence[arb], e: Sequence[arb]) -> list[arb]:
+        """f of the pose, times the same factor as e."""
+        position = [value / axis for value, axis in zip(c, self.axes, strict=True)]
+        return translation_coordinates([[value * entry for entry in e] for value in position], self.metric)
+
+
+def _is_turn(rows: Sequence[Sequence[arb]], q: Sequence[arb]) -> bool:
+    """Whether the matrix can be that of the unit quaternion: by its trace and its skew and symmetric parts."""
+    squares = [value * value for value in q]
+    norm = squares[0] + squares[1] + squares[2] + squares[3]
+    if not norm.contains(1):
+        return False
+    for i, j, k in CYCLIC:
+        diagonal = squares[0] + squares[i + 1] - squares[j + 1] - squares[k + 1]
+        skew, symmetric = 2 * q[0] * q[i + 1], 2 * q[j + 1] * q[k + 1]
+        if not (
+            rows[i][i].overlaps(diagonal)
+            and rows[k][j].overlaps(symmetric + skew)
+            and rows[j][k].overlaps(symmetric - skew)
+        ):
+            return False
+    return True
+
+
+def _dot(weights: Sequence[int], values: Sequence[arb]) -> arb:
+    total = arb(0)
+    for weight, value in zip(weights, values, strict=True):
+        if weight:
+            total += weight * value
+    return total
+
+
+def _rational(value: Fraction) -> arb:
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+def _enclosures(poses: Sequence[Pose], exponent: int) -> list[list[arb]]:
+    """Position (3), rotation (9) and quaternion (4) of each pose, as balls that are its intervals, exactly."""
+    middles, radii = [], []
+    for pose in poses:
+        for interval in (*_box(pose), *pose.quaternion):
+            low, high = _in_cells(interval.lo, exponent), _in_cells(interval.hi, exponent)
+            middles.append(low + high)
+            radii.append(high - low)
+    # Boxes are one or two cells wide: few balls around 0, made once each.
+    balls = {radius: arb(0, radius) for radius in set(radii)}
+    size = len(poses)
+    whole = arb_mat(fmpz_mat(size, 16, middles)) + arb_mat(size, 16, [balls[radius] for radius in radii])
+    rows: list[list[arb]] = (whole * arb(2) ** -(exponent + 1)).tolist()
+    return rows
+
+
+def _in_cells(value: Fraction, exponent: int) -> int:
+    """The number times 2^exponent, of a number on that grid."""
+    return value.numerator << exponent + 1 - value.denominator.bit_length()
+
+
+def _enclosing(interval: Interval) -> arb:
+    """A ball around an interval with rational ends."""
+    return _rational(interval.lo).union(_rational(interval.hi))
