@@ -2,48 +2,125 @@
 
 from __future__ import annotations
 
+import errno
+import os
+import stat
 import sys
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
 import click
 
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli import arguments
+from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.stages import Amount
 from pkm_exact.wording import printable
 
 MAX_CERTIFICATE_BYTES: Final = 64 << 20
 
 
-@click.command(short_help="Replay certificates.")
-@click.argument("certificates", nargs=-1, required=True, type=click.Path(), metavar="CERT.json...")
+@click.command(short_help="Replay certificates, or recompute them.")
+@click.argument("paths", nargs=-1, required=True, type=arguments.FilePath(), metavar="PATH...")
 @click.option("--pure", is_flag=True, help="Use the second checker: one file of plain Python, slower, same verdicts.")
-def check(certificates: tuple[str, ...], pure: bool) -> int:
+@click.option(
+    "--recompute", is_flag=True, help="Also solve each robot again, as the certificate says, and compare bytes."
+)
+@click.option(
+    "--models",
+    type=arguments.FilePath(),
+    metavar="DIR",
+    help="For --recompute: solve the model files in DIR, not the robots in the certificates. NAME.json and NAME.*.json "
+    "belong to NAME.toml.",
+)
+@click.option(
+    "--update", is_flag=True, help="For --recompute: write what is computed now over certificates that differ."
+)
+def check(paths: tuple[str, ...], pure: bool, recompute: bool, models: str | None, update: bool) -> int:
     """Replay certificates with a program that shares nothing with the solver.
 
-    Prints one line per claim. Exit code: 0 all accepted; 1 at least one was rejected; otherwise 2, at least one could
-    not be read or is not a certificate. The second checker knows pose certificates only, not those of tolerances.
+    PATH is a certificate, or a folder: all *.json in it. Prints one line per claim; with --recompute one per file,
+    which says where a certificate differs first, and a total. Exit code: 0 all accepted (and the same); 1 at least
+    one was rejected (or differs); otherwise 4, at least one could not be recomputed; otherwise 2, at least one could
+    not be read or is not a certificate.
 
     \b
     Examples:
-      certify-poses check certs/*.json
-      certify-poses check --pure rolland.json
+      certify-poses check certs
+      certify-poses check --pure certs/mourrain-l.json
+      certify-poses check --recompute --models models certs/mourrain-l.json certs/3-rrr.json
     """
-    codes = [_check(Path(name), pure=pure) for name in certificates]
-    if ExitCode.REJECTED in codes:
-        return ExitCode.REJECTED
-    return max(codes)
+    context = click.get_current_context()
+    if pure and recompute:
+        raise click.UsageError("--pure and --recompute exclude each other.", context)
+    for option, given in (("--models", models is not None), ("--update", update)):
+        if given and not recompute:
+            raise click.UsageError(f"{option}: belongs to --recompute; add it.", context)
+    if models is not None and not Path(models).is_dir():
+        raise InputError(f"{models}: is not a folder; give --models the folder with the model files")
+    files = list(_files(paths))
+    if recompute:
+        from pkm_exact.cli.recompute_report import recompute_all
+
+        return recompute_all(files, None if models is None else Path(models), update=update)
+    from pkm_exact.cli.progress import Progress
+
+    codes = []
+    with Progress(verbose=False) as progress:
+        for done, path in enumerate(files):
+            progress(f"checking {path.name}")
+            progress.amount(Amount(done, len(files), "files"))
+            codes.append(_check(path, pure=pure, before_output=progress.clear))
+    return worst(codes)
 
 
-def _check(path: Path, *, pure: bool) -> ExitCode:
-    name = printable(str(path))
+def worst(codes: Sequence[ExitCode]) -> ExitCode:
+    """One exit code for many files: a rejected one counts most."""
+    return ExitCode.REJECTED if ExitCode.REJECTED in codes else max(codes)
+
+
+def _files(paths: Sequence[str]) -> Iterator[Path]:
+    """The files themselves, and those in folders, sorted."""
+    for path in map(Path, paths):
+        if not os.path.isdir(path):  # noqa: PTH112 - says no where Path.is_dir raises, as for a name that is too long
+            yield path
+            continue
+        inside = sorted(entry for entry in path.glob("*.json") if not entry.name.startswith("."))
+        if not inside:
+            raise InputError(f"{path}: has no *.json in it; give the path of a certificate or of a folder with some")
+        yield from inside
+
+
+def content_of(path: Path) -> bytes:
+    """The content of a file, cut off where it is too large for a certificate anyway.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read.
+    """
     try:
-        with path.open("rb") as stream:
-            data = stream.read(MAX_CERTIFICATE_BYTES + 1)
+        # Opening a pipe must not wait for a writer.
+        with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as stream:  # noqa: PTH123
+            if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+                raise OSError(errno.EINVAL, "not a regular file")
+            return stream.read(MAX_CERTIFICATE_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        click.echo(f"certify-poses: error: {name}: cannot be read ({reason}); give the path of a certificate", err=True)
+        raise InputError(f"{path}: cannot be read ({reason}); give the path of a certificate") from None
+
+
+def _check(path: Path, *, pure: bool, before_output: Callable[[], None]) -> ExitCode:
+    name = printable(str(path))
+    try:
+        data = content_of(path)
+    except InputError as error:
+        before_output()
+        click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
         return ExitCode.BAD_INPUT
     status, lines = _verdict(data, pure=pure)
+    before_output()
     for line in lines:
         sys.stdout.write(f"{name}: {printable(line)}\n")
     sys.stdout.write(f"{name}: {status}\n")
