@@ -18,7 +18,10 @@ from typing import TYPE_CHECKING, Any, Final
 if TYPE_CHECKING:
     from pkm_exact.certify.build import certificate as certificate
     from pkm_exact.certify.build import write_certificate as write_certificate
+    from pkm_exact.certify.certificate import Certificate as Certificate
+    from pkm_exact.certify.certificate import check as check
     from pkm_exact.certify.check import check_bytes as check_bytes
+    from pkm_exact.certify.checker.verdict import Verdict as Verdict
     from pkm_exact.engine import solve as solve
     from pkm_exact.errors import InputError as InputError
     from pkm_exact.errors import PkmExactError as PkmExactError
@@ -37,6 +40,7 @@ if TYPE_CHECKING:
     from pkm_exact.policy import Policy as Policy
     from pkm_exact.poses.pose import Interval as Interval
     from pkm_exact.poses.pose import Pose as Pose
+    from pkm_exact.recomputation import recompute as recompute
     from pkm_exact.solution import Solution as Solution
     from pkm_exact.verdict import Claim as Claim
     from pkm_exact.verdict import CompletenessRoute as CompletenessRoute
@@ -44,6 +48,7 @@ if TYPE_CHECKING:
 __version__: Final = "0.1.0"
 
 _HOME: Final = {
+    "Certificate": "certify.certificate",
     "Claim": "verdict",
     "CompletenessRoute": "verdict",
     "Configuration": "geometry.robot",
@@ -59,9 +64,12 @@ _HOME: Final = {
     "Solution": "solution",
     "ToleranceResult": "numeric.tolerance_result",
     "Tolerances": "geometry.tolerances",
+    "Verdict": "certify.checker.verdict",
     "certificate": "certify.build",
+    "check": "certify.certificate",
     "check_bytes": "certify.check",
     "read_robot": "geometry.reader",
+    "recompute": "recomputation",
     "solve": "engine",
     "solve_krawczyk": "numeric_engine",
     "solve_many": "many",
@@ -75,7 +83,11 @@ __all__ = ["__version__", *_HOME]
 
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        from difflib import get_close_matches
+
+        close = get_close_matches(name, _HOME, 1)
+        remedy = f"did you mean {close[0]!r}?" if close else f"dir({__name__}) lists what it has"
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}; {remedy}")
     value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
     globals()[name] = value
     return value

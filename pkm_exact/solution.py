@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from pkm_exact.errors import PkmExactError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.pose import Pose
 from pkm_exact.verdict import Claim, CompletenessRoute
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from pandas import DataFrame
+    from scipy.spatial.transform import Rotation
+
+    from pkm_exact.certify.certificate import Certificate
+    from pkm_exact.geometry.robot import Robot
     from pkm_exact.numeric.certification import IsolatedSolutions
+    from pkm_exact.poses.arrays import PoseArrays
     from pkm_exact.poses.completeness import CompletenessProof
     from pkm_exact.poses.representation import PoseRepresentation
     from pkm_exact.poses.self_motion import SelfMotion, TranslationalMotion
@@ -44,9 +54,12 @@ class Statistics:
     seconds: dict[str, float] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Solution:
     """All poses of a robot with given leg lengths, as far as proved.
+
+    It can be iterated, and its ``len`` is the number of real poses. A solution without any is true all the same: that
+    there is no pose is an answer. Pose number k, as tables and certificates count, is ``solution.poses[k - 1]``.
 
     Attributes
     ----------
@@ -77,6 +90,21 @@ class Solution:
         Boxes around solutions, each with exactly one, if the method is Krawczyk's: the real ones in the order of the
         poses. Beside a self-motion, those of isolated poses.
     statistics : Statistics
+    robot : Robot or None
+        Whose problem it is, if ``Robot.solve`` was asked.
+    configuration : str or None
+        The name of its configuration; None if the lengths were given.
+
+    Examples
+    --------
+    >>> from pkm_exact import Robot
+    >>> solution = Robot.load("models/3-rpr-merlet-p.toml").solve()
+    >>> print(solution)
+    6 complex solutions, 2 real poses; complete
+    >>> [pose.det_sign for pose in solution]
+    [-1, 1]
+    >>> solution.to_numpy().position.shape
+    (2, 3)
     """
 
     problem: ForwardProblem
@@ -93,6 +121,13 @@ class Solution:
     self_motion: SelfMotion | TranslationalMotion | None = None
     isolated: IsolatedSolutions | None = None
     statistics: Statistics = field(default_factory=Statistics, repr=False, compare=False)
+    robot: Robot | None = field(default=None, repr=False, compare=False)
+    configuration: str | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether it is proved that there is no other pose. "No" does not mean that there is one."""
+        return self.claim in (Claim.COMPLETE, Claim.INCONSISTENT)
 
     @property
     def completeness_route(self) -> CompletenessRoute | None:
@@ -104,3 +139,103 @@ class Solution:
             f"{self.complex_solutions} complex solutions, {len(self.poses)} real poses; "
             f"{self.claim.value.replace('-', ' ')}"
         )
+
+    def __repr__(self) -> str:
+        return f"<Solution: {self}>"
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    def __iter__(self) -> Iterator[Pose]:
+        return iter(self.poses)
+
+    def __bool__(self) -> bool:
+        return True
+
+    def to_numpy(self) -> PoseArrays:
+        """All real poses in doubles, ``position`` (n, 3), ``rotation`` (n, 3, 3), .., with half-widths.
+
+        Raises
+        ------
+        PkmExactError
+            If a coordinate is too large for floating point.
+        """
+        from pkm_exact.poses.arrays import arrays_of
+
+        return arrays_of(self.poses)
+
+    def to_scipy(self) -> Rotation:
+        """The n rotations for scipy, nearest to the midpoints; planar robots turn about the third axis.
+
+        Raises
+        ------
+        PkmExactError
+            If scipy is not installed; the message says how to get it.
+        """
+        from pkm_exact.poses.arrays import rotation_of
+
+        return rotation_of(self.to_numpy())
+
+    def to_frame(self) -> DataFrame:
+        """A pandas table with one row per real pose, numbered from 1.
+
+        Columns x, y, z (unit of length), qw, qx, qy, qz, det_sign, condition, multiplicity, and half_width: the exact
+        coordinates lie within it of those in the row.
+
+        Raises
+        ------
+        PkmExactError
+            If pandas is not installed; the message says how to get it.
+        """
+        from pkm_exact.poses.arrays import frame_of
+
+        return frame_of(self.to_numpy())
+
+    def certificate(self) -> Certificate:
+        """What was found, in a form that a program checks which shares nothing with the solver.
+
+        Raises
+        ------
+        PkmExactError
+            If the solution does not know its robot.
+        """
+        from pkm_exact.certify.build import canonical_bytes, certificate
+        from pkm_exact.certify.certificate import Certificate
+
+        return Certificate(canonical_bytes(certificate(self._known_robot("certificate"), self.configuration, self)))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the certificate to a file, which appears whole or not at all.
+
+        Raises
+        ------
+        PkmExactError
+            If the solution does not know its robot, or the file cannot be written.
+        """
+        self.certificate().save(path)
+
+    def plot(self) -> Figure:
+        """A picture of all real poses side by side, a matplotlib figure.
+
+        Raises
+        ------
+        PkmExactError
+            If matplotlib is not installed, or the solution does not know its robot.
+        """
+        from pkm_exact.display import solution_figure
+
+        self._known_robot("plot")
+        return solution_figure(self)
+
+    def _known_robot(self, what: str) -> Robot:
+        if self.robot is None:
+            raise PkmExactError(
+                f"{what}: this solution knows its problem but not its robot; get it by robot.solve(..), or use "
+                "pkm_exact.certificate(robot, name of the configuration or None, solution)"
+            )
+        return self.robot
+
+    def _repr_html_(self) -> str:
+        from pkm_exact.display import solution_html
+
+        return solution_html(self)

@@ -10,6 +10,7 @@ from pkm_exact.algebra.primes import primes_below
 from pkm_exact.algebra.quotient import QuotientAlgebra, quotient_algebra
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.policy import Policy
+from pkm_exact.stages import Watch
 
 
 @dataclass(frozen=True)
@@ -42,10 +43,13 @@ class Elimination:
     ----------
     system : PolynomialSystem
     policy : Policy
+    watch : callable, optional
+        Gets how far the elimination at a prime has come.
     """
 
     system: PolynomialSystem
     policy: Policy
+    watch: Watch | None = field(default=None, repr=False, compare=False)
     _primes: Iterator[int] = field(init=False, repr=False)
     _trace: groebner.Trace | None = field(init=False, default=None, repr=False)
     primes_used: list[int] = field(init=False, default_factory=list)
@@ -59,7 +63,12 @@ class Elimination:
         prime = next(self._primes)
         ring = self.system.monomials
         basis = groebner.learn(
-            self.system.modulo(prime), ring, prime, degree_limit=self.policy.degree_limit, record=record
+            self.system.modulo(prime),
+            ring,
+            prime,
+            degree_limit=self.policy.degree_limit,
+            record=record,
+            watch=self.watch,
         )
         if record:
             self._trace = basis.trace

@@ -18,6 +18,7 @@ from pkm_exact.algebra.groebner import Trace
 from pkm_exact.algebra.monomials import MonomialRing
 from pkm_exact.algebra.reduction import Row
 from pkm_exact.algebra.system import PolynomialSystem
+from pkm_exact.stages import Amount, Watch
 
 ExactPolynomial = tuple[tuple[int, int], ...]
 """Packed monomials in decreasing order, each with its integer coefficient; the coefficients are coprime."""
@@ -47,8 +48,8 @@ class ExactBasis:
         return tuple(element[0][0] for element in self.elements)
 
 
-def exact_basis(system: PolynomialSystem, trace: Trace) -> ExactBasis:
-    """The elimination of ``trace`` over Q."""
+def exact_basis(system: PolynomialSystem, trace: Trace, watch: Watch | None = None) -> ExactBasis:
+    """The elimination of ``trace`` over Q; ``watch`` gets how many matrices are done before each."""
     ring = system.monomials
     generators = [
         tuple((ring.pack(tuple(map(int, exponents))), int(value)) for exponents, value in polynomial.to_dict().items())
@@ -56,7 +57,9 @@ def exact_basis(system: PolynomialSystem, trace: Trace) -> ExactBasis:
     ]
     elements = echelon_form(generators)
     steps = []
-    for step in trace.steps:
+    for done, step in enumerate(trace.steps):
+        if watch is not None:
+            watch(Amount(done, len(trace.steps), "exact matrices", detail=f"{len(step.rows)} rows"))
         rows = [multiple(elements[index], monomial) for index, monomial in step.rows]
         known = [ring.unpack(element[0][0]) for element in elements]
         elements += [row for row in echelon_form(rows) if not any_divides(known, ring.unpack(row[0][0]))]

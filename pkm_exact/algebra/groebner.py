@@ -18,6 +18,7 @@ from pkm_exact.algebra.monomials import MonomialRing, divides, exponent_fields
 from pkm_exact.algebra.reduction import Row, new_rows, read_row, row_echelon, row_matrix
 from pkm_exact.algebra.system import ModularPolynomial
 from pkm_exact.errors import PkmExactError
+from pkm_exact.stages import Amount, Watch
 
 
 class OutOfReachError(PkmExactError):
@@ -90,7 +91,13 @@ class GroebnerBasis:
 
 
 def learn(
-    polynomials: list[ModularPolynomial], ring: MonomialRing, prime: int, *, degree_limit: int, record: bool = True
+    polynomials: list[ModularPolynomial],
+    ring: MonomialRing,
+    prime: int,
+    *,
+    degree_limit: int,
+    record: bool = True,
+    watch: Watch | None = None,
 ) -> GroebnerBasis:
     """Groebner basis of the ideal that ``polynomials`` generate modulo ``prime``.
 
@@ -103,13 +110,15 @@ def learn(
         Largest degree of a critical pair that is treated.
     record : bool
         Whether to find the rows that mattered, so that ``apply`` can repeat the run (one more elimination a step).
+    watch : callable, optional
+        Gets how many critical pairs are done before each matrix.
 
     Raises
     ------
     OutOfReachError
         If a critical pair exceeds the degree limit.
     """
-    return _Elimination(polynomials, ring, prime).run(degree_limit, record)
+    return _Elimination(polynomials, ring, prime).run(degree_limit, record, watch)
 
 
 def apply(trace: Trace, polynomials: list[ModularPolynomial], ring: MonomialRing, prime: int) -> GroebnerBasis:
@@ -175,17 +184,21 @@ class _Elimination:
         self._divisor_cache: dict[int, tuple[int, int]] = {}
         self.generators = _interreduced(polynomials, prime)
 
-    def run(self, degree_limit: int, record: bool) -> GroebnerBasis:
+    def run(self, degree_limit: int, record: bool, watch: Watch | None) -> GroebnerBasis:
         for generator in self.generators:
             self._append(generator)
         for index in range(len(self.known) - 1, -1, -1):
             self._update(index)
-        steps = []
+        steps, done = [], 0
         while self.pairs:
             degree = min(pair.degree for pair in self.pairs)
             if degree > degree_limit:
                 raise OutOfReachError(f"a critical pair of degree {degree} exceeds the limit {degree_limit}")
-            steps.append(self._reduce([pair for pair in self.pairs if pair.degree == degree], record))
+            selected = [pair for pair in self.pairs if pair.degree == degree]
+            if watch is not None:
+                watch(Amount(done, done + len(self.pairs), "critical pairs", "at least", f"degree {degree}"))
+            done += len(selected)
+            steps.append(self._reduce(selected, record))
         basis = sorted(self._minimal(), key=lambda index: self.known[index][0][0])
         start = tuple(generator[0][0] for generator in self.generators)
         trace = Trace(start, tuple(step for step in steps if step.new), tuple(basis)) if record else None

@@ -29,10 +29,11 @@ def lift_by_newton(
     modular: ModularRepresentation,
     limit_bits: int,
     accept: Acceptance | None = None,
+    watch: Callable[[int], None] | None = None,
 ) -> UnivariateRepresentation:
     """The representation over Q of which ``modular`` is the image modulo p, for simple solutions.
 
-    It is the first one that fits and is accepted.
+    It is the first one that fits and is accepted. ``watch`` gets the bits of each modulus that is reached.
 
     Raises
     ------
@@ -45,6 +46,8 @@ def lift_by_newton(
     completion = equations.completion(form)
     steps = lift(equations, form, modular.eliminant, modular.shape(), int(limit_bits / log2(prime)))
     for step in steps:
+        if watch is not None:
+            watch(step.modulus.bit_length())
         count = len(form) if completion is None else completion.known
         found = _reconstructed(step.modulus, step.eliminant, partial(_numerators, step, 0, count))
         if found is not None and completion is not None:
@@ -69,9 +72,15 @@ def _accepted(
 
 
 def lift_by_primes(
-    form: Sequence[int], images: Iterator[ModularRepresentation], limit_bits: int, accept: Acceptance | None = None
+    form: Sequence[int],
+    images: Iterator[ModularRepresentation],
+    limit_bits: int,
+    accept: Acceptance | None = None,
+    watch: Callable[[int], None] | None = None,
 ) -> UnivariateRepresentation:
     """The representation over Q from its images modulo many primes: the first that fits and is accepted.
+
+    ``watch`` gets the bits of the modulus after each prime.
 
     Raises
     ------
@@ -97,6 +106,8 @@ def lift_by_primes(
             ]
         modulus *= prime
         count += 1
+        if watch is not None:
+            watch(modulus.bit_length())
         if count == attempt_at:
             attempt_at += 1 + attempt_at // 8
             lists = [residues[start : start + degree] for start in range(0, len(residues), degree)]

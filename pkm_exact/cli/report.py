@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.modes import assembly_modes
+from pkm_exact.display import headline
 from pkm_exact.poses.planar import planar_coordinates
-from pkm_exact.verdict import Claim
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.problem import ForwardProblem
@@ -18,33 +18,6 @@ if TYPE_CHECKING:
     from pkm_exact.poses.jacobian import LegJacobian
     from pkm_exact.poses.pose import Interval, Pose
     from pkm_exact.solution import Solution
-
-_MEANING = {
-    Claim.COMPLETE: "complete: it is proved that there is no other",
-    Claim.NOT_PROVEN_COMPLETE: "not proven complete: each pose is certified, but others are not excluded",
-    Claim.POSITIVE_DIMENSIONAL_DETECTED: (
-        "infinitely many solutions detected, not proved: the robot may move with locked legs"
-    ),
-    Claim.POSITIVE_DIMENSIONAL_PROVED: "infinitely many solutions, proved: the robot moves with locked legs",
-    Claim.INCONSISTENT: "inconsistent: no pose has these leg lengths, not even a complex one",
-}
-_COUNTED = (Claim.COMPLETE, Claim.NOT_PROVEN_COMPLETE)
-
-
-def headline(solution: Solution) -> str:
-    """One sentence that says how many solutions were found and what is claimed of them."""
-    meaning = _MEANING[solution.claim]
-    if solution.claim not in _COUNTED:
-        return meaning
-    distinct, total = solution.distinct_solutions, solution.complex_solutions
-    several = "" if distinct == total else f" ({distinct} distinct)"
-    count = f"{_plural(total, 'complex solution')}{several}, {_plural(len(solution.poses), 'real pose')}"
-    route = f" ({solution.completeness_route})" if solution.completeness_route else ""
-    return f"{count}; {meaning}{route}"
-
-
-def _plural(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def report(robot: Robot, configuration: str | None, solution: Solution, layout: str, *, verbose: bool) -> None:

@@ -7,39 +7,12 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from pkm_exact.cli.modes import assembly_modes, summary
+from pkm_exact.display import HEADER, PLANAR_HEADER, pose_cells
+from pkm_exact.roots.interval import decimal as decimal
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
-    from pkm_exact.poses.pose import Interval, Pose
     from pkm_exact.solution import Solution
-
-_DIGITS_OF_EXACT = 15
-_HEADER = ("", "x", "y", "z", "q0", "q1", "q2", "q3", "det J", "cond J")
-_PLANAR_HEADER = ("", "x", "y", "theta", "det J", "cond J")
-
-
-def decimal(interval: Interval) -> str:
-    """The midpoint, rounded so that the last digit is right to within one unit for every value in the interval.
-
-    Examples
-    --------
-    >>> from fractions import Fraction
-    >>> from pkm_exact.poses.pose import Interval
-    >>> decimal(Interval(Fraction(1, 3), Fraction(1, 3) + Fraction(1, 10**5)))
-    '0.33334'
-    >>> decimal(Interval(Fraction(-3, 8), Fraction(-3, 8)))
-    '-0.375000000000000'
-    """
-    digits = 0
-    if interval.width == 0:
-        digits = _DIGITS_OF_EXACT
-    else:
-        while interval.width * 10 ** (digits + 1) <= 1:
-            digits += 1
-    scaled = round(interval.midpoint * 10**digits)
-    sign = "-" if scaled < 0 else ""
-    whole, rest = divmod(abs(scaled), 10**digits)
-    return f"{sign}{whole}.{rest:0{digits}d}" if digits else f"{sign}{whole}"
 
 
 def print_table(robot: Robot, configuration: str | None, solution: Solution, headline: str, *, verbose: bool) -> None:
@@ -53,12 +26,11 @@ def print_table(robot: Robot, configuration: str | None, solution: Solution, hea
     if not solution.poses:
         return
     planar = solution.problem.planar
-    coordinates = _planar if planar else _spatial
-    rows = [_row(number, pose, coordinates(pose)) for number, pose in enumerate(solution.poses, 1)]
+    rows = [pose_cells(number, pose, planar=planar) for number, pose in enumerate(solution.poses, 1)]
     rotation = "angle [degrees]" if planar else "unit quaternion (scalar first)"
     sys.stdout.write(f"\nassembly modes: {summary(assembly_modes(solution.poses))}\n")
     sys.stdout.write(f"position [{robot.unit}], {rotation}, right to one unit of the last digit\n")
-    print_rows(rows, _PLANAR_HEADER if planar else _HEADER)
+    print_rows(rows, PLANAR_HEADER if planar else HEADER)
 
 
 def _details(robot: Robot, solution: Solution) -> list[str]:
@@ -81,33 +53,6 @@ def _details(robot: Robot, solution: Solution) -> list[str]:
     return details
 
 
-def _row(number: int, pose: Pose, coordinates: tuple[str, ...]) -> tuple[str, ...]:
-    multiple = "" if pose.multiplicity == 1 else f" (x{pose.multiplicity or '?'})"
-    return f"{number}{multiple}", *coordinates, *_jacobian(pose)
-
-
-def _spatial(pose: Pose) -> tuple[str, ...]:
-    return tuple(decimal(c) for c in (*pose.position, *pose.quaternion))
-
-
-def _planar(pose: Pose) -> tuple[str, ...]:
-    from pkm_exact.poses.planar import angle_in_degrees, planar_coordinates
-
-    bounds = planar_coordinates(pose)
-    angle = angle_in_degrees(bounds["cos"], bounds["sin"])
-    return decimal(bounds["x"]), decimal(bounds["y"]), "?" if angle is None else decimal(angle)
-
-
-def _jacobian(pose: Pose) -> tuple[str, str]:
-    """Sign of the determinant of the leg Jacobian, and its condition number."""
-    if pose.jacobian is None:
-        return "?", "?"
-    if pose.jacobian.condition is None:
-        return "0", "singular"
-    condition = pose.jacobian.condition.midpoint
-    return "+" if pose.jacobian.det_sign > 0 else "-", f"{Decimal(condition.numerator) / condition.denominator:.4g}"
-
-
 def print_rows(rows: list[tuple[str, ...]], header: tuple[str, ...]) -> None:
     """Print the rows under the header to stdout, in colours on a terminal."""
     if sys.stdout.isatty():
@@ -116,7 +61,7 @@ def print_rows(rows: list[tuple[str, ...]], header: tuple[str, ...]) -> None:
         sys.stdout.write(plain(rows, header))
 
 
-def plain(rows: list[tuple[str, ...]], header: tuple[str, ...] = _HEADER) -> str:
+def plain(rows: list[tuple[str, ...]], header: tuple[str, ...] = HEADER) -> str:
     """The rows under the header, right-aligned.
 
     >>> print(plain([("1", "0.5", "-12", "0", "1", "0", "0", "0", "+", "3.5")]), end="")

@@ -12,6 +12,7 @@ import click
 from pkm_exact.cli import arguments
 from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
+from pkm_exact.stages import Amount
 from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
@@ -30,8 +31,8 @@ _SECONDS_PER_LINE: Final = 0.1
 
 
 @click.command(short_help="Follow one assembly mode along a joint path.")
-@click.argument("model", type=click.Path())
-@click.argument("path", type=click.Path(), metavar="PATH.csv")
+@click.argument("model", type=arguments.FilePath())
+@click.argument("path", type=arguments.FilePath(), metavar="PATH.csv")
 @click.option(
     "--start",
     "number",
@@ -49,7 +50,12 @@ _SECONDS_PER_LINE: Final = 0.1
     help="Greatest width of a box, exact: 1e-9 or 1/1000.",
 )
 @click.option(
-    "-o", "--output", type=click.Path(), required=True, metavar="OUT", help="Write the samples to OUT.csv or OUT.json."
+    "-o",
+    "--output",
+    type=arguments.FilePath(),
+    required=True,
+    metavar="OUT",
+    help="Write the samples to OUT.csv or OUT.json.",
 )
 @click.option("-v", "--verbose", is_flag=True, help="Say more: stages and rows on a terminal.")
 def track(model: str, path: str, number: int, width: Fraction, output: str, verbose: bool) -> int:
@@ -163,12 +169,12 @@ class _Shown:
 
     def __init__(self, progress: Progress, rows: int) -> None:
         self._progress, self._rows, self._last = progress, rows, 0.0
+        progress("following the branch")
 
     def __call__(self, row: int, reached: Fraction) -> None:
         now = time.monotonic()
         if now - self._last < _SECONDS_PER_LINE:
             return
         self._last = now
-        share = (row + float(reached)) / max(1, self._rows - 1)
-        bar = "=" * round(20 * share)
-        self._progress(f"[{bar:<20}] row {row + 2} of {self._rows}, {100 * float(reached):.3g} % of the way there")
+        detail = f"{100 * float(reached):.3g} % of the way to the next"
+        self._progress.amount(Amount(row + 1, self._rows, "rows", detail=detail))

@@ -41,7 +41,12 @@ def compare_formulations(
     """
     wanted = [checked_code(code) for code in codes] if codes is not None else list(formulation_codes())
     reference = formulation_codes()[0]
-    known = {code: run_apart(problem, code, seconds, progress) for code in dict.fromkeys((reference, *wanted))}
+    runs = list(dict.fromkeys((reference, *wanted)))
+    known = {}
+    for number, code in enumerate(runs, 1):
+        if progress is not None:
+            progress(f"formulation {number} of {len(runs)}, {code}: start")
+        known[code] = run_apart(problem, code, seconds, progress)
     return tuple(_compared(known[code], known[reference]) for code in dict.fromkeys(wanted))
 
 

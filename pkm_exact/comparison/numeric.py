@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
 from time import perf_counter
 from typing import Any, Final
 
@@ -25,6 +26,7 @@ from pkm_exact.numeric.uncertified import NumericPose
 from pkm_exact.poses.jacobian import characteristic_length
 from pkm_exact.roots.interval import Interval
 from pkm_exact.solution import Solution
+from pkm_exact.stages import Amount, tell
 from pkm_exact.verdict import Claim
 
 WIDTH: Final = Fraction(1, 10**30)
@@ -185,10 +187,13 @@ def compare_numeric(
         if progress is not None:
             progress(name)
         begin = perf_counter()
-        ends = engine(problem, robot, starts, seed)
+        ends = engine(problem, robot, starts, seed, partial(tell, progress))
         seconds = perf_counter() - begin
-        judged = tuple(judge.judge(pose) for pose in ends.poses)
-        results.append(EngineResult(name, ends.poses, judged, ends.others, seconds))
+        judged = []
+        for count, pose in enumerate(ends.poses):
+            tell(progress, Amount(count, len(ends.poses), "ends judged"))
+            judged.append(judge.judge(pose))
+        results.append(EngineResult(name, ends.poses, tuple(judged), ends.others, seconds))
     return NumericComparison(certified, starts, seed, tuple(results))
 
 

@@ -17,6 +17,7 @@ from pkm_exact.numeric.poses import approximations, motion_degree
 from pkm_exact.numeric.robot import NumericRobot
 from pkm_exact.numeric.study_system import Complex, motion_values
 from pkm_exact.numeric.uncertified import NumericPose
+from pkm_exact.stages import Amount, Watch
 
 REAL: Final = 1e-6
 """Imaginary part up to which the end of a path, of norm 1 and turned to be as real as it can, is tried as a pose."""
@@ -38,28 +39,32 @@ class Ends:
     others: dict[str, int] = field(default_factory=dict)
 
 
-Engine: TypeAlias = Callable[[ForwardProblem, NumericRobot, int, int], Ends]
+Engine: TypeAlias = Callable[[ForwardProblem, NumericRobot, int, int, Watch], Ends]
 
 
-def newton_at_home(_problem: ForwardProblem, robot: NumericRobot, _starts: int, _seed: int) -> Ends:
+def newton_at_home(_problem: ForwardProblem, robot: NumericRobot, _starts: int, _seed: int, _watch: Watch) -> Ends:
     """Newton's method from the home pose."""
     return Ends((newton(robot, home_pose(robot)),))
 
 
-def newton_anywhere(_problem: ForwardProblem, robot: NumericRobot, starts: int, seed: int) -> Ends:
+def newton_anywhere(_problem: ForwardProblem, robot: NumericRobot, starts: int, seed: int, watch: Watch) -> Ends:
     """Newton's method from random poses."""
     c, quaternions = random_states(robot, starts, seed)
-    return Ends(tuple(newton_from(robot, c[i], tuple(quaternions[:, i].tolist())) for i in range(starts)))
+    poses = []
+    for i in range(starts):
+        watch(Amount(i, starts, "starts"))
+        poses.append(newton_from(robot, c[i], tuple(quaternions[:, i].tolist())))
+    return Ends(tuple(poses))
 
 
-def descent(_problem: ForwardProblem, robot: NumericRobot, starts: int, seed: int) -> Ends:
+def descent(_problem: ForwardProblem, robot: NumericRobot, starts: int, seed: int, _watch: Watch) -> Ends:
     """Levenberg-Marquardt from the same poses."""
     return Ends(levenberg_marquardt(robot, DescentPolicy(starts=starts, seed=seed)))
 
 
-def path_tracking(problem: ForwardProblem, robot: NumericRobot, _starts: int, _seed: int) -> Ends:
+def path_tracking(problem: ForwardProblem, robot: NumericRobot, _starts: int, _seed: int, watch: Watch) -> Ends:
     """The paths from all solutions of a generic robot; those that end at real points are refined by Newton's method."""
-    found = approximations(problem)
+    found = approximations(problem, watch=watch)
     poses, complex_ends = [], 0
     for point in found.points:
         values = motion_values(_full(point, planar=problem.planar))

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from fractions import Fraction
-from typing import Final
+from pathlib import Path
+from typing import TYPE_CHECKING, Final, Literal
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Chain, Crank, JointValue, parse_cosine_and_sine
@@ -14,7 +17,11 @@ from pkm_exact.geometry.kinds import KINDS, Joints, Kind, gough_legs, knees
 from pkm_exact.geometry.problem import ForwardProblem, Vector
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational, parse_vector
 from pkm_exact.geometry.tolerances import Tolerances
-from pkm_exact.wording import shown
+from pkm_exact.wording import printable, shown
+
+if TYPE_CHECKING:
+    from pkm_exact.policy import Policy
+    from pkm_exact.solution import Solution
 
 _LISTED: Final = 20
 
@@ -108,6 +115,92 @@ class Robot:
     def __repr__(self) -> str:
         return f"Robot({self.name!r}, kind={self.kind!r})"
 
+    def __str__(self) -> str:
+        names = ", ".join(printable(configuration.name) for configuration in self.configurations[:_LISTED])
+        more = ", ..." if len(self.configurations) > _LISTED else ""
+        found = f"configurations: {names}{more}" if names else "no configurations"
+        return f"{printable(self.name)} ({self.kind}, lengths in {printable(self.unit)}), {found}"
+
+    def _repr_html_(self) -> str:
+        from pkm_exact.display import robot_html
+
+        return robot_html(self)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Robot:
+        """The robot in a model file; the same as ``read_robot``.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read or is not a model; the message says where and what to do.
+
+        Examples
+        --------
+        >>> print(Robot.load("models/3-rpr-merlet-p.toml"))
+        Merlet 3-RPR (3-RPR, lengths in 1), configurations: home
+        """
+        from pkm_exact.geometry.reader import read_robot
+
+        return read_robot(Path(path))
+
+    def solve(
+        self,
+        lengths: Sequence[object] | None = None,
+        *,
+        configuration: Configuration | str | None = None,
+        method: Literal["exact", "krawczyk"] = "exact",
+        formulation: str | None = None,
+        width: Fraction | int | str | None = None,
+        squared: bool = False,
+        doubles_are_exact: bool = False,
+        policy: Policy | None = None,
+        progress: Callable[[str], None] | bool | None = None,
+    ) -> Solution:
+        """All real poses for a configuration, or for given leg lengths, each in a box, and what is proved of the list.
+
+        Parameters
+        ----------
+        lengths : sequence of int, Fraction, Decimal or str, optional
+            One per leg, exact: 1250, "1250.5", "2501/2", Fraction(2501, 2).
+        configuration : str or Configuration, optional
+            Instead of lengths; the first of the robot if neither is given.
+        method : {"exact", "krawczyk"}
+            Elimination over the rationals, or path tracking and proof by Krawczyk's operator.
+        formulation : str, optional
+            For the method exact: code of the system of equations that is solved, by default SE3.
+        width : Fraction, int or str, optional
+            Greatest width of a box, exact: "1e-12". By default 10^-9.
+        squared : bool
+            Whether the lengths given are squared ones.
+        doubles_are_exact : bool
+            Floats are refused, unless this says that each is meant to be the rational number that it is in binary.
+        policy : Policy, optional
+            Limits and random choices.
+        progress : callable or bool, optional
+            Gets a line when a stage starts; True shows progress on a terminal or in a notebook.
+
+        Raises
+        ------
+        InputError
+            If the arguments do not fit the robot; the message says what would.
+        PkmExactError
+            If there is no answer.
+
+        Examples
+        --------
+        >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
+        >>> print(robot.solve())
+        6 complex solutions, 2 real poses; complete
+        >>> print(robot.solve(["7.1", "26/5", 5], method="krawczyk", width="1e-12"))
+        6 complex solutions, 2 real poses; complete
+        """
+        # The one place where the geometry reaches up to the engines, and only when it is asked to.
+        from pkm_exact.facade import Question, answer
+
+        question = Question(lengths, configuration, method, formulation, width, squared, doubles_are_exact)
+        return answer(self, question, policy, progress)
+
     def configuration(self, name: str | None = None) -> Configuration:
         """The configuration called ``name``, or the first one if ``name`` is None."""
         if not self.configurations:
@@ -121,7 +214,11 @@ class Robot:
                 return configuration
         known = ", ".join(configuration.name for configuration in self.configurations[:_LISTED])
         more = ", ..." if len(self.configurations) > _LISTED else ""
-        raise InputError(f"configuration: {shown(name)} is unknown; use one of: {known}{more}")
+        raise InputError(f"configuration: {shown(name)} is unknown{self._guess(name)}; use one of: {known}{more}")
+
+    def _guess(self, name: object) -> str:
+        close = get_close_matches(str(name), [configuration.name for configuration in self.configurations], 1)
+        return f", did you mean {shown(close[0])}?" if close else ""
 
     def problem(self, locked: Configuration | Sequence[Fraction | int | str]) -> ForwardProblem:
         """The forward kinematics problem of a configuration, or for squared leg lengths, exact and positive.

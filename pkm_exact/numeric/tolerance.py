@@ -16,6 +16,7 @@ from typing import Final
 
 from flint import acb, acb_mat, arb, ctx
 
+from pkm_exact.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import PLANAR_SUPPORT
 from pkm_exact.geometry.tolerances import Tolerances
@@ -50,7 +51,9 @@ from pkm_exact.numeric.parametric import (
 )
 from pkm_exact.numeric.pose_maps import interval_ball
 from pkm_exact.numeric.tolerance_result import DEGREES, ProvedBox, ToleranceBox, ToleranceResult
+from pkm_exact.poses.pose import Pose
 from pkm_exact.solution import Solution
+from pkm_exact.stages import Amount, Progress, tell
 
 GRID_BITS: Final = 96
 """The grid of centres and radii is by that many bits finer than the smallest tolerance, in the centred unit."""
@@ -65,7 +68,7 @@ def tolerance_boxes(
     problem: ForwardProblem,
     tolerances: Tolerances,
     solution: Solution,
-    progress: Callable[[str], None] | None = None,
+    progress: Progress | None = None,
 ) -> ToleranceResult:
     """For every pose of a solution the box of that pose over all robots within tolerance.
 
@@ -103,15 +106,19 @@ poses, one in each box
     with ctx.workprec(exponent + GUARD_BITS):
         robot = centred_robot(problem, frames)
         boxes, near = [], []
+        show("tolerance boxes")
         for number, pose in enumerate(solution.poses, 1):
-            show(f"tolerance box of pose {number} of {len(solution.poses)}")
+            tell(progress, Amount(number - 1, len(solution.poses), "poses"))
             around = certified_pose(robot, pose, solution.poses, exponent)
             boxes.append(_tolerance_box(around, tolerances, number, exponent))
             near += [] if around is None else [around]
         show("solutions that are not real")
         found = [certified_point(robot, point, exponent) for point in complex_points(robot, solution)]
         pairs = [] if None in found else [around for around in found if around is not None]
-        proofs = [_proved_pair(around, tolerances, exponent) for around in pairs]
+        proofs = []
+        for count, around in enumerate(pairs):
+            tell(progress, Amount(count, len(pairs), "pairs"))
+            proofs.append(_proved_pair(around, tolerances, exponent))
         proved = tuple(proof for proof in proofs if proof is not None)
         count = sum(box.is_proved for box in boxes) + 2 * len(proved)
         is_complete = (
@@ -122,8 +129,19 @@ poses, one in each box
                 [_core(around, exponent) for around in near], [_core(around, exponent) for around in pairs]
             )
         )
+    require(count <= DEGREES[problem.planar], "more solutions than the variety of motions allows", proved=count)
+    for box, pose in zip(boxes, solution.poses, strict=True):
+        require(_may_hold(box, pose), "a box of all robots does not hold the nominal pose", pose=box.pose)
     shown = proved if is_complete else ()
     return ToleranceResult(problem, tolerances, frames, exponent, tuple(boxes), shown, count, is_complete)
+
+
+def _may_hold(box: ToleranceBox, pose: Pose) -> bool:
+    """Whether position and rotation of a pose can lie in the bounds of its box."""
+    if box.bounds is None:
+        return True
+    nominal = [*pose.position, *(entry for row in pose.rotation for entry in row)]
+    return all(bound.overlaps(entry) for bound, entry in zip(box.bounds.components, nominal, strict=False))
 
 
 def _grid(tolerances: Tolerances, frames: CentredFrames) -> int:

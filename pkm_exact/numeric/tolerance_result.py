@@ -65,7 +65,7 @@ class ToleranceBox:
         return self.bounds is not None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ToleranceResult:
     """Boxes of the poses of all robots within tolerance.
 
@@ -101,6 +101,14 @@ class ToleranceResult:
     def is_proved(self) -> bool:
         """Whether every pose has a box."""
         return all(box.is_proved for box in self.boxes)
+
+    def __repr__(self) -> str:
+        return f"<ToleranceResult: {self}>"
+
+    def _repr_html_(self) -> str:
+        from pkm_exact.display import tolerance_html
+
+        return tolerance_html(self)
 
     def __str__(self) -> str:
         count, proved = len(self.boxes), sum(box.is_proved for box in self.boxes)

@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pkm_exact.numeric.study_system import Complex, Real
+from pkm_exact.stages import Amount, Watch
 
 SMALLEST_PART = 1e-12
 """Floor of the sizes of e and f beside each other."""
@@ -58,7 +59,11 @@ class TrackerPolicy:
 
 
 def track(
-    points: Complex, start: Complex, target: Complex, policy: TrackerPolicy | None = None
+    points: Complex,
+    start: Complex,
+    target: Complex,
+    policy: TrackerPolicy | None = None,
+    watch: Watch | None = None,
 ) -> tuple[Complex, NDArray[np.bool_]]:
     """Where the paths from the solutions of ``start`` end at ``target``, and which of them arrived.
 
@@ -69,6 +74,8 @@ def track(
     start, target : (q, n, n) arrays
         Symmetric matrices of the quadrics, q = n - 1.
     policy : TrackerPolicy, optional
+    watch : callable, optional
+        Gets how many paths have ended, after every step.
 
     Returns
     -------
@@ -94,6 +101,8 @@ def track(
         t[active[good]] += step[good]
         limit[active] = np.where(good, 4 * step, step / 3)
         active = active[(t[active] < 1) & (good | (step > policy.smallest_step))]
+        if watch is not None:
+            watch(Amount(len(x) - len(active), len(x), "paths"))
     return x, t >= 1
 
 

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from pkm_exact.roots.interval import Interval
 
 if TYPE_CHECKING:
+    from scipy.spatial.transform import Rotation
+
+    from pkm_exact.poses.arrays import PoseArrays
     from pkm_exact.poses.jacobian import LegJacobian
 
 __all__ = ["Interval", "Pose"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Pose:
     """A real pose: a box in ordinary coordinates that holds exactly one of the solutions listed with it.
 
@@ -33,6 +37,17 @@ class Pose:
         not proved.
     jacobian : LegJacobian or None
         What is certified of the leg Jacobian there.
+
+    Examples
+    --------
+    >>> from pkm_exact import Robot
+    >>> pose = Robot.load("models/3-rpr-merlet-p.toml").solve().poses[0]
+    >>> pose.position[0]
+    [3.369707131 +/- 6.4e-10]
+    >>> print(*pose.position)
+    3.369707131 6.216516215 0.000000000
+    >>> pose.det_sign, pose.half_width < 10**-9
+    (-1, True)
     """
 
     parameter: Interval | None
@@ -41,3 +56,55 @@ class Pose:
     quaternion: tuple[Interval, Interval, Interval, Interval]
     multiplicity: int | None = 1
     jacobian: LegJacobian | None = None
+
+    @property
+    def det_sign(self) -> int | None:
+        """Sign of the determinant of the leg Jacobian, 0 at a singular pose; None where it is not certified."""
+        return None if self.jacobian is None else self.jacobian.det_sign
+
+    @property
+    def condition(self) -> Interval | None:
+        """Condition number of the leg Jacobian; None at a singular pose or where it is not certified."""
+        return None if self.jacobian is None else self.jacobian.condition
+
+    @property
+    def half_width(self) -> Fraction:
+        """Half the greatest width of the box, over all coordinates of position, rotation and quaternion."""
+        intervals = (*self.position, *(entry for row in self.rotation for entry in row), *self.quaternion)
+        return max(interval.width for interval in intervals) / 2
+
+    def to_numpy(self) -> PoseArrays:
+        """The pose in doubles: midpoints, and half-widths that cover the exact values, rounding included.
+
+        Returns
+        -------
+        PoseArrays
+            ``position`` (3,), ``rotation`` (3, 3), ``quaternion`` (4,), each with its ``.._half_width``, and more.
+
+        Raises
+        ------
+        PkmExactError
+            If a coordinate is too large for floating point.
+        """
+        from pkm_exact.poses.arrays import arrays_of_pose
+
+        return arrays_of_pose(self)
+
+    def to_scipy(self) -> Rotation:
+        """The rotation for scipy, nearest to the midpoint of the box; a planar robot turns about the third axis.
+
+        Raises
+        ------
+        PkmExactError
+            If scipy is not installed; the message says how to get it.
+        """
+        from pkm_exact.poses.arrays import rotation_of
+
+        return rotation_of(self.to_numpy())
+
+    def __str__(self) -> str:
+        position, quaternion = (", ".join(map(str, part)) for part in (self.position, self.quaternion))
+        return f"position ({position}), quaternion ({quaternion})"
+
+    def __repr__(self) -> str:
+        return f"<Pose: {self}>"

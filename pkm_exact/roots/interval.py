@@ -3,12 +3,40 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, Context, Decimal
 from fractions import Fraction
+from math import inf, nextafter
+from typing import Final
+
+DIGITS_OF_EXACT: Final = 15
+"""Decimals shown of a number that is known exactly."""
+_LONGEST_FRACTION: Final = 24
+_UPWARDS: Final = Context(prec=2, rounding=ROUND_CEILING, Emin=MIN_EMIN, Emax=MAX_EMAX)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Interval:
-    """A closed interval with rational ends; ``lo == hi`` means that the value is known exactly."""
+    """A closed interval with rational ends; ``lo == hi`` means that the value is known exactly.
+
+    ``str`` shows the digits that are certain, the last one to within one unit; ``repr`` adds how far any number of the
+    interval is from them at most. ``float`` is the double nearest to the midpoint, and ``ball`` says how far off it is.
+
+    Attributes
+    ----------
+    lo, hi : Fraction
+
+    Examples
+    --------
+    >>> x = Interval(Fraction(1, 3), Fraction(1, 3) + Fraction(1, 10**5))
+    >>> x
+    [0.33334 +/- 6.7e-6]
+    >>> print(x)
+    0.33334
+    >>> float(x), f"{x:.3f}", x.width
+    (0.33333833333333335, '0.333', Fraction(1, 100000))
+    >>> Fraction(1, 3) in x, 0.25 in x
+    (True, False)
+    """
 
     lo: Fraction
     hi: Fraction
@@ -34,3 +62,73 @@ class Interval:
     def overlaps(self, other: Interval) -> bool:
         """Whether the two closed intervals have a point in common."""
         return self.lo <= other.hi and other.lo <= self.hi
+
+    def ball(self) -> tuple[float, float]:
+        """Two doubles, a middle and a half-width: no number of the interval is further from the middle, exactly.
+
+        Raises
+        ------
+        OverflowError
+            If the interval is out of reach of floating point.
+
+        Examples
+        --------
+        >>> middle, half_width = Interval(Fraction(1, 3), Fraction(1, 3)).ball()
+        >>> middle, 0 < half_width < 1e-16
+        (0.3333333333333333, True)
+        """
+        middle = float(self.midpoint)
+        exact = max(self.hi - Fraction(middle), Fraction(middle) - self.lo)
+        half_width = float(exact)
+        return middle, half_width if Fraction(half_width) >= exact else nextafter(half_width, inf)
+
+    def __contains__(self, value: object) -> bool:
+        """Whether a number lies in the closed interval, decided exactly: a double is the binary number that it is."""
+        if isinstance(value, Decimal):
+            value = Fraction(value) if value.is_finite() else float(value)
+        if not isinstance(value, int | float | Fraction):
+            raise TypeError(f"in an interval are numbers, not {type(value).__name__}; give an int, Fraction or Decimal")
+        return bool(self.lo <= value <= self.hi)
+
+    def __float__(self) -> float:
+        return float(self.midpoint)
+
+    def __format__(self, spec: str) -> str:
+        return format(float(self), spec) if spec else str(self)
+
+    def __str__(self) -> str:
+        return decimal(self)
+
+    def __repr__(self) -> str:
+        if self.lo == self.hi and len(exact := str(self.lo)) <= _LONGEST_FRACTION:
+            return f"[{exact}]"
+        text = decimal(self)
+        farthest = max(self.hi - Fraction(text), Fraction(text) - self.lo)
+        bound = _UPWARDS.divide(Decimal(farthest.numerator), Decimal(farthest.denominator))
+        return f"[{text} +/- {bound.normalize():.1e}]"
+
+
+def decimal(interval: Interval) -> str:
+    """The midpoint, rounded so that the last digit is right to within one unit for every value in the interval.
+
+    Examples
+    --------
+    >>> decimal(Interval(Fraction(1, 3), Fraction(1, 3) + Fraction(1, 10**5)))
+    '0.33334'
+    >>> decimal(Interval(Fraction(-3, 8), Fraction(-3, 8)))
+    '-0.375000000000000'
+    """
+    # In integers, and not in fractions, which are ten times slower: a sweep writes a hundred decimals per row.
+    (low, below), (high, above) = interval.lo.as_integer_ratio(), interval.hi.as_integer_ratio()
+    width = high * below - low * above
+    digits = len(str(max(1, below * above // width))) - 1 if width else DIGITS_OF_EXACT
+    scaled = _nearest((high * below + low * above) * 10**digits, 2 * below * above)
+    sign = "-" if scaled < 0 else ""
+    whole, rest = divmod(abs(scaled), 10**digits)
+    return f"{sign}{whole}.{rest:0{digits}d}" if digits else f"{sign}{whole}"
+
+
+def _nearest(numerator: int, denominator: int) -> int:
+    """The integer nearest to a fraction; of two, the even one."""
+    floor, rest = divmod(numerator, denominator)
+    return floor + (2 * rest > denominator or (2 * rest == denominator and floor % 2 == 1))

@@ -63,7 +63,7 @@ class Status(StrEnum):
 
 @dataclass(frozen=True)
 class Verdict:
-    """The answer and its reasons.
+    """The answer and its reasons; true only if the certificate was accepted.
 
     Attributes
     ----------
@@ -81,6 +81,9 @@ class Verdict:
 
     status: Status
     lines: tuple[str, ...]
+
+    def __bool__(self) -> bool:
+        return self.status is Status.ACCEPTED
 
     def __str__(self) -> str:
         return "\n".join((*self.lines, self.status))

@@ -1,0 +1,227 @@
+"""Results as a person reads them: what is claimed in plain words, poses as cells of a table, and HTML for notebooks.
+
+All text that comes from a file is escaped. Pictures are embedded where matplotlib is installed, and left out elsewhere.
+"""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterable, Sequence
+from decimal import Decimal
+from fractions import Fraction
+from html import escape
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Final
+
+from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.roots.interval import decimal
+from pkm_exact.verdict import Claim
+from pkm_exact.wording import printable
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.many import ManySolutions
+    from pkm_exact.numeric.tolerance_result import ToleranceBox, ToleranceResult
+    from pkm_exact.poses.pose import Pose
+    from pkm_exact.solution import Solution
+
+HEADER: Final = ("", "x", "y", "z", "q0", "q1", "q2", "q3", "det J", "cond J")
+PLANAR_HEADER: Final = ("", "x", "y", "theta", "det J", "cond J")
+
+_MEANING: Final = {
+    Claim.COMPLETE: "complete: it is proved that there is no other",
+    Claim.NOT_PROVEN_COMPLETE: "not proven complete: each pose is certified, but others are not excluded",
+    Claim.POSITIVE_DIMENSIONAL_DETECTED: (
+        "infinitely many solutions detected, not proved: the robot may move with locked legs"
+    ),
+    Claim.POSITIVE_DIMENSIONAL_PROVED: "infinitely many solutions, proved: the robot moves with locked legs",
+    Claim.INCONSISTENT: "inconsistent: no pose has these leg lengths, not even a complex one",
+}
+_COUNTED: Final = (Claim.COMPLETE, Claim.NOT_PROVEN_COMPLETE)
+_ROWS: Final = 40
+"""Rows shown of many; the rest is counted."""
+_DOTS_PER_INCH: Final = 80
+_LONGEST_TEXT: Final = 30
+
+
+def headline(solution: Solution) -> str:
+    """One sentence that says how many solutions were found and what is claimed of them."""
+    meaning = _MEANING[solution.claim]
+    if solution.claim not in _COUNTED:
+        return meaning
+    distinct, total = solution.distinct_solutions, solution.complex_solutions
+    several = "" if distinct == total else f" ({distinct} distinct)"
+    count = f"{_plural(total, 'complex solution')}{several}, {_plural(len(solution.poses), 'real pose')}"
+    route = f" ({solution.completeness_route})" if solution.completeness_route else ""
+    return f"{count}; {meaning}{route}"
+
+
+def _plural(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def pose_cells(number: int, pose: Pose, *, planar: bool) -> tuple[str, ...]:
+    """A pose as a row of a table, under ``HEADER`` or ``PLANAR_HEADER``: decimals right to one unit of the last."""
+    multiple = "" if pose.multiplicity == 1 else f" (x{pose.multiplicity or '?'})"
+    coordinates = _planar(pose) if planar else tuple(decimal(c) for c in (*pose.position, *pose.quaternion))
+    return f"{number}{multiple}", *coordinates, *_jacobian(pose)
+
+
+def _planar(pose: Pose) -> tuple[str, ...]:
+    from pkm_exact.poses.planar import angle_in_degrees, planar_coordinates
+
+    bounds = planar_coordinates(pose)
+    angle = angle_in_degrees(bounds["cos"], bounds["sin"])
+    return decimal(bounds["x"]), decimal(bounds["y"]), "?" if angle is None else decimal(angle)
+
+
+def _jacobian(pose: Pose) -> tuple[str, str]:
+    """Sign of the determinant of the leg Jacobian, and its condition number."""
+    if pose.jacobian is None:
+        return "?", "?"
+    if pose.jacobian.condition is None:
+        return "0", "singular"
+    condition = pose.jacobian.condition.midpoint
+    return "+" if pose.jacobian.det_sign > 0 else "-", f"{Decimal(condition.numerator) / condition.denominator:.4g}"
+
+
+def solution_html(solution: Solution) -> str:
+    """Who was solved, what is claimed, the poses in a table, and a picture of them if one can be drawn."""
+    robot, planar = solution.robot, solution.problem.planar
+    parts = [_paragraph(headline(solution))]
+    if robot is not None:
+        locked = "given leg lengths" if solution.configuration is None else f"configuration {solution.configuration}"
+        parts.insert(0, f"<p><b>{_text(robot.name)}</b> ({_text(robot.kind)}), {_text(locked)}</p>")
+    if solution.poses:
+        rotation = "angle theta [degrees]" if planar else "unit quaternion, scalar first"
+        unit = "the robot's unit" if robot is None else robot.unit
+        rows = [pose_cells(number, pose, planar=planar) for number, pose in enumerate(solution.poses, 1)]
+        parts.append(_table(PLANAR_HEADER if planar else HEADER, rows))
+        parts.append(_paragraph(f"position [{unit}], {rotation}; right to one unit of the last digit"))
+        parts.append(_picture(solution))
+    parts += [_paragraph(f"note: {note}") for note in solution.notes]
+    return _block(parts)
+
+
+def solution_figure(solution: Solution) -> Figure:
+    """All real poses side by side.
+
+    Raises
+    ------
+    PkmExactError
+        If matplotlib is not installed.
+    """
+    from pkm_exact.poses.arrays import required
+
+    required("matplotlib", "plot", 'pip install "pkm_exact[plots]"')
+    from pkm_exact.pictures.scene import scene_of
+    from pkm_exact.pictures.views import poses_figure
+
+    return poses_figure(scene_of(solution.certificate().content, solution.robot))
+
+
+def _picture(solution: Solution) -> str:
+    """The picture as part of the HTML; nothing without matplotlib, or where coordinates are too large to be drawn."""
+    if solution.robot is None or find_spec("matplotlib") is None:
+        return ""
+    from pkm_exact.errors import InputError
+    from pkm_exact.pictures.output import figure_bytes
+
+    try:
+        data = figure_bytes(solution_figure(solution), "png", dpi=_DOTS_PER_INCH)
+    except InputError as error:
+        return _paragraph(f"no picture: {error}")
+    return f'<img alt="the real poses side by side" src="data:image/png;base64,{b64encode(data).decode("ascii")}"/>'
+
+
+def robot_html(robot: Robot) -> str:
+    """Name and origin of a robot, its joints as they were given, and its configurations."""
+    axes = "xy" if KINDS[robot.kind].planar else "xyz"
+    header = ("", *(f"base {axis}" for axis in axes), *(f"platform {axis}" for axis in axes))
+    rows = [
+        (str(leg), *(_number(x) for joint in (base, platform) for x in joint[: len(axes)]))
+        for leg, (base, platform) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True), 1)
+    ]
+    parts = [f"<p><b>{_text(robot.name)}</b> ({_text(robot.kind)}), {_text(robot.source)}</p>", _table(header, rows)]
+    scales = tuple(robot.metric[: len(axes)])
+    if set(scales) != {1}:
+        roots = ", ".join(f"sqrt({g})" for g in scales)
+        parts.append(_paragraph(f"coordinates are to be multiplied by {roots}"))
+    names = ", ".join(configuration.name for configuration in robot.configurations[:_ROWS]) or "none"
+    more = ", ..." if len(robot.configurations) > _ROWS else ""
+    return _block([*parts, _paragraph(f"unit of length: {robot.unit}; configurations: {names}{more}")])
+
+
+def many_html(many: ManySolutions) -> str:
+    """The sum of all rows, and the first of them."""
+    rows = [
+        (str(number), str(row["claim"]).replace("-", " "), str(row["method"]), str(row["count"]), str(row["note"]))
+        for number, row in enumerate(many.rows[:_ROWS], 1)
+    ]
+    left = len(many.rows) - len(rows)
+    parts = [_paragraph(str(many)), _table(("row", "claim", "method", "real poses", "note"), rows)]
+    return _block([*parts, _paragraph(f"and {left} more") if left else ""])
+
+
+def tolerance_html(result: ToleranceResult) -> str:
+    """What is proved for all robots within tolerance, and the box of every pose."""
+    axes = 2 if result.problem.planar else 3
+    header = ("pose", *"xyz"[:axes], "position error", "proved for", "dominated by")
+    return _block([_paragraph(str(result)), _table(header, [_tolerance_cells(box, axes) for box in result.boxes])])
+
+
+def _tolerance_cells(box: ToleranceBox, axes: int) -> tuple[str, ...]:
+    dominant = "" if box.dominant is None else str(box.dominant)
+    share = f"{float(100 * box.fraction):.3g} %"
+    if box.bounds is None:
+        return str(box.pose), *("?" for _ in range(axes + 1)), share, dominant
+    position = (repr(bound).strip("[]") for bound in box.bounds.position[:axes])
+    return str(box.pose), *position, f"at most {decimal_above(box.bounds.position_error.hi)}", share, dominant
+
+
+def decimal_above(value: Fraction) -> str:
+    """Three significant digits, not less than the value.
+
+    Examples
+    --------
+    >>> decimal_above(Fraction(1, 3))
+    '0.334'
+    """
+    from decimal import ROUND_CEILING, Context
+
+    return f"{Context(prec=3, rounding=ROUND_CEILING).divide(Decimal(value.numerator), Decimal(value.denominator)):g}"
+
+
+def _number(value: Fraction) -> str:
+    """A rational number as it is, cut off if it is long."""
+    text = str(value)
+    twos_and_fives = value.denominator
+    for prime in (2, 5):
+        while twos_and_fives % prime == 0:
+            twos_and_fives //= prime
+    if twos_and_fives == 1 and len(text) <= _LONGEST_TEXT:
+        text = f"{Decimal(value.numerator) / Decimal(value.denominator):f}"
+    return text if len(text) <= _LONGEST_TEXT else f"{text[:_LONGEST_TEXT]}…"
+
+
+def _text(value: str) -> str:
+    return escape(printable(value))
+
+
+def _paragraph(text: str) -> str:
+    return f"<p>{_text(text)}</p>"
+
+
+def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = [("th", header), *(("td", row) for row in rows)]
+    body = "".join(
+        "<tr>" + "".join(f'<{tag} style="text-align: right">{_text(cell)}</{tag}>' for cell in cells) + "</tr>\n"
+        for tag, cells in lines
+    )
+    return f"<table>\n{body}</table>"
+
+
+def _block(parts: Iterable[str]) -> str:
+    return "<div>\n" + "\n".join(part for part in parts if part) + "\n</div>"

@@ -1,0 +1,172 @@
+"""What ``Robot.solve`` is asked, made exact and handed to an engine; what is wrong with it is said before any work."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import nullcontext
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import isfinite
+from typing import TYPE_CHECKING, Any, Final
+
+from pkm_exact.errors import InputError
+from pkm_exact.formulations.registry import formulation_codes
+from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.rational import NumberText, parse_positive
+from pkm_exact.geometry.robot import Configuration, Robot
+from pkm_exact.wording import shown
+
+if TYPE_CHECKING:
+    from pkm_exact.policy import Policy
+    from pkm_exact.solution import Solution
+
+METHODS: Final = ("exact", "krawczyk")
+SMALLEST_WIDTH: Final = Fraction(1, 2**4096)
+
+
+@dataclass(frozen=True)
+class Question:
+    """The arguments of ``Robot.solve`` that say what is to be solved, and how."""
+
+    lengths: Any = None
+    configuration: Configuration | str | None = None
+    method: str = METHODS[0]
+    formulation: str | None = None
+    width: object = None
+    squared: bool = False
+    doubles_are_exact: bool = False
+
+
+def answer(
+    robot: Robot, question: Question, policy: Policy | None, progress: Callable[[str], None] | bool | None
+) -> Solution:
+    """The solution, which knows its robot.
+
+    Raises
+    ------
+    InputError
+        If the question does not fit the robot.
+    PkmExactError
+        If there is no answer.
+    """
+    name, problem = posed(robot, question)
+    options = _options(question) | {"policy": policy}
+    if question.method == "krawczyk":
+        from pkm_exact.numeric_engine import solve_krawczyk as engine
+    else:
+        from pkm_exact.engine import solve as engine  # type: ignore[assignment]
+    with _shown(progress) as show:
+        return replace(engine(problem, progress=show, **options), robot=robot, configuration=name)
+
+
+def posed(robot: Robot, question: Question) -> tuple[str | None, ForwardProblem]:
+    """The name of the configuration, None if lengths are given, and the forward kinematics problem.
+
+    Examples
+    --------
+    >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
+    >>> posed(robot, Question(["12.5", 15, 12]))[1].legs[0].length_squared
+    Fraction(625, 4)
+    >>> posed(robot, Question([12.5, 15, 12]))
+    Traceback (most recent call last):
+    pkm_exact.errors.InputError: lengths, leg 1: 12.5 is a binary float, which is seldom the number that was meant; \
+write "12.5" or Fraction(25, 2), or say doubles_are_exact=True if it is
+    """
+    if question.lengths is None:
+        if question.squared or question.doubles_are_exact:
+            raise InputError("lengths: squared and doubles_are_exact are about given lengths; give them as well")
+        chosen = question.configuration
+        if not isinstance(chosen, Configuration):
+            chosen = robot.configuration(chosen)
+        return chosen.name, robot.problem(chosen)
+    if question.configuration is not None:
+        raise InputError("lengths: a configuration has lengths of its own; give lengths or a configuration, not both")
+    values = _lengths(robot, question)
+    return None, robot.problem(values if question.squared else [value * value for value in values])
+
+
+def _lengths(robot: Robot, question: Question) -> list[Fraction]:
+    lengths = question.lengths
+    if isinstance(lengths, str):
+        raise InputError(
+            f"lengths: {shown(lengths)} is a text; give a list of numbers, or configuration={shown(lengths)}"
+        )
+    if robot.chains:
+        names = ", ".join(shown(configuration.name) for configuration in robot.configurations) or "none"
+        raise InputError(
+            f"lengths: the rods of a {robot.kind} robot have fixed lengths; give a configuration, by its name (known: "
+            f"{names}) or made by robot.lock(name, joint values)"
+        )
+    legs = KINDS[robot.kind].legs
+    try:
+        values = list(lengths)
+    except TypeError:
+        raise InputError(f"lengths: {shown(lengths)} is no list; give a list of {legs} numbers, one per leg") from None
+    if len(values) != legs:
+        given = "1 number" if len(values) == 1 else f"{len(values)} numbers"
+        raise InputError(f"lengths: {given} given, but a {robot.kind} robot has {legs} legs; give {legs}, one per leg")
+    return [
+        exact_length(value, f"lengths, leg {leg}", doubles_are_exact=question.doubles_are_exact)
+        for leg, value in enumerate(values, 1)
+    ]
+
+
+def exact_length(value: object, where: str, *, doubles_are_exact: bool = False) -> Fraction:
+    """A positive number, exactly; a float only if it is meant to be the rational number that it is in binary."""
+    if not isinstance(value, str | int | float | Fraction) and hasattr(value, "item"):
+        value = value.item()  # a number of numpy's
+    if isinstance(value, float):
+        if not isfinite(value):
+            raise InputError(f"{where}: {value!r} is not a finite number; give one")
+        if not doubles_are_exact:
+            written = float(value)
+            raise InputError(
+                f"{where}: {written!r} is a binary float, which is seldom the number that was meant; write "
+                f'"{written!r}" or {Fraction(repr(written))!r}, or say doubles_are_exact=True if it is'
+            )
+        value = Fraction(value)
+    if isinstance(value, str) and "/" not in value:
+        value = NumberText(value)  # with an exponent too, as on the command line
+    return parse_positive(value, where)
+
+
+def _options(question: Question) -> dict[str, Any]:
+    """The keyword arguments of the engine."""
+    method = question.method
+    options: dict[str, Any] = {}
+    if method not in METHODS:
+        remedy = f"use one of: {', '.join(METHODS)}"
+        if method == "newton":
+            remedy += "; its poses are uncertified, see pkm_exact.numeric.newton.solve_newton"
+        raise InputError(f"method: {shown(method)} is unknown; {remedy}")
+    if question.formulation is not None:
+        if method != "exact":
+            raise InputError("formulation: belongs to the method exact; leave it out or choose that method")
+        if not isinstance(question.formulation, str):
+            raise InputError(
+                f"formulation: {shown(question.formulation)} is no code; use one of: {', '.join(formulation_codes())}"
+            )
+        options["formulation"] = question.formulation
+    if question.width is not None:
+        options["width"] = exact_width(question.width)
+    return options
+
+
+def exact_width(value: object) -> Fraction:
+    """The width of boxes that a value denotes."""
+    if isinstance(value, float):
+        raise InputError(f'width: {value!r} is a binary float, not exact; write it as a string, "{value!r}"')
+    width = exact_length(value, "width")
+    if not SMALLEST_WIDTH <= width <= 1:
+        raise InputError(f"width: {shown(value)} is out of range; give a number from 2^-4096 to 1")
+    return width
+
+
+def _shown(progress: Callable[[str], None] | bool | None) -> Any:
+    """A context with the callable for an engine."""
+    if progress is True:
+        from pkm_exact.cli.progress import Progress
+
+        return Progress(verbose=False, notebook=True)
+    return nullcontext(progress or None)

@@ -1,0 +1,182 @@
+"""Certified poses as arrays of doubles, for numpy, scipy and pandas: midpoints, and half-widths that cover the boxes.
+
+Doubles are for what comes after the proof. Each half-width includes the rounding of its midpoint, so that the exact
+value provably lies within it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from importlib import import_module
+from math import inf, nan
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pkm_exact.errors import PkmExactError
+from pkm_exact.poses.pose import Pose
+from pkm_exact.roots.interval import Interval
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from scipy.spatial.transform import Rotation
+
+UNKNOWN_SIGN: Final = 2
+"""In place of the sign of a determinant that was not decided, in arrays, which have no room for None."""
+UNKNOWN_MULTIPLICITY: Final = 0
+_NAMES: Final = ("x", "y", "z", "qw", "qx", "qy", "qz")
+
+
+@dataclass(frozen=True, eq=False)
+class PoseArrays:
+    """Poses in doubles. The arrays of one pose have no first axis (n,).
+
+    Attributes
+    ----------
+    position : (n, 3) array
+        In the robot's unit of length.
+    rotation : (n, 3, 3) array
+    quaternion : (n, 4) array
+        Scalar first; scipy wants it last, and ``to_scipy`` puts it there.
+    position_half_width, rotation_half_width, quaternion_half_width : arrays
+        Of the same shapes: the exact value lies within it of the midpoint.
+    det_sign : (n,) array of int
+        Of the leg Jacobian; 0 at a singular pose, 2 where it is not certified.
+    condition : (n,) array
+        Midpoint of the bounds of the Jacobian's condition number; infinity at a singular pose, nan where it is not
+        certified.
+    multiplicity : (n,) array of int
+        0 where it is not proved.
+    """
+
+    position: NDArray[np.float64]
+    rotation: NDArray[np.float64]
+    quaternion: NDArray[np.float64]
+    position_half_width: NDArray[np.float64]
+    rotation_half_width: NDArray[np.float64]
+    quaternion_half_width: NDArray[np.float64]
+    det_sign: NDArray[np.int64]
+    condition: NDArray[np.float64]
+    multiplicity: NDArray[np.int64]
+
+    @property
+    def transform(self) -> NDArray[np.float64]:
+        """Homogeneous matrices (n, 4, 4), rotation and position: p = T (B, 1) for a platform point B."""
+        matrices = np.zeros((*self.position.shape[:-1], 4, 4))
+        matrices[..., :3, :3] = self.rotation
+        matrices[..., :3, 3] = self.position
+        matrices[..., 3, 3] = 1
+        return matrices
+
+    @property
+    def half_width(self) -> NDArray[np.float64]:
+        """The greatest half-width of each pose, over all its coordinates."""
+        flat = self.rotation_half_width.reshape((*self.position.shape[:-1], 9))
+        widths = np.concatenate([self.position_half_width, flat, self.quaternion_half_width], axis=-1)
+        greatest: NDArray[np.float64] = widths.max(axis=-1)
+        return greatest
+
+    def __repr__(self) -> str:
+        shape = self.position.shape[:-1]
+        return f"<PoseArrays: {shape[0]} poses>" if shape else "<PoseArrays: one pose>"
+
+
+def arrays_of(poses: Sequence[Pose]) -> PoseArrays:
+    """The arrays of poses, in their order."""
+    position, position_half_width = _balls([pose.position for pose in poses], (3,))
+    entries = [[entry for row in pose.rotation for entry in row] for pose in poses]
+    rotation, rotation_half_width = _balls(entries, (3, 3))
+    quaternion, quaternion_half_width = _balls([pose.quaternion for pose in poses], (4,))
+    signs = [UNKNOWN_SIGN if pose.det_sign is None else pose.det_sign for pose in poses]
+    return PoseArrays(
+        position,
+        rotation,
+        quaternion,
+        position_half_width,
+        rotation_half_width,
+        quaternion_half_width,
+        np.array(signs, dtype=np.int64),
+        np.array([_condition(pose) for pose in poses], dtype=np.float64),
+        np.array([pose.multiplicity or UNKNOWN_MULTIPLICITY for pose in poses], dtype=np.int64),
+    )
+
+
+def arrays_of_pose(pose: Pose) -> PoseArrays:
+    """The arrays of one pose, without the first axis."""
+    whole = arrays_of([pose])
+    return replace(whole, **{name: getattr(whole, name)[0] for name in whole.__dataclass_fields__})
+
+
+def _balls(
+    rows: Sequence[Sequence[Interval]], shape: tuple[int, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    try:
+        balls = np.array([[interval.ball() for interval in row] for row in rows], dtype=np.float64)
+    except OverflowError:
+        raise PkmExactError(
+            "poses: a coordinate is too large for floating point; use its bounds, which are exact"
+        ) from None
+    balls = balls.reshape((len(rows), *shape, 2))
+    return balls[..., 0].copy(), balls[..., 1].copy()
+
+
+def _condition(pose: Pose) -> float:
+    if pose.jacobian is None:
+        return nan
+    return inf if pose.jacobian.condition is None else float(pose.jacobian.condition)
+
+
+def rotation_of(arrays: PoseArrays) -> Rotation:
+    """The rotations for scipy.
+
+    Raises
+    ------
+    PkmExactError
+        If scipy is not installed.
+    """
+    transform = required("scipy.spatial.transform", "to_scipy", 'pip install "pkm_exact[scipy]"')
+    rotations: Rotation = transform.Rotation.from_quat(arrays.quaternion[..., [1, 2, 3, 0]])
+    return rotations
+
+
+def frame_of(arrays: PoseArrays) -> DataFrame:
+    """A pandas table of poses, numbered from 1.
+
+    Raises
+    ------
+    PkmExactError
+        If pandas is not installed.
+    """
+    pandas = required("pandas", "to_frame", "pip install pandas")
+    columns = dict(zip(_NAMES, np.concatenate([arrays.position, arrays.quaternion], axis=1).T, strict=True))
+    frame: DataFrame = pandas.DataFrame(
+        columns
+        | {
+            "det_sign": pandas.array(arrays.det_sign, dtype="Int64"),
+            "condition": arrays.condition,
+            "multiplicity": pandas.array(arrays.multiplicity, dtype="Int64"),
+            "half_width": arrays.half_width,
+        },
+        index=pandas.RangeIndex(1, len(arrays.position) + 1, name="pose"),
+    )
+    frame.loc[(frame["det_sign"] == UNKNOWN_SIGN).fillna(False), "det_sign"] = pandas.NA
+    frame.loc[(frame["multiplicity"] == UNKNOWN_MULTIPLICITY).fillna(False), "multiplicity"] = pandas.NA
+    return frame
+
+
+def required(module: str, what: str, command: str) -> Any:
+    """An optional package, or an error that says how to install it.
+
+    Examples
+    --------
+    >>> required("no_such", "to_nowhere", "pip install no_such")
+    Traceback (most recent call last):
+    pkm_exact.errors.PkmExactError: to_nowhere: no_such is not installed; get it with: pip install no_such
+    """
+    try:
+        return import_module(module)
+    except ImportError:
+        package = module.partition(".")[0]
+        raise PkmExactError(f"{what}: {package} is not installed; get it with: {command}") from None
