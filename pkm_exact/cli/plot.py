@@ -1,0 +1,178 @@
+"""The command ``plot``: pictures of the poses in a certificate. Everything heavy is imported inside it."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import click
+
+from pkm_exact.cli import arguments
+from pkm_exact.cli.main import ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.wording import printable, shown
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SMALLEST: Final = 2
+LARGEST: Final = 60
+"""Inches of a figure, both ways."""
+
+
+def _pair(context: click.Context, text: str, where: str) -> tuple[float, float]:
+    from pkm_exact.geometry.rational import NumberText, parse_rational
+
+    words = [word.strip() for word in text.split(",")]
+    if len(words) != 2:
+        raise click.UsageError(
+            f"{where}: {len(words)} numbers given, two are needed with a comma between them.", context
+        )
+    try:
+        first, second = (float(parse_rational(NumberText(word), where)) for word in words)
+    except InputError as error:
+        raise click.UsageError(str(error), context) from None
+    return first, second
+
+
+def _view(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[float, float] | None:
+    if value is None:
+        return None
+    azimuth, elevation = _pair(context, value, "--view")
+    if abs(azimuth) > 360 or abs(elevation) > 90:
+        raise click.UsageError(
+            f"--view: {shown(value)} is out of range, give an azimuth up to 360 and an elevation up to 90 degrees.",
+            context,
+        )
+    return azimuth, elevation
+
+
+def _size(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[float, float] | None:
+    if value is None:
+        return None
+    size = _pair(context, value, "--size")
+    if not all(SMALLEST <= inches <= LARGEST for inches in size):
+        raise click.UsageError(
+            f"--size: {shown(value)} is out of range, give two numbers from {SMALLEST} to {LARGEST}.", context
+        )
+    return size
+
+
+@click.command(short_help="Pictures of the poses in a certificate.")
+@click.argument("certificate", type=arguments.FilePath(), metavar="CERT.json")
+@click.option(
+    "-o", "--output", type=arguments.FilePath(), required=True, metavar="FILE", help="A .png, .svg or .pdf file."
+)
+@click.option("--pose", type=int, metavar="K", help="One large picture of this pose instead, numbered as by solve.")
+@click.option("--overlay", is_flag=True, help="One picture of all poses at once; with --pose that one stands out.")
+@click.option("--roots", is_flag=True, help="The roots of the eliminant and their isolating intervals instead.")
+@click.option(
+    "--model", type=arguments.FilePath(), metavar="MODEL.toml", help="The robot's model: draws cranks or slides too."
+)
+@click.option(
+    "--view",
+    callback=_view,
+    metavar="AZIMUTH,ELEVATION",
+    help="Direction of the viewer in degrees; planar robots are seen from above.  [default: -60,20]",
+)
+@click.option(
+    "--size", callback=_size, metavar="WIDTH,HEIGHT", help="Of the picture in inches.  [default: as the poses need]"
+)
+@click.option(
+    "--dpi", type=click.IntRange(20, 600), default=150, show_default=True, help="Dots per inch of a .png file."
+)
+def plot(
+    certificate: str,
+    output: str,
+    pose: int | None,
+    overlay: bool,
+    roots: bool,
+    model: str | None,
+    view: tuple[float, float] | None,
+    size: tuple[float, float] | None,
+    dpi: int,
+) -> int:
+    """Draw the real poses that a certificate lists, side by side, to one scale and from the same side.
+
+    The certificate is checked first: nothing is drawn of one that is rejected (exit code 1). Each title has the number
+    of the pose, the sign of the determinant of its leg Jacobian and the condition number.
+
+    \b
+    Examples:
+      certify-poses plot certs/rolland-6-6.json -o poses.png
+      certify-poses plot certs/rolland-6-6.json -o pose.svg --pose 3 --view -30,15
+      certify-poses plot certs/hexa.json -o hexa.pdf --model models/hexa.toml
+      certify-poses plot certs/rolland-6-6.json -o roots.png --roots
+    """
+    if roots and (pose is not None or overlay or view is not None or model is not None):
+        raise click.UsageError("--roots excludes --pose, --overlay, --view and --model.")
+    path, source = Path(output), Path(certificate)
+    from pkm_exact.cli.progress import Progress
+    from pkm_exact.pictures.output import picture_format
+    from pkm_exact.pictures.scene import RejectedError, accepted_document
+    from pkm_exact.pictures.style import require_matplotlib
+
+    suffix = picture_format(path)
+    arguments.require_writable(path, "-o")
+    for file, what in ((source, "the certificate"), (model and Path(model), "the model file")):
+        if file and file.exists():
+            arguments.require_other_file(path, str(file), "-o", what)
+    require_matplotlib()
+    try:
+        with Progress(verbose=False) as progress:
+            progress(f"checking {source.name}")
+            document = accepted_document(source)
+    except RejectedError as error:
+        click.echo(f"certify-poses: error: {printable(str(error))}", err=True)
+        return ExitCode.REJECTED
+    try:
+        figure, line = _figure(document, pose, overlay, roots, model, view, size)
+        data = _bytes(figure, suffix, dpi)
+    except InputError as error:
+        raise InputError(f"{certificate}: {error}") from None
+    _write(path, data)
+    sys.stdout.write(f"{printable(output)}: {line}\n")
+    return ExitCode.DONE
+
+
+def _figure(
+    document: dict[str, Any],
+    pose: int | None,
+    overlay: bool,
+    roots: bool,
+    model: str | None,
+    view: tuple[float, float] | None,
+    size: tuple[float, float] | None,
+) -> tuple[Figure, str]:
+    """The figure, and what it shows in one line."""
+    from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.pictures import captions
+    from pkm_exact.pictures.camera import DEFAULT_VIEW, View
+    from pkm_exact.pictures.roots import roots_figure
+    from pkm_exact.pictures.scene import scene_of
+    from pkm_exact.pictures.views import overlay_figure, pose_figure, poses_figure
+
+    if roots:
+        return roots_figure(document, size=size), "the roots of the eliminant"
+    scene = scene_of(document, None if model is None else read_robot(model))
+    seen = DEFAULT_VIEW if view is None else View(*view)
+    if pose is not None:
+        return pose_figure(scene, pose, view=seen, size=size, ghosts=overlay), f"pose {pose} of {len(scene.poses)}"
+    figure = (overlay_figure if overlay else poses_figure)(scene, view=seen, size=size)
+    return figure, captions.statement(scene)
+
+
+def _bytes(figure: Figure, suffix: str, dpi: int) -> bytes:
+    from pkm_exact.pictures.output import figure_bytes
+
+    return figure_bytes(figure, suffix, dpi=dpi)
+
+
+def _write(path: Path, data: bytes) -> None:
+    from pkm_exact.files import write_whole
+
+    try:
+        write_whole(path, data)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror}); give another path to -o") from None

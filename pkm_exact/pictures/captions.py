@@ -1,0 +1,196 @@
+"""The words of a picture: headline, titles of panels, legend, and the key with axes and scale."""
+
+from __future__ import annotations
+
+from math import floor, log10
+from typing import TYPE_CHECKING, Final
+
+from pkm_exact.pictures import style
+from pkm_exact.pictures.camera import Camera
+from pkm_exact.pictures.scene import PoseView, Scene
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.figure import Figure
+
+KEY_WIDTH, KEY_HEIGHT = 1.75, 0.76
+"""Inches that the key takes."""
+ENTRY_WIDTH: Final = 0.74
+"""Inches that an entry of the legend takes."""
+_SIZE: Final = 8.5
+_AXES: Final = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+_SIGNS: Final = {1: "det J > 0", -1: "det J < 0", 0: "det J = 0", None: "det J not decided"}
+
+
+def headline(name: str, kind: str, configuration: str | None) -> str:
+    """Robot and configuration.
+
+    Examples
+    --------
+    >>> headline("Rolland 6-6", "6-UPS", "home")
+    'Rolland 6-6 (6-UPS), configuration home'
+    """
+    actuators = "given leg lengths" if configuration is None else f"configuration {configuration}"
+    known = "" if kind in name else f" ({kind})"
+    return f"{style.drawable(name)}{known}, {style.drawable(actuators)}"
+
+
+def statement(scene: Scene) -> str:
+    """How many poses there are, and what is proved of their list, no more.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> statement(SimpleNamespace(poses=(1,), claim="complete", complex_solutions=6))
+    '1 real pose of 6 complex solutions; complete'
+    """
+    poses = counted(len(scene.poses), "real pose")
+    if scene.claim == "complete":
+        return f"{poses} of {counted(scene.complex_solutions, 'complex solution')}; complete"
+    if scene.claim == "inconsistent":
+        return "proved: no pose, real or complex, has these lengths"
+    if scene.claim.startswith("positive-dimensional"):
+        proved = "proved" if scene.claim.endswith("proved") else "detected, not proved"
+        shown = f"{counted(len(scene.poses), 'isolated real pose')} listed"
+        return f"poses on curves or surfaces ({proved}); {shown}"
+    return f"{poses} listed; not proven complete"
+
+
+def counted(count: int, noun: str) -> str:
+    """The number with its noun.
+
+    >>> counted(1, "pose"), counted(2, "pose")
+    ('1 pose', '2 poses')
+    """
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def title(pose: PoseView, *, of: int | None = None) -> str:
+    """Number, or which of how many, multiplicity, sign of the determinant of the leg Jacobian and its condition number.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> title(SimpleNamespace(number=3, multiplicity=1, det_sign=-1, condition=12345.6))
+    '3: det J < 0, cond 12300'
+    >>> title(SimpleNamespace(number=1, multiplicity=2, det_sign=0, condition=None))
+    '1 (double): det J = 0'
+    """
+    number = str(pose.number) if of is None else f"pose {pose.number} of {of}"
+    names = {1: "", 2: " (double)", 3: " (triple)", None: " (multiplicity not proved)"}
+    multiple = names.get(pose.multiplicity, f" ({pose.multiplicity}-fold)")
+    condition = "" if pose.condition is None else f", cond {rounded(pose.condition)}"
+    return f"{number}{multiple}: {_SIGNS[pose.det_sign]}{condition}"
+
+
+def rounded(value: float) -> str:
+    """Three digits.
+
+    >>> [rounded(x) for x in (14.8123, 3.0, 45392.4, 1.23456e9)]
+    ['14.8', '3', '45400', '1.23e+09']
+    """
+    short = float(f"{value:.3g}")
+    return f"{short:.0f}" if 100 <= short < 1e6 else f"{short:.3g}"
+
+
+def axis_names(scene: Scene) -> tuple[str, ...]:
+    """The coordinates with their unit."""
+    unit = "" if scene.unit in ("", "1") else f" [{style.drawable(scene.unit, 12)}]"
+    return tuple(f"{name}{unit}" for name in ("xy" if scene.planar else "xyz"))
+
+
+def legend_rows(scene: Scene, width: float, *, key: bool = True) -> int:
+    """How many rows the legend has, at most, on a figure of this width, with or without a key beside it."""
+    entries = len(scene.legs) + 3 + 2 * bool(scene.chain)
+    return -(-entries // _columns(width, key))
+
+
+def _columns(width: float, key: bool) -> int:
+    return max(1, floor((width - KEY_WIDTH * key - 0.1) / ENTRY_WIDTH))
+
+
+def add_legend(figure: Figure, scene: Scene, *, ghosts: bool = False, key: bool = True) -> None:
+    """The shared legend, at the bottom on the right; of ghosts the colours are those of signs and not of legs."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    handles: list[Artist] = []
+    if not ghosts:
+        handles += [
+            Line2D([], [], color=style.LEG_COLOURS[leg], linewidth=2.2, label=f"leg {leg + 1}")
+            for leg in range(len(scene.legs))
+        ]
+    if scene.chain:
+        dashes = style.DASHES[scene.chain]
+        handles.append(Line2D([], [], color=style.INK, linewidth=3.2, linestyle=dashes, label=scene.chain))
+        handles.append(Line2D([], [], color=style.INK, linewidth=0, marker="D", markersize=4, label="knee"))
+    handles.append(Patch(facecolor=style.BASE_FILL, edgecolor=style.BASE_INK, label="base"))
+    if ghosts:
+        used = [sign for sign in (1, -1, 0, None) if any(pose.det_sign == sign for pose in scene.poses)]
+        handles += [Patch(facecolor=style.SIGN_COLOURS[sign], alpha=0.6, label=_SIGNS[sign]) for sign in used]
+    else:
+        handles.append(Patch(facecolor=style.PLATFORM_FILL, edgecolor=style.INK, label="platform"))
+    width, height = figure.get_size_inches()
+    columns = min(_columns(width, key), len(handles))
+    figure.legend(
+        # Matplotlib fills columns; read row by row they are in order.
+        handles=[handle for column in range(columns) for handle in handles[column::columns]],
+        loc="lower right",
+        bbox_to_anchor=(1 - 0.08 / width, 0.04 / height),
+        ncols=columns,
+        frameon=False,
+        fontsize=_SIZE,
+        handlelength=1.3,
+        handletextpad=0.4,
+        columnspacing=1.0,
+        borderaxespad=0,
+        borderpad=0.2,
+    )
+
+
+def add_headline(figure: Figure, first: str, second: str) -> None:
+    """Two lines at the top, as large as fits."""
+    width, height = figure.get_size_inches()
+    lines = (first, second)
+    for line, drop, largest, weight in zip(lines, (0.1, 0.34), (12, 10), ("bold", "normal"), strict=True):
+        size = min(largest, fitting(line, width - 0.2, bold=weight == "bold"))
+        figure.text(0.5, 1 - drop / height, line, ha="center", va="top", fontsize=size, weight=weight)
+
+
+def fitting(text: str, inches: float, *, bold: bool = False) -> float:
+    """The greatest font size, in points, at which a line is not wider than this."""
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import TextPath
+
+    extents = TextPath((0, 0), text, size=100, prop=FontProperties(weight="bold" if bold else "normal")).get_extents()
+    return inches * 72 * 100 / max(float(extents.x1), 1.0)
+
+
+def add_key(figure: Figure, scene: Scene, shot: Camera, scale: float) -> None:
+    """The directions of the axes and a bar of known length, at the bottom on the left; scale in inches per unit."""
+    width, height = figure.get_size_inches()
+    key = figure.add_axes((0.05 / width, 0, KEY_WIDTH / width, KEY_HEIGHT / height), label="key")
+    key.set_xlim(0, KEY_WIDTH)
+    key.set_ylim(0, KEY_HEIGHT)
+    key.set_axis_off()
+    for name, axis in zip("xy" if scene.planar else "xyz", _AXES, strict=False):
+        x, y = shot.flat(axis)
+        start = (0.36, KEY_HEIGHT / 2)
+        if x * x + y * y > 0.01:
+            arrow = {"arrowstyle": "->", "color": style.INK, "linewidth": 0.9, "shrinkA": 0, "shrinkB": 0}
+            key.annotate("", (start[0] + 0.22 * x, start[1] + 0.22 * y), start, arrowprops=arrow)
+        key.text(start[0] + 0.29 * x, start[1] + 0.29 * y, name, ha="center", va="center", fontsize=7)
+    length = round_length(0.9 / scale)
+    key.plot([0.76, 0.76 + length * scale], [0.25, 0.25], color=style.INK, linewidth=2, solid_capstyle="butt")
+    text = f"length {length:g}" if scene.unit in ("", "1") else f"{length:g} {style.drawable(scene.unit, 8)}"
+    key.text(0.76, 0.32, text, fontsize=_SIZE, va="bottom", ha="left")
+
+
+def round_length(longest: float) -> float:
+    """The longest of 1, 2, 5, 10, .. (times a power of ten) that is not longer.
+
+    >>> [round_length(x) for x in (0.7, 19, 5000)]
+    [0.5, 10.0, 5000.0]
+    """
+    power = 10.0 ** floor(log10(longest))
+    return power * max(step for step in (1, 2, 5) if step * power <= longest * (1 + 1e-9))

@@ -1,0 +1,123 @@
+"""Floating coordinates of certified poses, and what is certified of their Jacobians, from the content of a certificate.
+
+The boxes of a certificate are as wide as they were asked for. Pictures take the poses in them from enclosures computed
+anew, from the eliminant or from the boxes of Krawczyk's operator, narrow enough for every digit of a double.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Final
+
+from flint import arb, ctx
+
+from pkm_exact.certify.checker.krawczyk import Equations, narrowed
+from pkm_exact.certify.checker.realposes import ordinary_coordinates
+from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.poses.jacobian import LegJacobian, pose_jacobians
+from pkm_exact.roots.isolation import real_root_enclosures
+
+if TYPE_CHECKING:
+    from pkm_exact.certify.checker.document import Document, Representation
+
+FIRST_PRECISION: Final = 256
+DOUBLE_BITS: Final = 60
+"""Coordinates are enclosed to 2^-60 of their size, or of 1: finer than a double."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A pose in doubles: position (3), rotation matrix by rows (9), unit quaternion (4); and its Jacobian."""
+
+    coordinates: tuple[float, ...]
+    det_sign: int | None
+    condition: float | None
+
+
+def problem_of(document: Document) -> ForwardProblem:
+    """The forward kinematics problem that a certificate answers."""
+    legs = tuple(Leg(leg.base, leg.platform, leg.length_squared) for leg in document.legs)
+    return ForwardProblem(legs, document.metric, len(legs) == 3)
+
+
+def placed_poses(document: Document) -> list[Placed]:
+    """The listed poses of an accepted certificate, in its order."""
+    enclosures = _Enclosures(document)
+    places = enclosures.in_doubles()
+    jacobians = _jacobians(document, enclosures)
+    return [Placed(coordinates, *jacobian) for coordinates, jacobian in zip(places, jacobians, strict=True)]
+
+
+class _Enclosures:
+    """Enclosures of the listed poses, to any precision."""
+
+    def __init__(self, document: Document) -> None:
+        self._document = document
+        # The isolating intervals lie on one grid: in their order, the poses are those of the real roots in theirs.
+        ends = [(Fraction(pose.parameter[0]), Fraction(pose.parameter[1])) for pose in document.poses if pose.parameter]
+        self._places = [sorted(ends).index(end) for end in ends]
+
+    def __call__(self, precision: int, indices: Sequence[int]) -> Iterator[Sequence[arb]]:
+        """Position, rotation and quaternion of the poses with these indices."""
+        representation, isolated = self._document.representation, self._document.isolated
+        metric = self._document.metric
+        if isolated is not None:  # also if a representation of witnesses stands beside it
+            equations = Equations(self._document.legs, metric, isolated.chart)
+            for index in indices:
+                point = narrowed(equations, isolated.real[index], precision)
+                yield ordinary_coordinates(point[:4], point[4:], metric, precision)
+        elif representation is not None:
+            roots = real_root_enclosures(representation.eliminant // representation.eliminant.content(), precision)
+            for index in indices:
+                e, f = _study_coordinates(representation, roots[self._places[index]], precision)
+                yield ordinary_coordinates(e, f, metric, precision)
+
+    def in_doubles(self) -> list[tuple[float, ...]]:
+        """All poses, each coordinate right to the last digits of a double."""
+        count = len(self._document.poses)
+        found: dict[int, tuple[float, ...]] = {}
+        precision = FIRST_PRECISION
+        while len(found) < count:
+            left = [index for index in range(count) if index not in found]
+            for index, values in zip(left, self(precision, left), strict=True):
+                if all(_is_fine(value) for value in values):
+                    found[index] = tuple(float(value.mid()) for value in values)
+            precision *= 2
+        return [found[index] for index in range(count)]
+
+
+def _study_coordinates(representation: Representation, root: arb, precision: int) -> tuple[list[arb], list[arb]]:
+    """(e, f) at an enclosed root of the eliminant."""
+    with ctx.workprec(precision):
+        slope = representation.eliminant.derivative()(root)
+        return (
+            [numerator(root) / slope for numerator in representation.quaternion],
+            [numerator(root) / slope for numerator in representation.translation],
+        )
+
+
+def _is_fine(value: arb) -> bool:
+    return bool(value.is_finite() and value.rad() * arb(2) ** DOUBLE_BITS < 1 + abs(value.mid()))
+
+
+def _jacobians(document: Document, enclosures: _Enclosures) -> list[tuple[int | None, float | None]]:
+    """Sign of the determinant of the leg Jacobian and its condition number: 0 and None at a multiple solution.
+
+    None twice where it is not proved whether the solution is simple.
+    """
+    simple = [index for index, pose in enumerate(document.poses) if pose.multiplicity == 1]
+
+    def of_simple(precision: int, indices: Sequence[int]) -> Iterator[Sequence[arb]]:
+        return enclosures(precision, [simple[index] for index in indices])
+
+    found = dict(zip(simple, pose_jacobians(of_simple, problem_of(document), [None] * len(simple)), strict=True))
+    return [
+        _shown(found[index]) if index in found else (None if pose.multiplicity is None else 0, None)
+        for index, pose in enumerate(document.poses)
+    ]
+
+
+def _shown(jacobian: LegJacobian) -> tuple[int, float | None]:
+    return jacobian.det_sign, None if jacobian.condition is None else float(jacobian.condition.midpoint)

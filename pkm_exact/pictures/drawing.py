@@ -1,0 +1,148 @@
+"""A robot in one of its poses, drawn on the axes of a panel, flat or in space."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from pkm_exact.pictures import style
+from pkm_exact.pictures.camera import Camera
+from pkm_exact.pictures.hull import faces
+from pkm_exact.pictures.scene import Point, PoseView, Scene
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+FAR, NEAR = 1.0, 8.0
+"""Layers of the body behind the legs, and of the one before them."""
+_CHAINS, _LEGS, _JOINTS, LABELS = 2.0, 4.0, 9.0, 10.0
+
+
+@dataclass(frozen=True)
+class Pen:
+    """How strongly a pose is drawn: line width in points, and the opacity of lines and of faces."""
+
+    width: float = 1.6
+    opacity: float = 1.0
+    fill: float = 0.55
+
+
+def draw_base(axes: Axes, scene: Scene, shot: Camera, pen: Pen, layer: float) -> None:
+    """The base: a grey body through the base joints, with square joints."""
+    _body(axes, scene, scene.base, shot, style.BASE_FILL, style.BASE_INK, pen, layer)
+    _dots(axes, scene, scene.base, "s", style.BASE_INK, pen)
+
+
+def draw_platform(
+    axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen, fill: str, ink: str, layer: float
+) -> None:
+    """The platform of a pose, with round joints."""
+    _body(axes, scene, pose.platform, shot, fill, ink, pen, layer)
+    _dots(axes, scene, pose.platform, "o", ink, pen)
+
+
+def draw_robot(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen) -> None:
+    """Base, legs and platform of a pose; of base and platform the one that is farther away comes first."""
+    above = shot.depth(middle(pose.platform)) >= shot.depth(middle(scene.base))
+    draw_base(axes, scene, shot, pen, FAR if above else NEAR)
+    draw_chains(axes, scene, pose, pen)
+    draw_legs(axes, scene, pose, shot, pen)
+    draw_platform(axes, scene, pose, shot, pen, style.PLATFORM_FILL, style.INK, NEAR if above else FAR)
+
+
+def draw_chains(axes: Axes, scene: Scene, pose: PoseView, pen: Pen, colour: str | None = None) -> None:
+    """Cranks or slides, from base joints to knees, in the colours of their legs unless a colour is given."""
+    for leg, knee in enumerate(pose.elbows):
+        options = {"linewidth": 1.9 * pen.width, "linestyle": style.DASHES[scene.chain], "zorder": _CHAINS}
+        shade = colour or style.LEG_COLOURS[leg]
+        _line(axes, scene, (scene.base[leg], knee), color=shade, gid=f"chain-{leg + 1}", **options)
+    if pose.elbows:
+        _dots(axes, scene, pose.elbows, "D", style.INK, pen)
+
+
+def draw_legs(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen, colour: str | None = None) -> None:
+    """The legs or rods, the nearest one last, with a pale rim where they cross.
+
+    Each is coloured by its number, unless a colour is given.
+    """
+    feet = scene.feet(pose)
+    ends = [(feet[a], pose.platform[b]) for a, b in scene.legs]
+    order = sorted(range(len(ends)), key=lambda leg: shot.depth(middle(ends[leg])))
+    for place, leg in enumerate(order):
+        shade, layer = colour or style.LEG_COLOURS[leg], _LEGS + place / len(order)
+        if pen.opacity == 1:
+            _line(axes, scene, ends[leg], color="white", linewidth=2.2 * pen.width, zorder=layer)
+        options = {"linewidth": pen.width, "alpha": pen.opacity, "zorder": layer}
+        _line(axes, scene, ends[leg], color=shade, gid=f"leg-{leg + 1}", **options)
+
+
+def middle(points: Sequence[Point]) -> Point:
+    """The mean of points."""
+    x, y, z = (sum(values) / len(points) for values in zip(*points, strict=True))
+    return x, y, z
+
+
+def label(axes: Axes, scene: Scene, point: Point, text: str, colour: str, layer: float) -> None:
+    """A short text at a point, with a white rim."""
+    from matplotlib.patheffects import withStroke
+
+    write: Any = axes.text  # two coordinates or three
+    write(
+        *(point[:2] if scene.planar else point),
+        text,
+        color=colour,
+        zorder=layer,
+        clip_on=False,
+        path_effects=[withStroke(linewidth=2.5, foreground="white")],
+        ha="center",
+        va="center",
+        weight="bold",
+        fontsize=9,
+    )
+
+
+def _body(
+    axes: Axes, scene: Scene, points: Sequence[Point], shot: Camera, fill: str, ink: str, pen: Pen, layer: float
+) -> None:
+    """The faces of the body; of a solid one, those turned away have pale edges and no colour."""
+    found = faces(points)
+    solid = len(found) > 1
+    for face in found:
+        corners = [points[i] for i in face]
+        hidden = solid and not _is_turned(corners, middle(points), shot)
+        if len(corners) > 2 and not hidden:
+            _face(axes, scene, corners, fill, pen.fill, layer)
+        edges = {"linewidth": pen.width * (0.4 if solid else 0.6), "alpha": pen.opacity * (0.25 if hidden else 1)}
+        _line(axes, scene, [*corners, corners[0]], color=ink, zorder=layer + (0.4 if hidden else 0.5), **edges)
+
+
+def _is_turned(corners: Sequence[Point], inside: Point, shot: Camera) -> bool:
+    """Whether a face of a solid body is turned to the viewer."""
+    a, b, c = corners[:3]
+    u, v = ([q - p for p, q in zip(a, end, strict=True)] for end in (b, c))
+    normal = [u[j] * v[k] - u[k] * v[j] for j, k in ((1, 2), (2, 0), (0, 1))]
+    outward = sum(n * (p - m) for n, p, m in zip(normal, a, inside, strict=True))
+    return (shot.depth(normal) > 0) == (outward > 0)
+
+
+def _face(axes: Axes, scene: Scene, corners: Sequence[Point], fill: str, opacity: float, layer: float) -> None:
+    options = {"facecolor": fill, "edgecolor": "none", "alpha": opacity, "zorder": layer, "clip_on": False}
+    if scene.planar:
+        from matplotlib.patches import Polygon
+
+        axes.add_patch(Polygon([corner[:2] for corner in corners], closed=True, **options))
+    else:
+        from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+        axes.add_collection(Poly3DCollection([list(corners)], **options))
+
+
+def _line(axes: Axes, scene: Scene, points: Sequence[Point], **options: Any) -> None:
+    across = list(zip(*points, strict=True))[: 2 if scene.planar else 3]
+    axes.plot(*across, solid_capstyle="round", clip_on=False, **options)
+
+
+def _dots(axes: Axes, scene: Scene, points: Sequence[Point], marker: str, colour: str, pen: Pen) -> None:
+    options = {"markersize": 1.6 * pen.width, "alpha": pen.opacity, "zorder": _JOINTS}
+    _line(axes, scene, points, linestyle="none", marker=marker, color=colour, **options)

@@ -1,0 +1,309 @@
+"""What a picture shows: a robot and its certified poses in floating point, in the robot's true shape.
+
+Everything comes from an accepted certificate; floats serve the drawing alone. Joints are turned into ordinary
+coordinates, sqrt(g_i) times the rational ones of the metric, so that angles and lengths drawn are those of the robot.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import sqrt
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+from pkm_exact.errors import InputError
+from pkm_exact.wording import printable, shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.robot import Configuration, Robot
+    from pkm_exact.pictures.coordinates import Placed
+    from pkm_exact.solution import Solution
+
+Point: TypeAlias = tuple[float, float, float]
+
+LARGEST: Final = 1e100
+"""Coordinates beyond this, or robots all of whose coordinates are below its inverse, are not drawn."""
+_OUT_OF_RANGE: Final = "robot: its coordinates are too large or too small to be drawn; use another unit of length"
+
+
+class RejectedError(InputError):
+    """A certificate that the checker rejects: nothing in it is proved."""
+
+
+@dataclass(frozen=True)
+class PoseView:
+    """A pose, ready to be drawn.
+
+    Attributes
+    ----------
+    number : int
+        From 1, in the order of the certificate and of what ``solve`` prints.
+    position : tuple of 3 float
+        The mobile frame's origin, to the last digits of a double.
+    position_half_width : float
+        Greatest half width of the listed box in x, y and z.
+    rotation : 3 x 3 tuple of float
+    quaternion : tuple of 4 float
+        Scalar first.
+    platform : tuple of points
+        The platform joints in the fixed frame, one per leg.
+    det_sign : int or None
+        Certified sign of the determinant of the leg Jacobian; 0 at a singular pose, None where it is not decided.
+    condition : float or None
+        Its condition number; None at a singular pose or where it is not decided.
+    multiplicity : int or None
+        None where it is not proved.
+    elbows : tuple of points
+        Where cranks or slides hold the lower ends of the rods, one per leg; empty if the legs themselves are actuated.
+    """
+
+    number: int
+    position: Point
+    position_half_width: float
+    rotation: tuple[Point, Point, Point]
+    quaternion: tuple[float, float, float, float]
+    platform: tuple[Point, ...]
+    det_sign: int | None
+    condition: float | None
+    multiplicity: int | None
+    elbows: tuple[Point, ...] = ()
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A robot and all its listed poses, in ordinary coordinates.
+
+    Attributes
+    ----------
+    name, kind, unit : str
+    configuration : str or None
+    planar : bool
+        Whether everything lies in the plane of the first two axes.
+    claim : str
+        What the certificate proves of the list: "complete", "inconsistent", ..
+    complex_solutions : int
+        Finite complex solutions with multiplicity, as the certificate says.
+    base : tuple of points
+        Base joints in the fixed frame, one per leg; a crank turns about its own, a slide passes through it.
+    platform : tuple of points
+        Platform joints in the mobile frame, one per leg.
+    legs : tuple of pairs of int
+        For each leg the indices of its base and its platform joint.
+    lengths : tuple of float
+        Of the legs, or of the rods if there are cranks or slides.
+    chain : str
+        "crank" or "slide" if these stand between base joints and rods; otherwise empty.
+    poses : tuple of PoseView
+    """
+
+    name: str
+    configuration: str | None
+    kind: str
+    unit: str
+    planar: bool
+    claim: str
+    complex_solutions: int
+    base: tuple[Point, ...]
+    platform: tuple[Point, ...]
+    legs: tuple[tuple[int, int], ...]
+    lengths: tuple[float, ...]
+    chain: str
+    poses: tuple[PoseView, ...]
+
+    def feet(self, pose: PoseView) -> tuple[Point, ...]:
+        """The lower ends of the legs or rods: elbows, or base joints."""
+        return pose.elbows or self.base
+
+
+def accepted_document(path: Path) -> dict[str, Any]:
+    """The content of a certificate file that the checker accepts, of a pose certificate or one of tolerances.
+
+    Raises
+    ------
+    RejectedError, InputError
+        As ``accepted_with_lines``.
+    """
+    return accepted_with_lines(path)[0]
+
+
+def accepted_with_lines(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """The content of an accepted certificate file, and what the checker said, line by line.
+
+    Raises
+    ------
+    RejectedError
+        If the checker rejects it.
+    InputError
+        If it cannot be read or is no certificate, or checking it exceeds a limit.
+    """
+    from pkm_exact.certify.check import Status, check_bytes
+    from pkm_exact.certify.checker.verdict import MAX_BYTES
+
+    name = printable(str(path))
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InputError(f"{name}: cannot be read ({reason}); give the path of a certificate") from None
+    verdict = check_bytes(data)
+    if verdict.status == Status.ACCEPTED:
+        return json.loads(data), verdict.lines
+    reason = f"{name}: the certificate is {verdict.status} ({verdict.lines[-1]})"
+    remedy = "write one with certify-poses solve MODEL -o CERT.json"
+    if verdict.status == Status.REJECTED:
+        raise RejectedError(f"{reason}, what it says is not proved; {remedy}")
+    raise InputError(f"{reason}; {remedy}")
+
+
+def scene_of(document: Mapping[str, Any], robot: Robot | None = None) -> Scene:
+    """The scene of an accepted pose certificate.
+
+    Parameters
+    ----------
+    document : mapping
+        From ``accepted_document``, or made by ``certify.build.certificate``.
+    robot : Robot, optional
+        Its model. A certificate knows legs only; the model adds the cranks or slides below the rods.
+
+    Raises
+    ------
+    InputError
+        If it is a certificate of tolerances, or not one of the given robot, or its numbers are too large for floats.
+    """
+    if document.get("format") != "pkm_exact certificate":
+        raise InputError(
+            f"format: {shown(document.get('format'))} has no poses to draw; give the certificate of the nominal poses, "
+            "which certify-poses solve writes without --tolerance"
+        )
+    try:
+        scene = _scene(document, robot)
+    except OverflowError:
+        raise InputError(_OUT_OF_RANGE) from None
+    points = [*scene.base, *scene.platform, *(joint for pose in scene.poses for joint in pose.platform)]
+    if not 1 / LARGEST < max(abs(x) for point in points for x in point) < LARGEST:
+        raise InputError(_OUT_OF_RANGE)
+    return scene
+
+
+def _scene(document: Mapping[str, Any], robot: Robot | None) -> Scene:
+    from pkm_exact.certify.build import canonical_bytes
+    from pkm_exact.certify.checker.document import read
+    from pkm_exact.pictures.coordinates import placed_poses
+
+    typed = read(canonical_bytes(document))
+    axes = _axes(typed.metric)
+    locked = None if robot is None else configuration_of(document, robot)
+    base = tuple(_ordinary(leg.base, axes) for leg in typed.legs)
+    platform = tuple(_ordinary(leg.platform, axes) for leg in typed.legs)
+    elbows: tuple[Point, ...] = ()
+    if robot is not None and robot.chains and locked is not None:
+        base, elbows = tuple(_ordinary(joint, axes) for joint in robot.base_joints), base
+    places = placed_poses(typed)
+    return Scene(
+        name=str(document["robot"]["name"]),
+        configuration=document["configuration"]["name"],
+        kind=robot.kind if robot is not None else str(document["robot"]["kind"]),
+        unit=str(document["robot"]["unit"]),
+        planar=len(typed.legs) == 3,
+        claim=typed.claim,
+        complex_solutions=typed.complex_solutions,
+        base=base,
+        platform=platform,
+        legs=tuple((i, i) for i in range(len(typed.legs))),
+        lengths=tuple(sqrt(leg.length_squared) for leg in typed.legs),
+        chain=_chain(robot),
+        poses=tuple(
+            _view(number, listed, place, platform, elbows)
+            for number, (listed, place) in enumerate(zip(document["poses"], places, strict=True), 1)
+        ),
+    )
+
+
+def scene_of_solution(robot: Robot, configuration_name: str | None, solution: Solution) -> Scene:
+    """The scene of what ``solve`` found for a robot; the configuration is None if the lengths were given freely.
+
+    Examples
+    --------
+    >>> from pkm_exact import read_robot, solve
+    >>> robot = read_robot("models/3-rpr-merlet-p.toml")
+    >>> scene = scene_of_solution(robot, "home", solve(robot.problem(robot.configuration())))
+    >>> [(pose.number, pose.det_sign) for pose in scene.poses]
+    [(1, -1), (2, 1)]
+    """
+    from pkm_exact.certify.build import certificate
+
+    return scene_of(certificate(robot, configuration_name, solution), robot)
+
+
+def _view(
+    number: int, listed: Mapping[str, Any], place: Placed, platform: Sequence[Point], elbows: tuple[Point, ...]
+) -> PoseView:
+    x = place.coordinates
+    position = (x[0], x[1], x[2])
+    rotation = ((x[3], x[4], x[5]), (x[6], x[7], x[8]), (x[9], x[10], x[11]))
+    return PoseView(
+        number=number,
+        position=position,
+        position_half_width=max(float(Fraction(hi) - Fraction(lo)) / 2 for lo, hi in listed["position"]),
+        rotation=rotation,
+        quaternion=(x[12], x[13], x[14], x[15]),
+        platform=tuple(_moved(position, rotation, joint) for joint in platform),
+        det_sign=place.det_sign,
+        condition=place.condition,
+        multiplicity=listed["multiplicity"],
+        elbows=elbows,
+    )
+
+
+def _moved(position: Point, rotation: tuple[Point, Point, Point], joint: Point) -> Point:
+    """C + R B."""
+    x, y, z = (
+        c + sum(r * b for r, b in zip(row, joint, strict=True)) for c, row in zip(position, rotation, strict=True)
+    )
+    return x, y, z
+
+
+def _axes(metric: Sequence[int]) -> Point:
+    x, y, z = (sqrt(g) for g in metric)
+    return x, y, z
+
+
+def _ordinary(joint: Sequence[Fraction], axes: Point) -> Point:
+    x, y, z = (float(value) * axis for value, axis in zip(joint, axes, strict=True))
+    return x, y, z
+
+
+def _chain(robot: Robot | None) -> str:
+    from pkm_exact.geometry.chains import Crank
+
+    if robot is None or not robot.chains:
+        return ""
+    return "crank" if isinstance(robot.chains[0], Crank) else "slide"
+
+
+def configuration_of(document: Mapping[str, Any], robot: Robot) -> Configuration | None:
+    """The robot's configuration that the certificate answers, exactly; None if its lengths were given freely."""
+    content, squares = document["robot"], document["configuration"]["lengths_squared"]
+
+    def fits(reduced: Robot, lengths: Sequence[Fraction]) -> bool:
+        return bool(
+            content["kind"] == reduced.kind
+            and content["metric"] == [str(g) for g in reduced.metric]
+            and content["base"] == [[str(x) for x in joint] for joint in reduced.base_joints]
+            and content["platform"] == [[str(x) for x in joint] for joint in reduced.platform_joints]
+            and squares == [str(square) for square in lengths]
+        )
+
+    for configuration in robot.configurations:
+        if fits(robot.as_gough(configuration), configuration.lengths_squared):
+            return configuration
+    if robot.chains or not fits(robot, [Fraction(square) for square in squares]):
+        raise InputError(
+            f"robot: the certificate is not one of the model {shown(robot.name)}, joints, metric, cranks, slides or "
+            "lengths differ; give the model that it was made from, or none"
+        )
+    return None
