@@ -1,0 +1,69 @@
+"""The command ``report``. Everything heavy is imported inside it."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from pkm_exact.cli import arguments
+from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.wording import printable
+
+
+@click.command(short_help="A web page of a certificate.")
+@click.argument("certificate", type=arguments.FilePath(), metavar="CERT.json")
+@click.option(
+    "-o", "--output", type=arguments.FilePath(), metavar="FILE.html", required=True, help="Write the page here."
+)
+@click.option("--model", type=arguments.FilePath(), metavar="MODEL", help="Its model file, to draw cranks and slides.")
+def report(certificate: str, output: str, model: str | None) -> int:
+    """Write one web page that shows what the certificate CERT.json proves, and every pose to turn and copy.
+
+    The certificate is checked first. The page holds all its data: it opens without a network, and can be sent around
+    as one file.
+
+    \b
+    Examples:
+      certify-poses report certs/rolland-6-6.json -o rolland.html
+      certify-poses report certs/hexa.json --model models/hexa.toml -o hexa.html
+
+    Exit codes: 0 written; 1 the certificate is rejected, nothing is written. Others as for certify-poses.
+    """
+    target = Path(output)
+    for source, what in ((certificate, "the certificate"), (model, "the model file")):
+        if source is not None and Path(source).exists():
+            arguments.require_other_file(target, source, "-o", what)
+    arguments.require_writable(target, "-o")
+    from pkm_exact.cli.progress import Progress
+    from pkm_exact.files import write_whole
+    from pkm_exact.pictures.scene import RejectedError, accepted_with_lines
+    from pkm_exact.report_page.words import meaning_of
+
+    try:
+        with Progress(verbose=False) as progress:
+            progress(f"checking {Path(certificate).name}")
+            document, lines = accepted_with_lines(Path(certificate))
+    except RejectedError as error:
+        click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
+        return ExitCode.REJECTED
+    page = _page(document, lines, certificate, model)
+    try:
+        write_whole(target, page.encode("utf-8"))
+    except OSError as error:
+        raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
+    sys.stdout.write(f"{printable(output)}: {meaning_of(document).headline}\n")
+    return ExitCode.DONE
+
+
+def _page(document: dict[str, object], lines: tuple[str, ...], certificate: str, model: str | None) -> str:
+    from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.report_page.page import report_page
+
+    robot = None if model is None else read_robot(model)
+    try:
+        return report_page(document, lines, Path(certificate).name, robot)
+    except InputError as error:
+        raise InputError(f"{certificate}: {error}") from None

@@ -1,0 +1,187 @@
+"""What a certificate claims and what it does not, in plain words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pkm_exact.verdict import Claim, CompletenessRoute
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """Of a claim: a word, whether it settles the question, a headline, what it says, and by which proof."""
+
+    word: str
+    settled: bool
+    headline: str
+    meaning: str
+    proof: str
+
+
+def counted(number: int, noun: str) -> str:
+    """A number and its noun.
+
+    Examples
+    --------
+    >>> counted(1, "pose"), counted(0, "pose")
+    ('1 pose', '0 poses')
+    """
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def is_of_tolerances(document: Mapping[str, Any]) -> bool:
+    """Whether it is a certificate of tolerances, not one of poses."""
+    return "tolerances" in document
+
+
+def meaning_of(document: Mapping[str, Any]) -> Meaning:
+    """What is claimed in a certificate."""
+    if is_of_tolerances(document):
+        return _within_tolerance(document)
+    number = int(document["real_poses"])
+    claim = Claim(document["claim"])
+    if claim is Claim.COMPLETE:
+        return _complete(document, number)
+    if claim is Claim.NOT_PROVEN_COMPLETE:
+        return _open(document, number)
+    if claim is Claim.INCONSISTENT:
+        return Meaning(
+            "inconsistent, proved",
+            True,
+            "No pose: the leg lengths contradict each other.",
+            "No position of the platform gives all legs their lengths, not even a complex one.",
+            "An elimination over the rational numbers shows that the equations of the legs imply 0 = 1.",
+        )
+    return _moving(number, proved=claim is Claim.POSITIVE_DIMENSIONAL_PROVED)
+
+
+def _complete(document: Mapping[str, Any], number: int) -> Meaning:
+    if number:
+        headline = f"{counted(number, 'real pose')}, and it is proved that there is no other."
+        meaning = (
+            "With these leg lengths the robot has exactly the poses listed. Each stands in a box of its own that holds "
+            "exactly one pose. This is proved for the very numbers on this page, without rounding; no pose is missing."
+        )
+    else:
+        headline = "No real pose: it is proved that the robot cannot be assembled with these leg lengths."
+        meaning = "All solutions of its equations are known, and none of them is real."
+    return Meaning("complete, proved", True, headline, meaning, _route(document))
+
+
+def _route(document: Mapping[str, Any]) -> str:
+    total, distinct = document["complex_solutions"], document["distinct_solutions"]
+    if document["completeness_route"] == CompletenessRoute.REFINED_BEZOUT:
+        where = "motions of the plane" if len(document["robot"]["base"]) == 3 else "rigid motions"
+        return (
+            f"The {where} form a variety of degree {total}, and each leg cuts it by a hyperplane. So there are at most "
+            f"{total} isolated solutions, real or complex. {total} were found, distinct and simple: nothing is left "
+            "for another pose, for a motion with locked legs, or for solutions at infinity (refined theorem of Bezout)."
+        )
+    several = f" ({distinct} distinct ones, some of them multiple)" if distinct < total else ""
+    return (
+        "An elimination over the rational numbers gives polynomials that vanish at every pose and leave room for "
+        f"{counted(total, 'solution')}, real or complex, counted with multiplicity. As many were found{several}: there "
+        "is no other."
+    )
+
+
+def _open(document: Mapping[str, Any], number: int) -> Meaning:
+    word = "not proved complete"
+    found = document["distinct_solutions"]
+    if not found:
+        return Meaning(
+            word,
+            False,
+            "Nothing is proved.",
+            "The certificate lists no solution and excludes none.",
+            "There is no proof.",
+        )
+    if number:
+        headline = f"{counted(number, 'real pose')}, each one proved; others are not excluded."
+        meaning = (
+            "Each pose listed stands in a box that holds exactly one pose of the list. There may be further poses."
+        )
+    else:
+        headline = "No real pose is known; others are not excluded."
+        meaning = "The solutions that were found are not real. There may be others."
+    return Meaning(
+        word,
+        False,
+        headline,
+        meaning,
+        f"{counted(found, 'distinct complex solution')} were checked exactly. That there is no other was not proved.",
+    )
+
+
+def _moving(number: int, *, proved: bool) -> Meaning:
+    isolated = "1 isolated pose is" if number == 1 else f"{number} isolated poses are"
+    beside = f" Beside them {isolated} certified, those listed; others are not excluded." if number else ""
+    if proved:
+        return Meaning(
+            "infinitely many, proved",
+            True,
+            "Infinitely many solutions: the robot moves with its legs locked.",
+            "The leg lengths do not hold the platform: its equations have curves or surfaces of solutions, real or "
+            f"complex.{beside}",
+            "The certificate contains solutions, and the legs provably leave the platform a freedom of motion there, "
+            "for the reason in the last line of what was checked, below.",
+        )
+    return Meaning(
+        "infinitely many, not proved",
+        False,
+        "Infinitely many solutions were detected, not proved: the robot may move with its legs locked.",
+        f"Computations modulo several primes point to a self-motion. This is evidence, not a proof.{beside}",
+        "There is no proof of the freedom of motion.",
+    )
+
+
+def _within_tolerance(document: Mapping[str, Any]) -> Meaning:
+    boxes, others = len(document["boxes"]), document["unproved"]
+    if document["complete"]:
+        return Meaning(
+            "complete within tolerance, proved",
+            True,
+            f"Every robot within tolerance has exactly {counted(boxes, 'real pose')}, one in each box.",
+            "However joints and lengths differ from the nominal ones, within the tolerances below: there is exactly "
+            "one pose in each box, and none elsewhere.",
+            "For all solutions, complex ones included, a box was mapped into its interior by Krawczyk's operator for "
+            "all robots within tolerance at once. They are as many as the degree of the variety of motions: there is "
+            "no other.",
+        )
+    some = ("Pose " if len(others) == 1 else "Poses ") + ", ".join(map(str, others))
+    without = f" {some}: no box was proved, a singularity within tolerance is not excluded." if others else ""
+    return Meaning(
+        "completeness not proved",
+        False,
+        f"{'1 box' if boxes == 1 else f'{boxes} boxes'} proved for every robot within tolerance; other poses are not "
+        "excluded.",
+        "Every robot within tolerance has exactly one pose in each box listed. That it has no pose elsewhere is not "
+        f"proved.{without}",
+        "Each box was mapped into its interior by Krawczyk's operator for all robots within tolerance at once.",
+    )
+
+
+def limits_of(document: Mapping[str, Any]) -> tuple[str, ...]:
+    """What is not claimed."""
+    tolerances = is_of_tolerances(document)
+    limits = [
+        "Limits of legs and joints and collisions are not considered, nor which pose the machine is in.",
+        "Name, source and notes are descriptions.",
+    ]
+    if document["boxes" if tolerances else "poses"]:
+        limits[-1] += " The picture is drawn in floating point."
+    if tolerances:
+        return ("Nothing is said about robots outside the tolerances.", *limits)
+    if document["poses"]:
+        limits.insert(
+            1,
+            "Sign and condition number of the leg Jacobian J were computed for this page, in guaranteed enclosures; "
+            "they are not a part of the certificate.",
+        )
+    model = (
+        "A real machine differs from its model. What is proved holds for the numbers on this page; a certificate of "
+        "tolerances says how far the poses of a real one can be off."
+    )
+    return (model, *limits)
