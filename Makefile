@@ -1,6 +1,11 @@
 # make poses   certify the reference robot, print its poses, check the certificate
 # make test    lint, types and tests
 # make bench   compare with other programs and measure growth; the report goes to build/bench
+# make docs    the documentation's site, in build/site
+# make fuzz    look for inputs that break the readers, the checkers and the command line; SECONDS each
+# make wheel   the distribution, as sources and as a wheel, in dist/
+# make test-versions   the wheel, tested with every Python from 3.11 to 3.14 that is found
+# make mutations   change every number and word of certificates of every kind: the checkers must refuse
 # make notebooks   run the documents in notebooks/ and write them to build/notebooks as HTML
 # All need Python 3.11 or newer and make, nothing else: they set up .venv themselves.
 
@@ -12,9 +17,11 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 MODEL ?= models/rolland-6-6.toml
 CERT := build/$(notdir $(MODEL:.toml=.json))
 JOBS ?= 2
-SOURCES := pkm_exact tests $(wildcard benchmarks notebooks)
+SECONDS ?= 600
+SMOKE ?= $(addprefix tests/test_,cli.py kinds.py reader.py planar.py new.py selftest.py certificate_check.py pure_checker.py)
+SOURCES := pkm_exact tests $(wildcard benchmarks docs/hooks.py fuzz notebooks)
 
-.PHONY: poses test test-slow check-style golden bench notebooks clean
+.PHONY: poses test test-slow check-style mutations golden bench docs fuzz wheel test-versions notebooks clean
 
 # A claim weaker than complete (exit code 3) is an answer, not a failure.
 poses: $(VENV)/.installed
@@ -33,6 +40,10 @@ test: check-style
 test-slow: $(VENV)/.installed-test
 	@$(BIN)/python -m pytest -n $(JOBS) -m slow
 
+# Changes every number and word of certificates of every kind; MUTATIONS=--complete takes some minutes.
+mutations: $(VENV)/.installed-test
+	@$(BIN)/python tests/mutations.py $(MUTATIONS)
+
 golden: $(VENV)/.installed
 	@mkdir -p certs
 	@for model in models/*.toml; do \
@@ -44,6 +55,28 @@ bench: $(VENV)/.installed-test
 	@$(PIP) install --no-deps passagemath-giac || echo "giac is not available here: it will not be compared" >&2
 	@$(BIN)/python benchmarks/bench.py --output build/bench $(BENCH)
 	@$(BIN)/python benchmarks/bench_krawczyk.py --json build/bench/krawczyk.json
+
+# Strict: what the builder has doubts about, such as a link that leads nowhere, is an error.
+docs: $(VENV)/.installed-docs
+	@$(BIN)/python -m mkdocs build --strict
+	@echo build/site/index.html
+
+fuzz: $(VENV)/.installed-test
+	@$(PIP) install --editable '.[fuzz]'
+	@for target in model path certificate checkers command; do \
+		$(BIN)/python fuzz/fuzz.py $$target --seconds $(SECONDS) || exit 1; \
+	done
+
+# From the sources as they are packed: a file that MANIFEST.in or pyproject.toml forgets is missing here already.
+wheel: $(BIN)/python
+	@rm -rf dist
+	@$(PIP) install build
+	@$(BIN)/python -m build --outdir dist . >/dev/null
+	@ls dist/*
+
+# SMOKE= for the self-test alone, SMOKE=tests for the whole quick suite.
+test-versions: wheel
+	@.ci/test-versions dist/*.whl $(SMOKE)
 
 notebooks: $(VENV)/.installed-notebooks
 	@mkdir -p build/notebooks
@@ -65,6 +98,10 @@ $(BIN)/python:
 
 $(VENV)/.installed: pyproject.toml | $(BIN)/python
 	@$(PIP) install --editable .
+	@touch $@
+
+$(VENV)/.installed-docs: $(VENV)/.installed
+	@$(PIP) install --editable '.[docs]'
 	@touch $@
 
 $(VENV)/.installed-notebooks: $(VENV)/.installed

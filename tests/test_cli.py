@@ -84,7 +84,7 @@ BAD_USAGE = [
     (["solve", MODEL, "-o", str(ROOT / "nowhere" / "c.json")], "does not exist; create it"),
     (["solve", MODEL, "--nonsense"], "no such option"),
     (["prove", MODEL], "no such command 'prove'"),
-    (["check"], "missing argument 'CERT.json...'"),
+    (["check"], "missing argument 'PATH...'"),
     (["check", "missing.json"], "missing.json: cannot be read (No such file or directory)"),
 ]
 

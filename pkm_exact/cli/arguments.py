@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import click
 
+from pkm_exact.cli.completion import configurations
+from pkm_exact.cli.main import PROBLEM
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import checked_code, formulation_codes
 from pkm_exact.wording import shown
@@ -111,11 +113,16 @@ def chosen_problem(
     """The configuration of that name, or the first, and its problem; or None and that of the given lengths."""
     try:
         if given is not None:
-            return None, robot.problem([length * length for length in given])
-        chosen = robot.configuration(configuration)
-        return chosen, robot.problem(chosen)
+            chosen, problem = None, robot.problem([length * length for length in given])
+        else:
+            chosen = robot.configuration(configuration)
+            problem = robot.problem(chosen)
     except InputError as error:
         raise InputError(f"{model}: {error}") from None
+    context = click.get_current_context(silent=True)
+    if context is not None:
+        context.meta[PROBLEM] = problem
+    return chosen, problem
 
 
 def require_other_file(path: Path, source: str, option: str, what: str = "the model file") -> None:
@@ -136,8 +143,21 @@ def require_writable(path: Path, option: str) -> None:
         raise InputError(f"{path}: the folder {path.parent} is not writable; give {option} another path")
 
 
+class FilePath(click.Path):
+    """The path of a file, which may or may not exist: it is opened, or refused, where it is needed."""
+
+    def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> Any:
+        """The path itself, refused if it is empty."""
+        if value == "":
+            self.fail("the path '' is empty; give the path of a file", parameter, context)
+        return super().convert(value, parameter, context)
+
+
 configuration_option = click.option(
-    "--configuration", metavar="NAME", help="Configuration of the model file.  [default: the first one]"
+    "--configuration",
+    metavar="NAME",
+    shell_complete=configurations,
+    help="Configuration of the model file.  [default: the first one]",
 )
 lengths_option = click.option(
     "--lengths",

@@ -6,15 +6,21 @@ from typing import Final
 
 import click
 
-import pkm_exact
 from pkm_exact.cli.check import check
 from pkm_exact.cli.compare_commands import compare
+from pkm_exact.cli.completion import completion
 from pkm_exact.cli.formulation_commands import export, formulations
 from pkm_exact.cli.legs import legs
+from pkm_exact.cli.new import new
+from pkm_exact.cli.plot import plot
+from pkm_exact.cli.report_command import report
+from pkm_exact.cli.selftest import selftest
 from pkm_exact.cli.solve import solve
+from pkm_exact.cli.sweep import sweep
 from pkm_exact.cli.track import track
 
 COMMANDS: Final = (
+    new,
     solve,
     check,
     formulations,
@@ -22,16 +28,45 @@ COMMANDS: Final = (
     legs,
     compare,
     track,
+    sweep,
+    plot,
+    report,
+    selftest,
+    completion,
 )
 
 
+def _show_versions(context: click.Context, _option: click.Parameter, wanted: bool) -> None:
+    if not wanted or context.resilient_parsing:
+        return
+    from pkm_exact.installation import version_lines
+
+    for line in version_lines():
+        click.echo(line)
+    context.exit()
+
+
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
-@click.version_option(pkm_exact.__version__, message="%(prog)s %(version)s")
+@click.option(
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_show_versions,
+    help="Show the versions of all that matters, and exit.",
+)
 def certify_poses() -> None:
     """Find every pose of a parallel robot exactly, and certify it.
 
+    \b
+    Examples:
+      certify-poses selftest
+      certify-poses new --kind 6-6 --base-sides 400,200 --platform-sides 100,300 --height 500 -o my-robot.toml
+      certify-poses solve my-robot.toml -o my-robot.json
+      certify-poses check my-robot.json
+
     Exit codes: 0 done and complete, or accepted; 1 a certificate was rejected; 2 bad input or usage; 3 done, but the
-    claim is weaker than complete; 4 no answer.
+    claim is weaker than complete; 4 no answer; 130 interrupted; 141 the reader of the output went away.
     """
 
 

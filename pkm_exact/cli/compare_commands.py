@@ -16,7 +16,7 @@ MOST_STARTS = 10_000
 
 
 @click.command(short_help="Numeric methods held against the certified poses.")
-@click.argument("model", type=click.Path())
+@click.argument("model", type=arguments.FilePath())
 @arguments.configuration_option
 @arguments.lengths_option
 @click.option(
@@ -26,7 +26,9 @@ MOST_STARTS = 10_000
     show_default=True,
     help="Random start poses; path tracking has starts of its own.",
 )
-@click.option("--json", "output", type=click.Path(), metavar="FILE", help="Write where every start ended to this file.")
+@click.option(
+    "--json", "output", type=arguments.FilePath(), metavar="FILE", help="Write where every start ended to this file."
+)
 def compare(
     model: str, configuration: str | None, lengths: tuple[Fraction, ...] | None, starts: int, output: str | None
 ) -> int:

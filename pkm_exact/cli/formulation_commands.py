@@ -20,9 +20,11 @@ if TYPE_CHECKING:
 
 
 @click.command(short_help="All formulations on one robot, side by side.")
-@click.argument("model", type=click.Path())
+@click.argument("model", type=arguments.FilePath())
 @arguments.configuration_option
-@click.option("--json", "output", type=click.Path(), metavar="FILE", help="Write the rows to this file as well.")
+@click.option(
+    "--json", "output", type=arguments.FilePath(), metavar="FILE", help="Write the rows to this file as well."
+)
 @click.option(
     "--only",
     "codes",
@@ -48,6 +50,11 @@ def formulations(
 
     Exit codes: 0 every formulation ended and its poses are those of SE3; 3 one did not end or does not apply, or its
     poses differ or could not be compared. Others as for certify-poses.
+
+    \b
+    Examples:
+      certify-poses formulations models/mourrain-l.toml --only SE3,AFD4,AFD5
+      certify-poses formulations models/rolland-6-6.toml --timeout 60 --json formulations.json
     """
     from pkm_exact.geometry.reader import read_robot
 
@@ -72,7 +79,7 @@ def formulations(
 
 
 @click.command(short_help="The equations in another program's syntax.")
-@click.argument("model", type=click.Path())
+@click.argument("model", type=arguments.FilePath())
 @click.option(
     "--formulation",
     callback=arguments.code,
@@ -89,7 +96,9 @@ def formulations(
     help="The system that is solved, where it is not the formulation's own: AFD2 without 1 + t^2 = 0, AFP4 without "
     "mirrored joints.",
 )
-@click.option("-o", "--output", type=click.Path(), metavar="FILE", help="Write to this file.  [default: stdout]")
+@click.option(
+    "-o", "--output", type=arguments.FilePath(), metavar="FILE", help="Write to this file.  [default: stdout]"
+)
 def export(
     model: str, formulation: str, target: str, configuration: str | None, localised: bool, output: str | None
 ) -> int:
@@ -97,6 +106,11 @@ def export(
 
     The polynomials are primitive over the integers; their common zeros are the solutions of the formulation. Only
     phcpack rounds the coefficients, when it reads them.
+
+    \b
+    Examples:
+      certify-poses export models/mourrain-l.toml --to msolve -o mourrain-l.ms
+      certify-poses export models/mourrain-l.toml --to singular --formulation AFD5
     """
     from pkm_exact.geometry.reader import read_robot
 

@@ -23,7 +23,7 @@ _PLANAR: Final = ("--half-tangent", "--cos-sin")
 
 
 @click.command(short_help="Leg lengths and joint values at a given pose.")
-@click.argument("model", type=click.Path())
+@click.argument("model", type=arguments.FilePath())
 @click.option(
     "--position", metavar="X,Y,Z", required=True, help="The platform's origin, exact: 0,-1/3,12.5. X,Y if planar."
 )
@@ -64,6 +64,12 @@ def legs(
     Leg lengths where these are actuated; else every crank angle or slide position, all working modes. Coordinates are
     those of the file, with respect to its metric. In the table, a line to copy into a configuration comes first if the
     values are rational.
+
+    \b
+    Examples:
+      certify-poses legs models/rolland-6-6.toml --position 0,0,650 --quaternion 9,1,0,-1
+      certify-poses legs models/hexa.toml --position 0,0,650 --cayley 1/9,0,-1/9 --format json
+      certify-poses legs models/3-rpr-merlet-p.toml --position 5,9/2 --half-tangent 1/3
     """
     words = {
         "--quaternion": (quaternion, 4),

@@ -2,7 +2,8 @@
 
 Exit codes: 0 done, and the claim is "complete" or "inconsistent" (or every certificate was accepted); 1 a certificate
 was rejected; 2 input or usage that cannot be used; 3 done, but the claim is weaker than complete; 4 no answer, the
-engine gave up or contradicted itself; 130 interrupted; 141 the reader of the output went away.
+engine gave up or contradicted itself, or the program failed; 130 interrupted; 141 the reader of the output went away.
+A contradiction or failure leaves a report to send (``failure_report``).
 """
 
 from __future__ import annotations
@@ -15,10 +16,14 @@ from pathlib import Path
 
 import click
 
-from pkm_exact.errors import InputError, PkmExactError
+from pkm_exact.errors import InputError, InternalError, PkmExactError
 from pkm_exact.wording import printable
 
 PROGRAM = "certify-poses"
+COMPLETION = "_CERTIFY_POSES_COMPLETE"
+"""The environment variable by which a shell's completion script asks."""
+PROBLEM = "pkm_exact.problem"
+"""Where a command leaves in its context which problem it is about, for the report of a failure."""
 
 
 class ExitCode(IntEnum):
@@ -43,15 +48,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
     Examples
     --------
-    >>> main(["--version"])
-    certify-poses 0.1.0
-    0
+    >>> main(["completion", "tcsh"])
+    <ExitCode.BAD_INPUT: 2>
     """
     if sys.stdout is None:  # closed by the caller: the exit code and the files still count
         sys.stdout = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - the output from now on
     _accept_any_character()
+    words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        code = _run(arguments)
+        code = _run(words)
         sys.stdout.flush()
     except BrokenPipeError:
         _discard_output()
@@ -61,16 +66,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         _discard_output()
         return _complain(f"the output cannot be written ({error.strerror}); free the disk or write elsewhere")
+    except Exception as error:
+        return _failed(error, words)
     return code
 
 
-def _run(arguments: Sequence[str] | None) -> int:
+def _run(words: list[str]) -> int:
     from pkm_exact.cli.commands import certify_poses
 
+    if COMPLETION in os.environ and _answered():
+        return ExitCode.DONE
     try:
         # click's own main() would turn a broken pipe into exit code 1, which here means a rejected certificate.
-        with certify_poses.make_context(PROGRAM, list(sys.argv[1:] if arguments is None else arguments)) as context:
-            return int(certify_poses.invoke(context) or ExitCode.DONE)
+        with certify_poses.make_context(PROGRAM, list(words)) as context:
+            return _invoked(certify_poses, context)
     except click.exceptions.Exit as end:
         return end.exit_code
     except click.UsageError as error:
@@ -83,10 +92,36 @@ def _run(arguments: Sequence[str] | None) -> int:
         return _complain(_sentence(error.format_message()))
     except InputError as error:
         return _complain(str(error))
+    except InternalError:
+        raise
     except PkmExactError as error:
         return _complain(f"no answer: {error}", ExitCode.NO_ANSWER)
     except MemoryError:
         return _complain("no answer: the memory is exhausted", ExitCode.NO_ANSWER)
+
+
+def _answered() -> bool:
+    from pkm_exact.cli.completion import answered
+
+    return answered()
+
+
+def _invoked(command: click.Command, context: click.Context) -> int:
+    """The exit code of the command; what goes wrong in it takes along which robot it was about."""
+    try:
+        return int(command.invoke(context) or ExitCode.DONE)
+    except Exception as error:
+        if PROBLEM in context.meta:
+            from pkm_exact.contradiction import attach
+
+            attach(error, context.meta[PROBLEM])
+        raise
+
+
+def _failed(error: Exception, words: list[str]) -> ExitCode:
+    from pkm_exact.failure_report import reported
+
+    return _complain(f"no answer: {reported(error, words)}", ExitCode.NO_ANSWER)
 
 
 def _complain(sentence: str, code: ExitCode = ExitCode.BAD_INPUT) -> ExitCode:

@@ -15,7 +15,7 @@ from pkm_exact.formulations.registry import formulation_codes
 
 
 @click.command(short_help="All real poses of a robot, and a certificate.")
-@click.argument("model", type=click.Path())
+@click.argument("model", type=arguments.FilePath())
 @arguments.configuration_option
 @arguments.lengths_option
 @click.option(
@@ -62,7 +62,9 @@ from pkm_exact.formulations.registry import formulation_codes
     metavar="[T]",
     help="Boxes for all robots whose joints and lengths are off by at most T; without T, by the model's tolerances.",
 )
-@click.option("-o", "--output", type=click.Path(), metavar="CERT.json", help="Write the certificate to this file.")
+@click.option(
+    "-o", "--output", type=arguments.FilePath(), metavar="CERT.json", help="Write the certificate to this file."
+)
 @click.option(
     "--format",
     "layout",

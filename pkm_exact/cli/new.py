@@ -1,0 +1,267 @@
+"""The command ``new``: a first model file from a few answers. Everything heavy is imported inside it."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import click
+
+from pkm_exact.cli import arguments
+from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.wording import printable, shown
+
+if TYPE_CHECKING:
+    from pkm_exact.templates.design import Design, Draft
+
+STDOUT: Final = "-"
+MOST_DIGITS: Final = 30  # of a number given here: more is no length of a machine
+_ALIASES: Final = {"6-6": "6-UPS"}
+_PARTS: Final = ("base", "platform")
+_SIDES: Final = {False: ("400,200", "100,300"), True: ("600,500,500", "160,100,100")}
+_CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table == "cranks")
+
+
+@click.command(short_help="Write a first model file, from a few answers.")
+@click.option(
+    "--kind",
+    type=click.Choice([*KINDS, *_ALIASES]),
+    metavar="KIND",
+    help=f"Kind of robot: {', '.join(KINDS)}; 6-6 means 6-UPS.",
+)
+@click.option(
+    "--base-sides",
+    metavar="P,Q",
+    help="Sides 1-2, 2-3 of the base, a hexagon of equal angles with two side lengths in turn. A,B,C if planar: a "
+    "triangle's sides 1-2, 2-3, 3-1.",
+)
+@click.option("--platform-sides", metavar="P,Q", help="The same of the platform.")
+@click.option(
+    "--base-circle",
+    metavar="R,DEGREES",
+    help="Instead of sides: radius of the circle through the base joints, and the angle between joints 1 and 2. The "
+    "sides are rounded to six digits.",
+)
+@click.option("--platform-circle", metavar="R,DEGREES", help="The same of the platform.")
+@click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
+@click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
+@click.option("--digits", type=click.IntRange(0, 12), help="Round joints to so many decimals.  [default: exact joints]")
+@click.option("--unit", help="Unit of all lengths, for display.  [default: mm]")
+@click.option("--name", help="Name of the robot.  [default: that of the file]")
+@click.option(
+    "-o", "--output", type=arguments.FilePath(), metavar="MODEL.toml", help="Write to this file; - for stdout."
+)
+@click.option("--force", is_flag=True, help="Overwrite the file if it exists.")
+def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
+    """Write a commented model file of a symmetric robot, as a start for your own.
+
+    On a terminal, what is needed and not given is asked for. Lengths are exact (12.5, 25/2) and in any unit. The file
+    has a configuration "home" that puts the platform at the given height: level, or turned a little if it is planar. It
+    is solved first, and nothing is written if its poses cannot be proved complete.
+
+    \b
+    Examples:
+      certify-poses new --kind 6-6 --base-sides 400,200 --platform-sides 100,300 --height 500 -o my-robot.toml
+      certify-poses new --kind 6-RUS --base-circle 300,40 --platform-circle 120,90 --height 400 --crank 120 -o hexa.toml
+      certify-poses new --kind 3-RPR --base-sides 6,5,5 --platform-sides 1.6,1,1 --height 3 --unit m -o planar.toml
+    """
+    _checked_output(output, force)
+    missing = _missing(given, output)
+    if missing and not _can_ask():
+        raise click.UsageError(f"there is no terminal to ask on; give {', '.join(missing)} as well.")
+    interview = given["kind"] is None
+    design = _design(given, interview=interview)
+    unit = given["unit"] or (_ask("Unit of length, only for display", "mm", str) if interview else "mm")
+    if output is None:
+        output = _ask("File to write", "my-robot.toml", lambda text: _checked_output(text, force))
+    name = name or ("my robot" if output == STDOUT else Path(output).stem)
+
+    from pkm_exact.templates.design import drawn
+    from pkm_exact.templates.text import model_text
+
+    draft = drawn(design)
+    text = model_text(draft, name, unit)
+    found = _proved_at_home(draft, text)
+    if output == STDOUT:
+        sys.stdout.write(text)
+        return ExitCode.DONE
+    _write(output, text)
+    click.echo(f"{printable(output)}: {design.kind}, home: {found}")
+    click.echo(f"next: {PROGRAM} solve {printable(shlex.quote(output))}")
+    return ExitCode.DONE
+
+
+def _design(given: dict[str, Any], *, interview: bool) -> Design:
+    """The design that the options give, the rest asked for."""
+    from pkm_exact.templates.design import Design, has_cranks
+    from pkm_exact.templates.text import described
+
+    kind = given["kind"]
+    if interview:
+        click.echo("A first model: a symmetric robot, to be changed by hand. Kinds:", err=True)
+        for code in KINDS:
+            click.echo(f"  {code}  {described(code)}", err=True)
+        kind = _ask("Kind", next(iter(KINDS)), click.Choice([*KINDS, *_ALIASES]))
+    kind = _ALIASES.get(kind, kind)
+    planar = KINDS[kind].planar
+    if interview:
+        click.echo(_EXPLANATION[planar], err=True)
+    sides = [_sides(given, kind, part, default) for part, default in zip(_PARTS, _SIDES[planar], strict=True)]
+    height = _length(given["height"], "--height", _HEIGHT[planar], "300" if planar else "500")
+    crank = None
+    if has_cranks(kind):
+        crank = _length(given["crank"], "--crank", "Length of the cranks", "150")
+    elif given["crank"] is not None:
+        raise click.UsageError(f"--crank: a {kind} robot has none; leave it out.")
+    digits = given["digits"]
+    if interview and digits is None and (planar or crank is None):
+        digits = _ask("Decimals to round the joints to, or exact", "exact", _digits)
+    return Design(kind, sides[0], sides[1], height, crank, digits)
+
+
+def _digits(text: str) -> int | None:
+    return None if text == "exact" else int(click.IntRange(0, 12)(text))
+
+
+_EXPLANATION: Final = {
+    False: (
+        "Base and platform are hexagons of equal angles with two side lengths in turn:\nP for the sides 1-2, 3-4, 5-6 "
+        "and Q for 2-3, 4-5, 6-1. Usually the base has its long\nsides where the platform has its short ones. One of "
+        "them may be 0 (a triangle)."
+    ),
+    True: "Base and platform are triangles, given by their sides 1-2, 2-3, 3-1.",
+}
+_HEIGHT: Final = {
+    False: "Height of the platform above the base at home",
+    True: "Height (y) of the platform's joint 1 at home",
+}
+
+
+def _sides(given: dict[str, Any], kind: str, part: str, default: str) -> tuple[Fraction, ...]:
+    from pkm_exact.templates.design import require_sides
+
+    by_sides, circle = given[f"{part}_sides"], given[f"{part}_circle"]
+    if by_sides is not None and circle is not None:
+        raise click.UsageError(f"--{part}-sides and --{part}-circle exclude each other.")
+    if circle is not None:
+        return _on_circle(circle, kind, f"--{part}-circle")
+
+    def sides(text: str) -> tuple[Fraction, ...]:
+        numbers = tuple(_numbers(text, f"--{part}-sides"))
+        require_sides(KINDS[kind], numbers, f"--{part}-sides")
+        return numbers
+
+    if by_sides is not None:
+        return sides(by_sides)
+    names = "A,B,C" if KINDS[kind].planar else "P,Q"
+    answer: tuple[Fraction, ...] = _ask(f"Sides of the {part}, {names}", default, sides)
+    return answer
+
+
+def _on_circle(text: str, kind: str, option: str) -> tuple[Fraction, ...]:
+    from pkm_exact.templates.layout import sides_on_circle
+
+    if KINDS[kind].planar:
+        raise click.UsageError(f"{option}: a {kind} robot is planar; give the sides of its triangles instead.")
+    numbers = _numbers(text, option)
+    if len(numbers) != 2:
+        raise click.UsageError(f"{option}: {len(numbers)} numbers given; give radius and angle, with a comma between.")
+    radius, degrees = numbers
+    if radius <= 0 or not 0 <= degrees <= 120:
+        raise click.UsageError(f"{option}: {shown(text)} is out of range; give a radius, and an angle from 0 to 120.")
+    return sides_on_circle(radius, degrees)
+
+
+def _length(text: str | None, option: str, question: str, default: str) -> Fraction:
+    def length(text: str) -> Fraction:
+        number = _numbers(text, option)
+        if len(number) != 1 or number[0] <= 0:
+            raise click.UsageError(f"{option}: {shown(text)} is not a length; give one number greater than 0.")
+        return number[0]
+
+    return length(text) if text is not None else _ask(question, default, length)
+
+
+def _numbers(text: str, option: str) -> list[Fraction]:
+    from pkm_exact.geometry.rational import NumberText, bounded, parse_rational
+
+    words = [word.strip() for word in text.split(",")]
+    try:
+        return [
+            bounded(parse_rational(word if "/" in word else NumberText(word), option), word, option, MOST_DIGITS)
+            for word in words
+        ]
+    except InputError as error:
+        raise click.UsageError(str(error)) from None
+
+
+def _can_ask() -> bool:
+    return sys.stdin is not None and sys.stdin.isatty() and sys.stderr is not None and sys.stderr.isatty()
+
+
+def _ask(question: str, default: str, parse: Callable[[str], Any]) -> Any:
+    """The answer, asked for on stderr until it can be used; an empty one is the default."""
+
+    def value(text: str) -> Any:
+        try:
+            return parse(text)
+        except InputError as error:
+            raise click.UsageError(str(error)) from None
+
+    return click.prompt(question, default=default, value_proc=value, err=True)
+
+
+def _missing(given: dict[str, Any], output: str | None) -> list[str]:
+    """The options without which nothing can be drawn: nobody is to guess them."""
+    names = [] if given["kind"] else ["--kind"]
+    names += [f"--{part}-sides" for part in _PARTS if given[f"{part}_sides"] is None is given[f"{part}_circle"]]
+    names += [] if given["height"] else ["--height"]
+    if given["kind"] in _CRANKED and given["crank"] is None:
+        names.append("--crank")
+    return names if output is not None else [*names, "-o"]
+
+
+def _checked_output(output: str | None, force: bool) -> str | None:
+    """The path itself, refused if it cannot be written or a file is there."""
+    if output is None or output == STDOUT:
+        return output
+    path = Path(output)
+    arguments.require_writable(path, "-o")
+    if path.exists() and not force:
+        raise InputError(f"{output}: exists; give -o another path, or --force to overwrite it")
+    return output
+
+
+def _proved_at_home(draft: Draft, text: str) -> str:
+    """What is proved of the home configuration of the model; refused if its poses are not proved complete."""
+    from pkm_exact.cli.progress import Progress
+    from pkm_exact.engine import solve
+    from pkm_exact.geometry.reader import robot_from_toml
+    from pkm_exact.verdict import Claim
+
+    robot = robot_from_toml(text)
+    with Progress(verbose=False) as progress:
+        solution = solve(robot.problem(robot.configuration("home")), progress=progress)
+    if solution.claim is not Claim.COMPLETE:
+        raise InputError(
+            f"--base-sides, --platform-sides: with these the platform of the {draft.design.kind} robot can move while "
+            f"all actuators are locked, or nearly so ({solution.claim}); change the ratio of one pair of sides"
+        )
+    if any(pose.multiplicity != 1 for pose in solution.poses):
+        click.echo("note: one of the poses is singular; `solve` says which", err=True)
+    return f"{len(solution.poses)} real poses of {solution.complex_solutions} complex ones, proved complete"
+
+
+def _write(output: str, text: str) -> None:
+    from pkm_exact.files import write_whole
+
+    try:
+        write_whole(output, text.encode("utf-8"))
+    except OSError as error:
+        raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
