@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from math import log
 from pathlib import Path
@@ -85,14 +85,14 @@ def exponent(points: Sequence[dict[str, Any]], key: str = "seconds") -> float | 
 
 
 def batches(
-    model: Path, sizes: Sequence[int], workers: Sequence[int], methods: Sequence[str], limit: float, log_line: Log
+    model: Path, sizes: Mapping[str, Sequence[int]], workers: Sequence[int], limit: float, log_line: Log
 ) -> list[dict[str, Any]]:
     """`certify-poses sweep` over random lengths near the model's own: seconds in all and of a row, memory of all."""
     results = []
     with TemporaryDirectory() as name:
         folder = Path(name)
-        for method in methods:
-            for size in sizes:
+        for method in sizes:
+            for size in sizes[method]:
                 rows = folder / f"{size}.csv"
                 _write_lengths(model, rows, size)
                 for count in workers:
