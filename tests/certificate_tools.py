@@ -3,11 +3,11 @@
 import json
 import re
 from collections.abc import Iterator
-from copy import deepcopy
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import Verdict, check_bytes
 
@@ -34,21 +34,27 @@ def without_proof(content: dict[str, Any]) -> dict[str, Any]:
     return {**content, "claim": "not-proven-complete", "completeness_route": None, "elimination": None}
 
 
-def sample(content: dict[str, Any], step: int) -> list[Path_]:
-    """Paths of all leaves, but of polynomial coefficients, boxes and products only of every step-th."""
-    paths = []
-    for number, (path, _) in enumerate(leaves(content)):
-        many = path[0] in ("poses", "elimination") or path[:2] in [
-            ("representation", key) for key in ("eliminant", "quaternion", "translation")
-        ]
-        if not many or number % step == 0:
-            paths.append(path)
-    return paths
-
-
 def check_resealed(content: dict[str, Any]) -> Verdict:
     """The verdict on a changed certificate whose digest was made to fit."""
     return check_bytes(canonical_bytes(sealed(content)))
+
+
+def both(data: bytes) -> Verdict:
+    """The verdict of the first checker, after making sure that the second one gives it, for the same reason."""
+    one, other = check_bytes(data), pure.check_bytes(data)
+    assert (str(one.status), _reason(one.lines)) == (other.status, _reason(other.lines)), (one.lines, other.lines)
+    if one.status == "accepted":
+        assert one.lines == other.lines
+    return one
+
+
+def _reason(lines: tuple[str, ...]) -> str:
+    return lines[-1].partition(":")[0].partition("[")[0]
+
+
+def both_resealed(content: dict[str, Any]) -> Verdict:
+    """The verdict of both on a changed certificate whose digest was made to fit."""
+    return both(canonical_bytes(sealed(content)))
 
 
 def last_line(verdict: Verdict) -> str:
@@ -96,24 +102,3 @@ def with_entry(content: dict[str, Any], path: Path_, value: Any) -> dict[str, An
     changed: Any = dict(content) if isinstance(content, dict) else list(content)
     changed[path[0]] = with_entry(content[path[0]], path[1:], value)  # type: ignore[index]
     return changed
-
-
-def restructured(value: Any) -> Iterator[Any]:
-    """A list or object with an entry dropped, doubled, moved or renamed."""
-    if isinstance(value, list):
-        if value:
-            yield value[:-1]
-            yield value[1:]
-            yield [*value, deepcopy(value[-1])]
-            yield [*value, None]
-        for i in range(len(value) - 1):
-            if value[i] != value[i + 1]:
-                yield [*value[:i], value[i + 1], value[i], *value[i + 2 :]]
-                break
-    elif isinstance(value, dict):
-        keys = list(value)
-        for key in keys:
-            yield {other: value[other] for other in keys if other != key}
-            yield {other + "_" * (other == key): value[other] for other in keys}
-        yield {**value, "extra": None}
-        yield {key: value[key] for key in reversed(keys)}

@@ -1,17 +1,15 @@
 """Certificates are written in one spelling, whole or not at all, and fit the schema."""
 
-import json
 import os
 from dataclasses import replace
 from fractions import Fraction
 from hashlib import sha256
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import jsonschema
 import pytest
-from certificate_tools import NAMES, golden, golden_bytes, sample, with_entry
+from certificate_tools import NAMES, golden, golden_bytes
+from test_certificate_schema import schema_of
 
 from pkm_exact import certificate, check_bytes, read_robot, solve, write_certificate
 from pkm_exact.certify.build import canonical_bytes, sealed
@@ -25,40 +23,6 @@ def small() -> Any:
     """A robot that is solved quickly, and its solution."""
     robot = read_robot(MODELS / "robocrane-r.toml")
     return robot, solve(robot.problem(robot.configuration().lengths_squared))
-
-
-@pytest.fixture(scope="module")
-def schema() -> Any:
-    text = resources.files("pkm_exact.certify").joinpath("certificate-1.schema.json").read_text("utf-8")
-    return json.loads(text)
-
-
-def test_the_schema_is_one(schema: Any) -> None:
-    jsonschema.Draft202012Validator.check_schema(schema)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_golden_certificates_fit_the_schema(schema: Any, name: str) -> None:
-    jsonschema.Draft202012Validator(schema).validate(golden(name))
-
-
-def test_the_schema_knows_every_key_and_its_order(schema: Any) -> None:
-    content = golden("robocrane-r")
-    assert list(content) == list(schema["properties"]) == schema["required"]
-    for key in ("robot", "configuration"):
-        assert list(content[key]) == list(schema["properties"][key]["properties"])
-    assert list(content["representation"]) == list(schema["$defs"]["representation"]["properties"])
-    assert list(content["poses"][0]) == list(schema["$defs"]["pose"]["properties"])
-
-
-@pytest.mark.parametrize("wrong", [1.5, True, [], {}, "nonsense!"])
-def test_the_schema_refuses_what_is_malformed(schema: Any, wrong: Any) -> None:
-    validator = jsonschema.Draft202012Validator(schema)
-    content = golden("robocrane-r")
-    free = {("robot", "name"), ("robot", "unit"), ("robot", "source"), ("configuration", "name"), ("notes", 0)}
-    for path in sample(content, 11):
-        if path not in free:
-            assert not validator.is_valid(with_entry(content, path, wrong)), path
 
 
 def test_a_certificate_says_what_was_found(small: Any) -> None:
@@ -96,10 +60,10 @@ def test_lengths_given_freely_have_no_name(small: Any) -> None:
 
 
 @pytest.mark.parametrize("code", formulation_codes())
-def test_every_formulation_may_have_made_it(small: Any, schema: Any, code: str) -> None:
+def test_every_formulation_may_have_made_it(small: Any, code: str) -> None:
     robot, solution = small
     content = certificate(robot, "home", replace(solution, formulation=code))
-    jsonschema.Draft202012Validator(schema).validate(content)
+    schema_of(content).validate(content)
     assert check_bytes(canonical_bytes(content)).status == "accepted"
 
 

@@ -338,7 +338,7 @@ def test_completeness_cannot_be_claimed_without_proof() -> None:
     assert check_resealed({**content, "complete": True}).status == "rejected"
     content = certificate_of(ROLLAND, "1/1000000000000000")
     assert check_resealed({**content, "complete": False}).status == "rejected"
-    doubled = [*content["pairs"][:-1], content["pairs"][0]]
+    doubled = [content["pairs"][0], *content["pairs"][:-1]]
     assert "not proved distinct" in last_line(check_resealed({**content, "pairs": doubled}))
 
 

@@ -18,8 +18,11 @@ FLINT, shows as a disagreement. The three ideas that make plain integers suffice
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import re
+import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -28,7 +31,6 @@ from functools import partial
 from hashlib import sha256
 from itertools import accumulate, combinations, pairwise
 from math import gcd, isqrt, lcm
-from pathlib import Path
 from typing import Any, Final, NamedTuple, TypeAlias
 
 __all__ = ["Verdict", "check_bytes", "main"]
@@ -490,12 +492,20 @@ def a_robot(value: Any, where: str) -> tuple[Metric, Sequence[Point], Sequence[P
     sides = joints(base, f"{where}.base"), joints(platform, f"{where}.platform")
     flat = number == 6 or not any(joint[2] for side in sides for joint in side)
     well_formed(flat, f"{where}: a joint of a planar robot has a third coordinate other than 0")
+    well_formed(number == 6 or g[2] == 1, f"{where}.metric: the third of a planar robot is not 1")
     return (int(g[0]), int(g[1]), int(g[2])), *sides
 
 
-def read(data: bytes) -> Certificate:
+def a_configuration(value: Any, number: int) -> Sequence[Fraction]:
+    """The squared lengths of the legs."""
+    name, lengths_squared = an_object(value, "configuration", "name lengths_squared")
+    nullable(a_text)(name, "configuration.name")
+    squares: Sequence[Fraction] = a_list(a_positive_rational, number)(lengths_squared, "configuration.lengths_squared")
+    return squares
+
+
+def read(body: dict[str, Any]) -> Certificate:
     """The content of a certificate."""
-    body = parsed(data)
     version = body.get("version")
     is_known = body.get("format") == "pkm_exact certificate" and type(version) is int and version == 1
     well_formed(is_known, "format: not a pkm_exact certificate, version 1")
@@ -509,9 +519,7 @@ def read(data: bytes) -> Certificate:
     entry("notes", a_list(a_text))
     exponent = entry("box_exponent", a_number)
     affordable(exponent <= MAX_BOX_EXPONENT, f"box_exponent: more than {MAX_BOX_EXPONENT}")
-    name, lengths_squared = an_object(values["configuration"], "configuration", "name lengths_squared")
-    nullable(a_text)(name, "configuration.name")
-    squares = a_list(a_positive_rational, len(base))(lengths_squared, "configuration.lengths_squared")
+    squares = a_configuration(values["configuration"], len(base))
     return Certificate(
         metric=metric,
         legs=tuple(map(Leg, base, platform, squares)),
@@ -1055,9 +1063,27 @@ class Interval:
         """The square root of an interval of positive numbers."""
         return Interval(isqrt(self.low << self.p), isqrt((self.high << self.p) - 1) + 1, self.p)
 
+    def square(self) -> Interval:
+        """The squares."""
+        ends = sorted((abs(self.low), abs(self.high)))
+        least = 0 if self.contains_zero() else ends[0]
+        return Interval(least * least >> self.p, -(-ends[1] * ends[1] >> self.p), self.p)
+
     def contains_zero(self) -> bool:
         """Whether 0 is in the interval."""
         return self.low <= 0 <= self.high
+
+    def meets(self, other: Interval) -> bool:
+        """Whether there is a common number."""
+        return self.low <= other.high and other.low <= self.high
+
+    def common(self, other: Interval) -> Interval:
+        """The common numbers, of intervals that both contain the same number."""
+        return Interval(max(self.low, other.low), min(self.high, other.high), self.p)
+
+    def largest(self) -> int:
+        """The largest absolute value, times 2^p."""
+        return max(abs(self.low), abs(self.high))
 
 
 def check_real_poses(certificate: Certificate, representation: Representation) -> Iterator[str]:
@@ -1761,6 +1787,7 @@ def check_claims(certificate: Certificate) -> Iterator[str]:
         yield from check_self_motion(certificate, certificate.representation)
     else:
         yield from solutions_listed(certificate, certificate.representation)
+    require(listed or not certificate.box_exponent, "boxes: a grid is given, but there is no pose")
 
 
 def check_parts(certificate: Certificate) -> None:
@@ -2108,6 +2135,8 @@ def check_pairs(others: Sequence[Box]) -> None:
 def check_boxes(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
     """Check 11: each box holds one solution, and boxes and conjugates are disjoint."""
     system = chart_system(certificate.legs, certificate.metric, boxes.w)
+    flat = not any(weight for place, weight in enumerate(boxes.w) if place not in system.places)
+    require(flat, "boxes: the chart has a weight for a coordinate that is 0 for every pose")
     named = [(f"real box {number}", box) for number, box in enumerate(boxes.real, 1)]
     named += [(f"complex box {number}", box) for number, box in enumerate(boxes.others, 1)]
     for name, box in named:
@@ -2162,22 +2191,673 @@ def boxes_listed(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
     for place, pose in enumerate(certificate.poses, 1):
         require(pose.multiplicity == 1, f"multiplicity: that of pose {place} differs from what is proved")
     claim = certificate.claim, certificate.route
+    degree = PLANAR_NUMBER if len(certificate.legs) == 3 else GREATEST_NUMBER
     if certificate.method == "exact":
+        fewer = number < degree
+        require(fewer, f"claim: {certificate.claim}, but {degree} isolated solutions are all that there are")
         yield f"isolated: {number} solutions, {len(boxes.real)} of them real, lie on no curve of poses"
         if certificate.claim == "positive-dimensional-proved" and certificate.representation is not None:
             yield from check_self_motion(certificate, certificate.representation)
             return
-        detected = claim == ("positive-dimensional-detected", None)
+        alone = certificate.representation is None and certificate.elimination is None
+        detected = alone and claim == ("positive-dimensional-detected", None)
         require(detected, f"claim: {certificate.claim} is not proved by what is in the certificate")
         yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
         return
-    degree = PLANAR_NUMBER if len(certificate.legs) == 3 else GREATEST_NUMBER
     proved = ("complete", "refined-bezout") if number == degree else ("not-proven-complete", None)
     require(claim == proved, f"claim: what is proved is {proved[0]} by {proved[1] or 'no route'}")
     if number == degree:
         yield f"complete: {degree} isolated solutions are the degree of the motions, there is no other"
     else:
         yield f"not proven complete: {number} solutions are proved, others are not excluded"
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Tolerance certificates
+# ---------------------------------------------------------------------------------------------------------------------
+
+TOLERANCE_FORMAT: Final = "pkm_exact tolerance certificate"
+TOLERANCE_KEYS: Final = "format version robot configuration tolerances frames exponent boxes unproved pairs complete"
+MAX_TOLERANCE_GRID: Final = 4096
+MAX_CENTRE_BITS: Final = 256  # before the point
+MAX_WEIGHT: Final = 10**6
+GUARD: Final = 128  # bits beyond the grid
+ORDINARY: Final = (1, 1, 1)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a solution is: w, real and imaginary part each; centre and half widths in units of the grid."""
+
+    chart: tuple[tuple[int, int], ...]
+    centre: tuple[tuple[int, int], ...]
+    outer: tuple[int, ...]
+
+    def is_real(self) -> bool:
+        """Whether chart and centre are."""
+        return not any(imaginary for _, imaginary in (*self.chart, *self.centre))
+
+
+@dataclass(frozen=True)
+class PoseBox:
+    """The box of a real pose; ``bounds`` are of position, rotation by rows, quaternion and centroid."""
+
+    pose: int
+    place: Place
+    inner: tuple[int, ...]
+    bounds: tuple[tuple[Fraction, Fraction], ...]
+    position_error: Fraction
+    rotation_error: Fraction
+
+
+@dataclass(frozen=True)
+class ToleranceCertificate:
+    """What a tolerance certificate says; tolerances of base joints, platform joints and lengths."""
+
+    metric: Metric
+    legs: tuple[Leg, ...]
+    tolerances: tuple[Fraction, ...]
+    origins: tuple[Point, Point]
+    unit: Fraction
+    exponent: int
+    boxes: tuple[PoseBox, ...]
+    unproved: tuple[int, ...]
+    pairs: tuple[Place, ...]
+    complete: bool
+
+    @property
+    def degree(self) -> int:
+        """That of the motions."""
+        return PLANAR_NUMBER if len(self.legs) == 3 else GREATEST_NUMBER
+
+
+def read_tolerances(body: dict[str, Any]) -> ToleranceCertificate:
+    """The content of a tolerance certificate."""
+    version = body.get("version")
+    known = body.get("format") == TOLERANCE_FORMAT and type(version) is int and version == 1
+    well_formed(known, f"format: not a {TOLERANCE_FORMAT}, version 1")
+    values = dict(zip(TOLERANCE_KEYS.split(), an_object(body, "certificate", TOLERANCE_KEYS), strict=True))
+    metric, base, platform = a_robot(values["robot"], "robot")
+    squares = a_configuration(values["configuration"], len(base))
+    limits = an_object(values["tolerances"], "tolerances", "base platform lengths")
+    tolerances = a_list(a_rational, 3)(limits, "tolerances")
+    well_formed(min(tolerances) >= 0, "tolerances: negative")
+    first, second, unit = an_object(values["frames"], "frames", "base platform unit")
+    origins = a_list(a_rational, 3)(first, "frames.base"), a_list(a_rational, 3)(second, "frames.platform")
+    well_formed(type(values["complete"]) is bool, "complete: neither true nor false")
+    exponent = a_number(values["exponent"], "exponent")
+    affordable(exponent <= MAX_TOLERANCE_GRID, f"exponent: more than {MAX_TOLERANCE_GRID}")
+    planar = len(base) == 3
+    flat = not planar or not any(origin[2] for origin in origins)
+    well_formed(flat, "frames: an origin of a planar robot has a third coordinate other than 0")
+    degree = PLANAR_NUMBER if planar else GREATEST_NUMBER
+    for key in ("boxes", "pairs", "unproved"):
+        short = not isinstance(values[key], list) or len(values[key]) <= degree
+        well_formed(short, f"{key}: more than {degree}")
+    size = 4 if planar else 8
+    certificate = ToleranceCertificate(
+        metric=metric,
+        legs=tuple(map(Leg, base, platform, squares)),
+        tolerances=tolerances,
+        origins=origins,
+        unit=a_positive_rational(unit, "frames.unit"),
+        exponent=exponent,
+        boxes=a_list(partial(a_pose_box, size=size))(values["boxes"], "boxes"),
+        unproved=a_list(a_number)(values["unproved"], "unproved"),
+        pairs=a_list(partial(a_pair, size=size))(values["pairs"], "pairs"),
+        complete=values["complete"],
+    )
+    places = [*(box.place for box in certificate.boxes), *certificate.pairs]
+    bits = max((abs(part).bit_length() for place in places for pair in place.centre for part in pair), default=0)
+    affordable(bits <= exponent + MAX_CENTRE_BITS, f"centre: a coordinate of more than 2^{MAX_CENTRE_BITS}")
+    flat = not planar or not any(any(place.chart[1] + place.chart[2]) for place in places)
+    well_formed(flat, "chart: a weight for a coordinate that is 0 for every pose of a planar robot")
+    return certificate
+
+
+def a_pose_box(value: Any, where: str, *, size: int) -> PoseBox:
+    """The box of a pose with its bounds."""
+    keys = "pose chart centre outer inner position rotation quaternion centroid position_error rotation_error"
+    pose, chart, centre, outer, inner, *bounds, distance, angle = an_object(value, where, keys)
+    position, rotation, quaternion, centroid = bounds
+    return PoseBox(
+        pose=a_number(pose, f"{where}.pose"),
+        place=a_place((chart, centre, outer), where, size),
+        inner=a_list(a_width, size)(inner, f"{where}.inner"),
+        bounds=(
+            *a_list(some_bounds, 3)(position, f"{where}.position"),
+            *(entry for row in a_list(a_list(some_bounds, 3), 3)(rotation, f"{where}.rotation") for entry in row),
+            *a_list(some_bounds, 4)(quaternion, f"{where}.quaternion"),
+            *a_list(some_bounds, 3)(centroid, f"{where}.centroid"),
+        ),
+        position_error=a_positive_rational(distance, f"{where}.position_error"),
+        rotation_error=a_positive_rational(angle, f"{where}.rotation_error"),
+    )
+
+
+def a_pair(value: Any, where: str, *, size: int) -> Place:
+    """Where one of two conjugate solutions is."""
+    return a_place(an_object(value, where, "chart centre outer"), where, size)
+
+
+def a_place(values: Sequence[Any], where: str, size: int) -> Place:
+    """Chart, centre and half widths."""
+    chart, centre, outer = values
+    return Place(
+        a_list(a_list(a_weight, 2), 4)(chart, f"{where}.chart"),
+        a_list(a_list(a_grid_number, 2), size)(centre, f"{where}.centre"),
+        a_list(a_width, size)(outer, f"{where}.outer"),
+    )
+
+
+def a_weight(value: Any, where: str) -> int:
+    """A small integer."""
+    number = an_integer(value, where)
+    affordable(abs(number) <= MAX_WEIGHT, f"{where}: more than {MAX_WEIGHT}")
+    return number
+
+
+def a_grid_number(value: Any, where: str) -> int:
+    """An integer in units of the grid."""
+    number = a_hexadecimal(value, where)
+    short = number.bit_length() <= 2 * MAX_TOLERANCE_GRID
+    affordable(short, f"{where}: more than {2 * MAX_TOLERANCE_GRID} bits")
+    return number
+
+
+def a_width(value: Any, where: str) -> int:
+    """A positive integer in units of the grid."""
+    number = a_grid_number(value, where)
+    well_formed(number > 0, f"{where}: not positive")
+    return number
+
+
+def some_bounds(value: Any, where: str) -> tuple[Fraction, Fraction]:
+    """A lower and an upper bound."""
+    low, high = a_list(a_rational, 2)(value, where)
+    well_formed(low <= high, f"{where}: ends out of order")
+    return low, high
+
+
+class Rectangle:
+    """Complex numbers with real and imaginary parts in intervals."""
+
+    __slots__ = ("im", "re")
+
+    def __init__(self, re: Interval, im: Interval) -> None:
+        self.re = re
+        self.im = im
+
+    def __add__(self, other: Rectangle) -> Rectangle:
+        return Rectangle(self.re + other.re, self.im + other.im)
+
+    def __sub__(self, other: Rectangle) -> Rectangle:
+        return Rectangle(self.re - other.re, self.im - other.im)
+
+    def __rmul__(self, scalar: int) -> Rectangle:
+        return Rectangle(scalar * self.re, scalar * self.im)
+
+    def __mul__(self, other: Rectangle) -> Rectangle:
+        return Rectangle(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+
+    def scaled(self, factor: Interval) -> Rectangle:
+        """The product with real numbers."""
+        return Rectangle(factor * self.re, factor * self.im)
+
+    def over(self, other: Rectangle) -> Rectangle:
+        """The quotient by a rectangle without 0, or refused if that is too near to it."""
+        norm, product = other.re.square() + other.im.square(), self * other.conjugate()
+        require(not norm.contains_zero(), "boxes: N(e) is too near to 0")
+        return Rectangle(product.re.over(norm), product.im.over(norm))
+
+    def contains_zero(self) -> bool:
+        """Whether 0 is in the rectangle."""
+        return self.re.contains_zero() and self.im.contains_zero()
+
+    def conjugate(self) -> Rectangle:
+        """The conjugate numbers."""
+        return Rectangle(self.re, -1 * self.im)
+
+    def meets(self, other: Rectangle) -> bool:
+        """Whether there is a common number."""
+        return self.re.meets(other.re) and self.im.meets(other.im)
+
+
+def surrounding(value: Fraction, p: int) -> Interval:
+    """The narrowest interval around a rational number."""
+    shifted = value.numerator << p
+    return Interval(shifted // value.denominator, -(-shifted // value.denominator), p)
+
+
+def summed(terms: Iterable[Any], zero: Any) -> Any:
+    """The sum of intervals or rectangles."""
+    result = zero
+    for term in terms:
+        result = result + term
+    return result
+
+
+class Family:
+    """All robots within tolerance, in new frames and units, enclosed to p bits; and the equations of their poses.
+
+    The data of a leg are A, B, l and differ by at most ``errors`` from ``joints`` and ``lengths``. The unknowns x are
+    those of (e, f) that are not 0 for every pose. ``polar[k][i]`` are the j and v of v x_j in the i-th derivative of
+    the k-th quantity: N, R, C, R^-1 C, |C|^2, e.f.
+    """
+
+    def __init__(self, certificate: ToleranceCertificate, p: int) -> None:
+        self.p = p
+        self.planar = len(certificate.legs) == 3
+        self.axes = range(2 if self.planar else 3)
+        self.places = (0, 3, 5, 6) if self.planar else tuple(range(8))
+        unit, (base, platform) = certificate.unit, certificate.origins
+        scales = [Interval(g << p, g << p, p).root() for g in certificate.metric]
+
+        def joint(point: Point, origin: Point) -> list[Interval]:
+            shifts = [(x - m) / unit for x, m in zip(point, origin, strict=True)]
+            return [s * surrounding(x, p) for s, x in zip(scales, shifts, strict=True)]
+
+        self.zero = Interval(0, 0, p)
+        self.one = Interval(1 << p, 1 << p, p)
+        self.base = [joint(leg.base, base) for leg in certificate.legs]
+        self.platform = [joint(leg.platform, platform) for leg in certificate.legs]
+        self.lengths = [surrounding(leg.length_squared / unit**2, p).root() for leg in certificate.legs]
+        highest = [surrounding(t / unit, p).high for t in certificate.tolerances]
+        self.errors = [Interval(-high, high, p) for high in highest]
+        self.unit, self.per_unit = surrounding(unit, p), surrounding(1 / unit, p)
+        self.origins = [[s * surrounding(x, p) for s, x in zip(scales, o, strict=True)] for o in (base, platform)]
+        self.polar = polar_forms(self.places)
+
+    def rectangle(self, pair: tuple[int, int], exponent: int) -> Rectangle:
+        """A number of the grid, exactly."""
+        re, im = (part << (self.p - exponent) for part in pair)
+        return Rectangle(Interval(re, re, self.p), Interval(im, im, self.p))
+
+    def spread(self, widths: Sequence[int], exponent: int, *, real: bool) -> list[Rectangle]:
+        """The box around 0 with these half widths in units of the grid."""
+        ends = [width << (self.p - exponent) for width in widths]
+        sides = [Interval(-end, end, self.p) for end in ends]
+        return [Rectangle(side, self.zero if real else side) for side in sides]
+
+    def quantities(self, x: Sequence[Any], zero: Any) -> list[Any]:
+        """The quantities at x."""
+        full = [zero] * 8
+        for place, value in zip(self.places, x, strict=True):
+            full[place] = value
+        placed = motion(full[:4], full[4:], ORDINARY)
+        return [*placed.quantities(), placed.study]
+
+    def slopes(self, x: Sequence[Any], zero: Any) -> list[list[Any]]:
+        """The derivatives of the quantities at x."""
+        return [[summed((v * x[j] for j, v in terms), zero) for terms in form] for form in self.polar]
+
+    def forms(self, *, uncertain: bool) -> list[list[Interval]]:
+        """Study's condition, unless planar, and the legs as rows of coefficients, for all robots if ``uncertain``."""
+        da, db, dl = self.errors if uncertain else [self.zero] * 3
+        rows = [] if self.planar else [[*[self.zero] * 17, self.one]]
+        for joint, other, length in zip(self.base, self.platform, self.lengths, strict=True):
+            a = [x + da if axis in self.axes else x for axis, x in enumerate(joint)]
+            b = [x + db if axis in self.axes else x for axis, x in enumerate(other)]
+            squares = summed((x.square() for x in (*a, *b)), self.zero) - (length + dl).square()
+            twice = [-2 * x for x in a]
+            rows.append([squares, *(x * y for x in twice for y in b), *twice, *(2 * x for x in b), self.one, self.zero])
+        return rows
+
+    def leg_changes(self, at: Sequence[Rectangle]) -> list[Rectangle]:
+        """E_i = N (2 d.(R b - a) - 2 l t + |R b - a|^2 - t^2), from the quantities at a point.
+
+        d = C + R B - A, and d.(R b) = (R^-1 d).b with R^-1 d = R^-1 C + B - R^-1 A.
+        """
+        da, db, dl = self.errors
+        norm, position, turned = at[0], at[10:13], at[13:16]
+        r = [at[1 + 3 * i : 4 + 3 * i] for i in range(3)]
+        nothing = Rectangle(self.zero, self.zero)
+        square = summed((norm.scaled(da * da + db * db) for _ in self.axes), nothing)
+        square = square - summed((r[j][k].scaled(2 * (da * db)) for j in self.axes for k in self.axes), nothing)
+        square = square - norm.scaled(dl * dl)
+        changes = []
+        for a, b, length in zip(self.base, self.platform, self.lengths, strict=True):
+            change = square - norm.scaled(2 * (length * dl))
+            for j in self.axes:
+                along = summed((r[j][k].scaled(b[k]) for k in range(3)), position[j] - norm.scaled(a[j]))
+                back = turned[j] + norm.scaled(b[j]) - summed((r[k][j].scaled(a[k]) for k in range(3)), nothing)
+                change = change + back.scaled(2 * db) - along.scaled(2 * da)
+            changes.append(change)
+        return changes
+
+
+def polar_forms(places: Sequence[int]) -> list[list[list[tuple[int, int]]]]:
+    """The matrices 2 M_k of the quantities x^T M_k x, from their values at sums of unit vectors; zeros left out."""
+
+    def values(*indices: int) -> list[int]:
+        x = [indices.count(place) for place in range(8)]
+        placed = motion(x[:4], x[4:], ORDINARY)
+        return [*placed.quantities(), placed.study]
+
+    single = {i: values(i) for i in places}
+    double = {(i, j): values(i, j) for i in places for j in places}
+    return [
+        [[(n, v) for n, j in enumerate(places) if (v := double[i, j][k] - single[i][k] - single[j][k])] for i in places]
+        for k in range(18)
+    ]
+
+
+class Neighbourhood:
+    """The equations F of a family around a centre m: Y, F(m), and the changes E_i of the legs at m."""
+
+    def __init__(self, family: Family, place: Place, exponent: int, name: str) -> None:
+        self.family = family
+        self.exponent = exponent
+        self.real = place.is_real()
+        self.nothing = Rectangle(family.zero, family.zero)
+        weights = [pair for axis, pair in enumerate(place.chart) if not family.planar or axis in (0, 3)]
+        one = Rectangle(family.one, family.zero)
+        self.weights = [family.rectangle(pair, 0) for pair in weights]
+        self.centre = [family.rectangle(pair, exponent) for pair in place.centre]
+        slopes = [[midpoint(entry) for entry in row] for row in self.jacobian(self.centre, uncertain=False)]
+        inverse = near_inverse(slopes, family.p)
+        require(inverse is not None, f"{name}: the Jacobian at its centre seems singular")
+        self.inverse = [[exact_rectangle(entry, family.p) for entry in row] for row in inverse or ()]
+        quantities = family.quantities(self.centre, self.nothing)
+        self.residual = [self.form_value(row, quantities) for row in family.forms(uncertain=False)]
+        self.residual.append(self.chart_value() - one)
+        self.changes = family.leg_changes(quantities)
+
+    def chart_value(self) -> Rectangle:
+        """w.e at the centre."""
+        pairs = zip(self.weights, self.centre, strict=False)
+        return summed((w * x for w, x in pairs), self.nothing)  # type: ignore[no-any-return]
+
+    def form_value(self, form: Sequence[Interval], values: Sequence[Rectangle]) -> Rectangle:
+        """A form in the quantities; zeros are left out."""
+        terms = (v.scaled(c) for c, v in zip(form, values, strict=True) if c.low or c.high)
+        return summed(terms, self.nothing)  # type: ignore[no-any-return]
+
+    def jacobian(self, x: Sequence[Rectangle], *, uncertain: bool) -> list[list[Rectangle]]:
+        """F' at x, of all robots if ``uncertain``."""
+        slopes = list(zip(*self.family.slopes(x, self.nothing), strict=True))
+        rows = [[self.form_value(form, c) for c in slopes] for form in self.family.forms(uncertain=uncertain)]
+        return [*rows, [*self.weights, *[self.nothing] * (len(x) - len(self.weights))]]
+
+    def around(self, widths: Sequence[int]) -> list[Rectangle]:
+        """The box around the centre."""
+        spread = self.family.spread(widths, self.exponent, real=self.real)
+        return [m + side for m, side in zip(self.centre, spread, strict=True)]
+
+    def defect(self, widths: Sequence[int], *, uncertain: bool) -> list[list[Rectangle]]:
+        """1 - Y F' on a box."""
+        columns = list(zip(*self.jacobian(self.around(widths), uncertain=uncertain), strict=True))
+        one = Rectangle(self.family.one, self.family.zero)
+        return [
+            [(one if i == j else self.nothing) - inner_product(row, column) for j, column in enumerate(columns)]
+            for i, row in enumerate(self.inverse)
+        ]
+
+    def contracts(self, widths: Sequence[int], *, uncertain: bool) -> bool:
+        """Whether Krawczyk's operator maps the box into its interior, and N(e) is not 0 there."""
+        spread = self.family.spread(widths, self.exponent, real=self.real)
+        right = list(self.residual)
+        if uncertain:
+            for place, change in enumerate(self.changes, len(right) - 1 - len(self.changes)):
+                right[place] = right[place] + change
+        for row, y, side in zip(self.defect(widths, uncertain=uncertain), self.inverse, spread, strict=True):
+            image = inner_product(row, spread) - inner_product(y, right)
+            for part, within in ((image.re, side.re), (image.im, side.im)):
+                inside = within.low < part.low and part.high < within.high
+                if not inside and not (within.high == 0 == part.low == part.high):
+                    return False
+        return not self.family.quantities(self.around(widths), self.nothing)[0].contains_zero()
+
+    def is_nearest(self, widths: Sequence[int]) -> bool:
+        """Whether the nominal solution, which is in the box, is within 1/2 + 2^-20 units of the grid of the centre.
+
+        x - m = -Y F(m) + (1 - Y F'((x + m) / 2)) (x - m), used again and again; (x + m) / 2 is in the box.
+        """
+        steps = [inner_product(y, self.residual) for y in self.inverse]
+        defect = self.defect(widths, uncertain=False)
+        found = self.family.spread(widths, self.exponent, real=self.real)
+        for _ in range(4):
+            found = [inner_product(row, found) - step for row, step in zip(defect, steps, strict=True)]
+        limit = (1 << 19) + 1 << (self.family.p - self.exponent - 20)
+        return all(part.largest() < limit for value in found for part in (value.re, value.im))
+
+    def motion_in(self, widths: Sequence[int]) -> list[Rectangle]:
+        """Rotation and position on a box, in the new frames."""
+        values = self.family.quantities(self.around(widths), self.nothing)
+        return [value.over(values[0]) for value in values[1:13]]
+
+
+def inner_product(one: Sequence[Any], other: Sequence[Any]) -> Any:
+    """The sum of the products."""
+    first, *rest = (a * b for a, b in zip(one, other, strict=True))
+    return summed(rest, first)
+
+
+def midpoint(value: Rectangle) -> Gaussian:
+    """A number in the middle."""
+    return Gaussian(*(Fraction(part.low + part.high, 2 << part.p) for part in (value.re, value.im)))
+
+
+def exact_rectangle(value: Gaussian, p: int) -> Rectangle:
+    """The rectangle of one number with denominator 2^p."""
+    return Rectangle(surrounding(value.re, p), surrounding(value.im, p))
+
+
+def check_tolerances(certificate: ToleranceCertificate) -> Iterator[str]:
+    """One line per claim of a tolerance certificate that is proved."""
+    labels = [box.pose for box in certificate.boxes]
+    in_order = labels == sorted(labels) and list(certificate.unproved) == sorted(certificate.unproved)
+    every = sorted([*labels, *certificate.unproved]) == list(range(1, len(labels) + len(certificate.unproved) + 1))
+    require(in_order and every, "boxes: poses are not numbered from 1, each once, in order")
+    places = [*(box.place for box in certificate.boxes), *certificate.pairs]
+    bits = max((abs(part).bit_length() for place in places for pair in place.centre for part in pair), default=0)
+    family = Family(certificate, certificate.exponent + GUARD + 2 * max(bits - certificate.exponent, 0))
+    core = [1 << (certificate.exponent - certificate.exponent // 2)] * len(family.places)
+    cores = []
+    for box in certificate.boxes:
+        name = f"box of pose {box.pose}"
+        at = Neighbourhood(family, box.place, certificate.exponent, name)
+        require(at.real, f"{name}: not real")
+        check_place(at, box.place, core, name)
+        check_pose_box(at, box, name)
+        cores.append(at.motion_in(core))
+    for (one, core_of_one), (other, core_of_other) in combinations(zip(labels, cores, strict=True), 2):
+        distinct = are_distinct(core_of_one, core_of_other)
+        require(distinct, f"boxes: the poses {one} and {other} are not proved distinct")
+    yield (
+        f"boxes: {len(cores)} poses, in the box of each there is exactly one pose of every robot within tolerance, "
+        "its errors are not greater than claimed"
+    )
+    if certificate.unproved:
+        yield f"boxes: for {len(certificate.unproved)} poses nothing is claimed"
+    if certificate.complete:
+        require(not certificate.unproved, "complete: claimed, though poses are not proved")
+        yield check_all_solutions(certificate, family, core, cores)
+    else:
+        require(not certificate.pairs, "pairs: listed, though completeness is not claimed")
+        yield "not proven complete: further poses of robots within tolerance are not excluded"
+
+
+def are_distinct(one: Sequence[Rectangle], other: Sequence[Rectangle]) -> bool:
+    """Whether the points of two boxes differ in some entry."""
+    return any(not a.meets(b) for a, b in zip(one, other, strict=True))
+
+
+def check_place(at: Neighbourhood, place: Place, core: Sequence[int], name: str) -> None:
+    """Exactly one solution of every robot in the outer box, the nominal one in the core, which lies in it."""
+    require(min(place.outer) >= core[0], f"{name}: smaller than the core of the nominal solution")
+    nominal = at.contracts(core, uncertain=False)
+    require(nominal, f"{name}: not proved to hold a solution of the nominal robot")
+    nearest = at.is_nearest(core)
+    require(nearest, f"{name}: its centre is not the grid point nearest to the nominal solution")
+    every = at.contracts(place.outer, uncertain=True)
+    require(every, f"{name}: not proved to hold exactly one solution of every robot within tolerance")
+
+
+def check_pose_box(at: Neighbourhood, box: PoseBox, name: str) -> None:
+    """The bounds of the pose are bounds for every robot, and no other pose satisfies them."""
+    family, p = at.family, at.family.p
+    inside = all(a <= b for a, b in zip(box.inner, box.place.outer, strict=True))
+    require(inside, f"{name}: the inner box is not contained in the outer one")
+    holds = at.contracts(box.inner, uncertain=True)
+    require(holds, f"{name}: the inner box is not proved to hold the solution")
+    inverses = inverse_jacobians(at, box.inner)
+    require(inverses is not None, f"{name}: the Jacobian is not proved regular in it")
+    effect = [
+        [inner_product(row, column) for column in zip(*inverses or (), strict=True)]
+        for row in components(family, [side.re for side in at.around(box.inner)])[1]
+    ]
+    legs = range(0 if family.planar else 1, len(family.places) - 1)
+    offsets = [inner_product(row, [value.re for value in at.residual]).largest() for row in effect]
+    by_leg = [[row[i] for i in legs] for row in effect]
+    reaches = [change.re.largest() for change in at.changes]
+    values = components(family, [m.re for m in at.centre])[0]
+    for value, row, offset, (low, high) in zip(values, by_leg, offsets, box.bounds, strict=True):
+        reach = offset - (-sum(entry.largest() * r for entry, r in zip(row, reaches, strict=True)) >> p)
+        proved = low <= Fraction(value.low - reach, 1 << p) and Fraction(value.high + reach, 1 << p) <= high
+        require(proved, f"{name}: a bound of the pose is not proved")
+    check_nothing_else(at, box, name)
+    for places, what in (((0, 1, 2), "position"), ((12, 13, 14, 15), "rotation")):
+        length = greatest_length([by_leg[k] for k in places], reaches, p) + 2 * sum(offsets[k] for k in places)
+        error = Fraction(length, 1 << p)
+        is_proved = error <= box.position_error if what == "position" else is_angle_of(box.rotation_error, error, p)
+        require(is_proved, f"{name}: its {what} error is not proved")
+
+
+def inverse_jacobians(at: Neighbourhood, widths: Sequence[int]) -> list[list[Interval]] | None:
+    """Enclosures of the inverses of all matrices in F', real; None if one may be singular.
+
+    With M = 1 - Y F' they are V = (1 - M)^-1 Y: by Gauss and Jordan's algorithm, then narrowed by V = Y + M V.
+    """
+    y = [[entry.re for entry in row] for row in at.inverse]
+    defect = [[entry.re for entry in row] for row in at.defect(widths, uncertain=True)]
+    zero, one = at.family.zero, at.family.one
+    rows = [
+        [*((one if i == j else zero) - entry for j, entry in enumerate(row)), *right]
+        for i, (row, right) in enumerate(zip(defect, y, strict=True))
+    ]
+    for column in range(len(rows)):
+        pivot = rows[column][column]
+        if pivot.contains_zero():
+            return None
+        rows[column] = [entry.over(pivot) for entry in rows[column]]
+        for i, row in enumerate(rows):
+            if i != column:
+                factor = row[column]
+                rows[i] = [a - factor * b for a, b in zip(row, rows[column], strict=True)]
+    found = [row[len(rows) :] for row in rows]
+    for _ in range(4):
+        columns = list(zip(*found, strict=True))
+        found = [
+            [entry.common(y[i][j] + inner_product(defect[i], columns[j])) for j, entry in enumerate(row)]
+            for i, row in enumerate(found)
+        ]
+    return found
+
+
+def components(family: Family, x: Sequence[Interval]) -> tuple[list[Interval], list[list[Interval]]]:
+    """Position, rotation, quaternion and centroid in ordinary coordinates of the model, and their derivatives by x."""
+    quantities, slopes = family.quantities(x, family.zero), family.slopes(x, family.zero)
+    norm, by_norm = quantities[0], slopes[0]
+    ratios = [value.over(norm) for value in quantities[1:13]]
+    tangents = [
+        [(s - ratio * t).over(norm) for s, t in zip(row, by_norm, strict=True)]
+        for ratio, row in zip(ratios, slopes[1:13], strict=True)
+    ]
+    turns = [[*zip(ratios[3 * i : 3 * i + 3], tangents[3 * i : 3 * i + 3], strict=True)] for i in range(3)]
+    (base, platform), unit = family.origins, family.unit
+    centroid = [
+        (a + unit * c, [unit * t for t in row]) for a, c, row in zip(base, ratios[9:], tangents[9:], strict=True)
+    ]
+    position = []
+    for (value, line), turn in zip(centroid, turns, strict=True):
+        moved, slope = value, line
+        for (ratio, tangent), b in zip(turn, platform, strict=True):
+            moved = moved - ratio * b
+            slope = [s - t * b for s, t in zip(slope, tangent, strict=True)]
+        position.append((moved, slope))
+    length = norm.root()
+    quaternion = []
+    for axis in range(4):
+        entry = x[family.places.index(axis)].over(length) if axis in family.places else family.zero
+        own = [family.one.over(length) if place == axis else family.zero for place in family.places]
+        quaternion.append((entry, [o - (entry * t).over(2 * norm) for o, t in zip(own, by_norm, strict=True)]))
+    every = [*position, *(pair for turn in turns for pair in turn), *quaternion, *centroid]
+    return [value for value, _ in every], [line for _, line in every]
+
+
+def greatest_length(rows: Sequence[Sequence[Interval]], reaches: Sequence[int], p: int) -> int:
+    """At least the greatest length of rows times E, for |E_i| up to the reaches, in units of 2^-p: at a vertex."""
+    greatest = 0
+    for signs in range(1 << (len(reaches) - 1)):
+        ends = [-reach if signs >> i & 1 else reach for i, reach in enumerate(reaches)]
+        vertex = [Interval(end, end, p) for end in ends]
+        lengths = [inner_product(row, vertex).largest() for row in rows]
+        greatest = max(greatest, sum(length * length for length in lengths))
+    return isqrt(greatest) + 1
+
+
+def is_angle_of(angle: Fraction, chord: Fraction, p: int) -> bool:
+    """Whether angle >= 4 arcsin(chord / 2), for a chord below 1: by the series of sin(angle / 4), ended below it."""
+    if chord >= 1:
+        return False
+    end = min(int(angle * (1 << p)) // 4, 1 << p)  # the sine increases up to 1, where it is above 1/2
+    x = Interval(end, end, p)
+    square, term, sine = x.square(), x, x
+    n = 1
+    while n % 4 == 1 or term.largest() > 1:
+        divisor = (n + 1) * (n + 2) << p
+        term = -1 * (term * square).over(Interval(divisor, divisor, p))
+        sine = sine + term
+        n += 2
+    return 2 * Fraction(sine.low, 1 << p) >= chord
+
+
+def check_nothing_else(at: Neighbourhood, box: PoseBox, name: str) -> None:
+    """All poses with these bounds of centroid and quaternion lie in the outer box, where there is only one."""
+    family, p = at.family, at.family.p
+    sides = [Interval(surrounding(low, p).low, surrounding(high, p).high, p) for low, high in box.bounds]
+    q = sides[12:16]
+    c = [(value - a) * family.per_unit for value, a in zip(sides[16:], family.origins[0], strict=True)]
+    f = [-1 * inner_product(c, q[1:])]
+    f += [c[i] * q[0] + c[j] * q[k + 1] - c[k] * q[j + 1] for i, j, k in CYCLIC]
+    kept = [[*q, *f][place] for place in family.places]
+    chart = inner_product([w.re for w in at.weights], kept[: len(at.weights)])
+    apart = not chart.contains_zero()
+    within = apart and all(
+        side.low <= point.low and point.high <= side.high
+        for point, side in zip(
+            (value.over(chart) for value in kept), map(real_part, at.around(box.place.outer)), strict=True
+        )
+    )
+    require(within, f"{name}: the bounds of the pose reach beyond the outer box")
+
+
+def real_part(value: Rectangle) -> Interval:
+    """The real parts."""
+    return value.re
+
+
+def check_all_solutions(
+    certificate: ToleranceCertificate, family: Family, core: Sequence[int], cores: list[list[Rectangle]]
+) -> str:
+    """As many distinct solutions of the nominal robot as the degree, each of them proved for every robot."""
+    keys = [(place.chart, place.centre) for place in certificate.pairs]
+    require(keys == sorted(keys), "pairs: not listed in their order")
+    for number, place in enumerate(certificate.pairs, 1):
+        name = f"pair {number}"
+        at = Neighbourhood(family, place, certificate.exponent, name)
+        check_place(at, place, core, name)
+        found = at.motion_in(core)
+        cores = [*cores, found, [value.conjugate() for value in found]]
+    degree = certificate.degree
+    require(len(cores) == degree, f"complete: claimed, but {len(cores)} of {degree} solutions are proved")
+    distinct = all(are_distinct(one, other) for one, other in combinations(cores, 2))
+    require(distinct, "complete: claimed, but two nominal solutions are not proved distinct")
+    return (
+        f"complete: {degree} solutions of every robot within tolerance, isolated and distinct, are the degree of the "
+        f"motions; {len(certificate.boxes)} of them are real, there is no other pose"
+    )
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -2206,13 +2886,20 @@ def check_bytes(data: bytes) -> Verdict:
     """
     lines = []
     try:
-        certificate = read(data)
+        lines_proved = replayed(parsed(data))
         lines.append("digest: that of the content")
-        for line in checks(certificate):
+        for line in lines_proved:
             lines.append(line)  # noqa: PERF402 - the lines before a refusal stay
     except Refusal as refusal:
         return Verdict(refusal.status, (*lines, refusal.line))
     return Verdict("accepted", tuple(lines))
+
+
+def replayed(body: dict[str, Any]) -> Iterator[str]:
+    """The content, read at once, and its checks, one after another."""
+    if next(iter(body.items()), None) == ("format", TOLERANCE_FORMAT):
+        return check_tolerances(read_tolerances(body))
+    return checks(read(body))
 
 
 def checks(certificate: Certificate) -> Iterator[str]:
@@ -2234,7 +2921,10 @@ def check_file(path: str) -> int:
     """Print the verdict on a file; its exit code."""
     name = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in path)
     try:
-        with Path(path).open("rb") as stream:
+        # Opening a pipe must not wait for a writer.
+        with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as stream:  # noqa: PTH123
+            if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+                raise OSError(errno.EINVAL, "not a regular file")
             data = stream.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Final
 
-from pkm_exact.certify.build import sealed
+from pkm_exact.certify.build import robot_entry, sealed
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
@@ -42,22 +42,14 @@ def tolerance_certificate(robot: Robot, configuration_name: str | None, result: 
         {
             "format": FORMAT,
             "version": VERSION,
-            "robot": {
-                "name": robot.name,
-                "kind": robot.kind,
-                "unit": robot.unit,
-                "source": robot.source,
-                "metric": _texts(robot.metric),
-                "base": [_texts(joint) for joint in robot.base_joints],
-                "platform": [_texts(joint) for joint in robot.platform_joints],
-            },
+            "robot": robot_entry(robot),
             "configuration": {"name": configuration_name, "lengths_squared": _texts(squares)},
             "tolerances": {key: str(getattr(tolerances, key)) for key in ("base", "platform", "lengths")},
             "frames": {"base": _texts(frames.base), "platform": _texts(frames.platform), "unit": str(frames.unit)},
             "exponent": result.exponent,
             "boxes": [_box(box.pose, box.bounds, box.proof) for box in result.boxes if box.bounds and box.proof],
             "unproved": [box.pose for box in result.boxes if not box.is_proved],
-            "pairs": [_place(pair) for pair in result.pairs],
+            "pairs": [_place(pair) for pair in sorted(result.pairs, key=lambda pair: (pair.chart, pair.centre))],
             "complete": result.is_complete,
         }
     )

@@ -54,6 +54,8 @@ def check_claims(document: Document) -> Iterator[str]:
         yield from check_self_motion(document, document.representation)
     else:
         yield from _solutions_listed(document, document.representation)
+    if document.box_exponent and not document.poses:
+        raise rejected("boxes: a grid is given, but there is no pose")
 
 
 def _check_parts(document: Document) -> None:
@@ -73,16 +75,19 @@ def _isolated_listed(document: Document, isolated: Isolated) -> Iterator[str]:
     for place, pose in enumerate(document.poses, 1):
         if pose.multiplicity != 1:
             raise rejected(f"multiplicity: that of pose {place} differs from what is proved")
+    degree = PLANAR_NUMBER if len(document.legs) == PLANAR_LEGS else GREATEST_NUMBER
     if document.method == "exact":
+        if isolated.count == degree:
+            raise rejected(f"claim: {document.claim}, but {degree} isolated solutions are all that there are")
         yield f"isolated: {isolated.count} solutions, {len(isolated.real)} of them real, lie on no curve of poses"
+        alone = document.representation is None and document.elimination is None
         if document.claim == "positive-dimensional-proved" and document.representation is not None:
             yield from check_self_motion(document, document.representation)
-        elif (document.claim, document.route) == ("positive-dimensional-detected", None):
+        elif alone and (document.claim, document.route) == ("positive-dimensional-detected", None):
             yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
         else:
             raise rejected(f"claim: {document.claim} is not proved by what is in the certificate")
         return
-    degree = PLANAR_NUMBER if len(document.legs) == PLANAR_LEGS else GREATEST_NUMBER
     proved = ("complete", "refined-bezout") if isolated.count == degree else ("not-proven-complete", None)
     if (document.claim, document.route) != proved:
         raise rejected(f"claim: what is proved is {proved[0]} by {proved[1] or 'no route'}")

@@ -179,6 +179,8 @@ def read_robot(value: Any) -> tuple[Metric, tuple[Point, ...], tuple[Point, ...]
     joints = (items(base, "robot.base", number, read_point), items(platform, "robot.platform", number, read_point))
     if number == PLANAR_LEGS and any(joint[2] for side in joints for joint in side):
         raise malformed("robot: a joint of a planar robot has a third coordinate other than 0")
+    if number == PLANAR_LEGS and g[2] != 1:
+        raise malformed("robot.metric: the third of a planar robot is not 1")
     return (int(g[0]), int(g[1]), int(g[2])), *joints
 
 

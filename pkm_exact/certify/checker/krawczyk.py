@@ -49,9 +49,10 @@ class Box:
     def is_disjoint(self, other: Box) -> bool:
         """Whether the boxes are apart in some coordinate."""
         for place, (one, two) in enumerate(zip(self.centre, other.centre, strict=True)):
-            units = Fraction(1, 1 << self.exponents[place // 4]), Fraction(1, 1 << other.exponents[place // 4])
-            gap = REACH * (units[0] + units[1])
-            if any(abs(a * units[0] - b * units[1]) > gap for a, b in zip(one, two, strict=True)):
+            exponents = self.exponents[place // 4], other.exponents[place // 4]
+            up, higher = (max(exponents) - exponent for exponent in exponents)
+            gap = REACH * ((1 << up) + (1 << higher))
+            if any(abs((a << up) - (b << higher)) > gap for a, b in zip(one, two, strict=True)):
                 return True
         return False
 

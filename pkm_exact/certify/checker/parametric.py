@@ -23,6 +23,8 @@ Balls: TypeAlias = list[arb]
 ORDINARY: Metric = (1, 1, 1)
 COUNT = 18
 """N, R (9), C (3), R^-1 C (3), |C|^2 and Study's condition."""
+IMAGES = 4
+"""Times that the nominal solution is enclosed more narrowly."""
 ROTATION, POSITION, TURNED, SQUARE = 1, 10, 13, 16
 
 
@@ -193,19 +195,36 @@ def is_contraction(at: Expansion, radii: Sequence[arb], *, real: bool, uncertain
 
     Then each has exactly one solution there; N(e) must be away from 0 too.
     """
-    size = len(radii)
     box = box_around(radii, real=real)
     right = at.residual
     if uncertain:
-        right = right + acb_mat(size, 1, [*[acb(0)] * at.first, *at.changes, acb(0)])
-    unit = acb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+        right = right + acb_mat(len(radii), 1, [*[acb(0)] * at.first, *at.changes, acb(0)])
+    image = _defect(at, box, uncertain=uncertain) * box - at.inverse * right
     around = at.centre + box
-    image = (unit - at.inverse * at.jacobian(around, uncertain=uncertain)) * box - at.inverse * right
     inside = all(
         abs(v.real) < r and (v.imag == 0 if real else abs(v.imag) < r)
         for v, r in zip(image.entries(), radii, strict=True)
     )
     return inside and not values(slopes(around, planar=at.robot.planar), around)[0].contains(0)
+
+
+def _defect(at: Expansion, box: acb_mat, *, uncertain: bool) -> acb_mat:
+    """1 - Y F' on the box."""
+    size = box.nrows()
+    unit = acb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+    return unit - at.inverse * at.jacobian(at.centre + box, uncertain=uncertain)
+
+
+def nominal_offset(at: Expansion, radii: Sequence[arb], *, real: bool) -> acb_mat:
+    """The nominal solution, less the centre, if it is in the box with these radii: an image of an image of the box.
+
+    x - m = -Y F(m) + (1 - Y F'((x + m) / 2)) (x - m), with (x + m) / 2 in the box.
+    """
+    found = box_around(radii, real=real)
+    defect, step = _defect(at, found, uncertain=False), at.inverse * at.residual
+    for _ in range(IMAGES):
+        found = defect * found - step
+    return found
 
 
 def components(robot: Robot, x: acb_mat) -> tuple[Balls, arb_mat]:

@@ -24,6 +24,7 @@ from pkm_exact.certify.checker.parametric import (
     expand,
     greatest_length,
     is_contraction,
+    nominal_offset,
     points_of_box,
     robot_of,
     slopes,
@@ -32,14 +33,17 @@ from pkm_exact.certify.checker.parametric import (
 from pkm_exact.certify.checker.tolerance_document import DEGREES, Place, PoseBox, ToleranceDocument
 from pkm_exact.certify.checker.verdict import rejected
 
-GUARD_BITS: Final = 64
+GUARD_BITS: Final = 128
+NEAREST: Final = arb(1) / 2 + arb(2) ** -20
+"""A centre is no farther from the nominal solution than this, in units of the grid."""
 
 
 def check_tolerances(document: ToleranceDocument) -> Iterator[str]:
     """One line per claim that is proved."""
-    numbers = sorted([*(box.pose for box in document.boxes), *document.unproved])
-    if numbers != list(range(1, len(numbers) + 1)) or list(document.unproved) != sorted(document.unproved):
-        raise rejected("boxes: poses are not numbered from 1, each once")
+    labels, others = [box.pose for box in document.boxes], list(document.unproved)
+    numbers = list(range(1, len(labels) + len(others) + 1))
+    if sorted([*labels, *others]) != numbers or labels != sorted(labels) or others != sorted(others):
+        raise rejected("boxes: poses are not numbered from 1, each once, in order")
     with ctx.workprec(document.exponent + GUARD_BITS):
         robot = robot_of(document.legs, document.metric, document.origins, document.unit, document.tolerances)
         cores = []
@@ -47,6 +51,9 @@ def check_tolerances(document: ToleranceDocument) -> Iterator[str]:
             expansion = _expansion(robot, document, box.place, f"box of pose {box.pose}")
             _check_box(expansion, document, box)
             cores.append(_core(expansion, document))
+        for (one, left), (other, right) in combinations(zip(document.boxes, cores, strict=True), 2):
+            if not _are_distinct(left, right):
+                raise rejected(f"boxes: the poses {one.pose} and {other.pose} are not proved distinct")
         yield (
             f"boxes: {len(cores)} poses, in the box of each there is exactly one pose of every robot within tolerance, "
             "its errors are not greater than claimed"
@@ -86,6 +93,10 @@ def _core(expansion: Expansion, document: ToleranceDocument) -> list[acb]:
     return [value / at[0] for value in at[ROTATION:TURNED]]
 
 
+def _are_distinct(left: Sequence[acb], right: Sequence[acb]) -> bool:
+    return any(not a.overlaps(b) for a, b in zip(left, right, strict=True))
+
+
 def _is_real(expansion: Expansion) -> bool:
     return all(v.imag == 0 for v in (*expansion.centre.entries(), *expansion.weights))
 
@@ -100,6 +111,10 @@ def _check_place(expansion: Expansion, document: ToleranceDocument, place: Place
     cores = [_on_grid(core, document)] * len(outer)
     if not is_contraction(expansion, cores, real=real, uncertain=False):
         raise rejected(f"{name}: not proved to hold a solution of the nominal robot")
+    limit = NEAREST * _on_grid(1, document)
+    offsets = nominal_offset(expansion, cores, real=real).entries()
+    if not all(abs(part) < limit for offset in offsets for part in (offset.real, offset.imag)):
+        raise rejected(f"{name}: its centre is not the grid point nearest to the nominal solution")
     if not is_contraction(expansion, outer, real=real, uncertain=True):
         raise rejected(f"{name}: not proved to hold exactly one solution of every robot within tolerance")
 
@@ -161,6 +176,8 @@ def _completeness(robot: Robot, document: ToleranceDocument, cores: list[list[ac
         return
     if document.unproved:
         raise rejected("complete: claimed, though poses are not proved")
+    if list(document.pairs) != sorted(document.pairs, key=lambda place: (place.chart, place.centre)):
+        raise rejected("pairs: not listed in their order")
     for number, place in enumerate(document.pairs, 1):
         name = f"pair {number}"
         expansion = _expansion(robot, document, place, name)
@@ -170,7 +187,7 @@ def _completeness(robot: Robot, document: ToleranceDocument, cores: list[list[ac
     degree = DEGREES[robot.planar]
     if len(cores) != degree:
         raise rejected(f"complete: claimed, but {len(cores)} of {degree} solutions are proved")
-    if any(all(a.overlaps(b) for a, b in zip(left, right, strict=True)) for left, right in combinations(cores, 2)):
+    if not all(_are_distinct(left, right) for left, right in combinations(cores, 2)):
         raise rejected("complete: claimed, but two nominal solutions are not proved distinct")
     yield (
         f"complete: {degree} solutions of every robot within tolerance, isolated and distinct, are the degree of the "

@@ -28,6 +28,8 @@ OPENING: Final = f'{{\n "format": "{FORMAT}",\n'.encode("ascii")
 DEGREES: Final = {False: 40, True: 6}
 """Degree of the variety of rigid motions, and of planar ones (key: planar)."""
 MAX_EXPONENT: Final = 4096
+MAX_CENTRE_BITS: Final = 256
+"""Bits before the point of a coordinate of a centre, in units of the robot's size."""
 MAX_WEIGHT: Final = 10**6
 _KEYS: Final = (
     "format",
@@ -112,7 +114,7 @@ def read_tolerances(data: bytes) -> ToleranceDocument:
         if isinstance(value, list) and len(value) > DEGREES[planar]:
             raise malformed(f"{name}: more than {DEGREES[planar]}")
     size = 4 if planar else 8
-    return ToleranceDocument(
+    document = ToleranceDocument(
         metric,
         tuple(map(Leg, base, platform, squares)),
         bounds,
@@ -124,6 +126,13 @@ def read_tolerances(data: bytes) -> ToleranceDocument:
         items(pairs, "pairs", None, lambda value, where: _place(entries(value, where, _PLACE), where, size)),
         complete,
     )
+    places = [*(box.place for box in document.boxes), *document.pairs]
+    parts = (abs(part) for place in places for pair in place.centre for part in pair)
+    if max(parts, default=0).bit_length() > grid + MAX_CENTRE_BITS:
+        raise too_large(f"centre: a coordinate of more than 2^{MAX_CENTRE_BITS}")
+    if planar and any(any(place.chart[1] + place.chart[2]) for place in places):
+        raise malformed("chart: a weight for a coordinate that is 0 for every pose of a planar robot")
+    return document
 
 
 def _pose_box(value: Any, where: str, size: int) -> PoseBox:

@@ -1,0 +1,149 @@
+"""Certificates of every kind, to be changed: what the solvers write, and weaker ones made of that."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache, partial
+from typing import Any
+
+from certificate_tools import CERTS, golden, without_proof
+
+from pkm_exact.certify.build import certificate
+from pkm_exact.certify.tolerance_build import tolerance_certificate
+from pkm_exact.engine import solve
+from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.numeric.tolerance import tolerance_boxes
+from pkm_exact.numeric_engine import solve_krawczyk
+
+Content = dict[str, Any]
+
+
+def _robot(name: str) -> Robot:
+    return read_robot(CERTS.parent / "models" / f"{name}.toml")
+
+
+def _boxed(name: str) -> Content:
+    robot = _robot(name)
+    configuration = robot.configuration()
+    return certificate(robot, configuration.name, solve_krawczyk(robot.problem(configuration)))
+
+
+def _tolerant(name: str, tolerance: str) -> Content:
+    robot = _robot(name)
+    configuration = robot.configuration()
+    problem = robot.problem(configuration)
+    result = tolerance_boxes(problem, Tolerances.uniform(tolerance), solve_krawczyk(problem))
+    return tolerance_certificate(robot, configuration.name, result)
+
+
+def _open(name: str, tolerance: str) -> Content:
+    content = _tolerant(name, tolerance)
+    assert content["unproved"]
+    assert not content["complete"]
+    return content
+
+
+def _unproved(name: str) -> Content:
+    """With multiple solutions, and without the elimination that counts them."""
+    content = without_proof(golden(name))
+    return {**content, "poses": [{**pose, "multiplicity": None} for pose in content["poses"]]}
+
+
+def _nothing() -> Content:
+    none: Content = dict.fromkeys(("complex_solutions", "distinct_solutions", "real_poses", "box_exponent"), 0)
+    none |= {"representation": None, "elimination": None, "poses": [], "completeness_route": None}
+    return {**golden("3-rpr-triple"), **none, "claim": "not-proven-complete"}
+
+
+CIRCLE = tuple(
+    (Fraction(x, r), Fraction(y, r), Fraction(0))
+    for x, y, r in ((3, 4, 5), (5, 0, 5), (-3, 4, 5), (-5, 0, 5), (5, -12, 13), (-4, -3, 5))
+)
+
+
+def _made_up(kind: str, base: Any, platform: Any, squares: Any, metric: Any = (1, 1, 1)) -> Content:
+    robot = Robot("made up", kind, "m", "made up", tuple(base), tuple(platform), metric)
+    return certificate(robot, None, solve(robot.problem(squares)))
+
+
+def _congruent() -> Content:
+    return _made_up("6-UPS", CIRCLE, [(-x, -y, z) for x, y, z in CIRCLE], [Fraction(5)] * 6, (1, 3, 1))
+
+
+def _similar() -> Content:
+    """At C = (0, 0, 2) and R by the angle with cosine 4/5 about the third axis."""
+    squares = [
+        (Fraction(2, 5) * x - Fraction(3, 10) * y - x) ** 2 + (Fraction(3, 10) * x + Fraction(2, 5) * y - y) ** 2 + 4
+        for x, y, _ in CIRCLE
+    ]
+    return _made_up("6-UPS", CIRCLE, [(x / 2, y / 2, z) for x, y, z in CIRCLE], squares)
+
+
+def _parallelogram() -> Content:
+    """It turns on a circle; two more poses turn the platform over."""
+    corners = tuple((Fraction(x), Fraction(y)) for x, y in ((0, 0), (4, 0), (0, 4)))
+    content = _made_up("3-RPR", corners, corners, (9, 9, 9))
+    assert content["krawczyk"] is not None
+    return content
+
+
+def _held(step: int, wrong: int) -> Content:
+    """A platform with joints on a line, by ``step``, at C = (1, 2, 3), R = 1; the square of leg 1 is so much wrong."""
+    base = [(Fraction(x), Fraction(y), Fraction(z)) for x, y, z in ((0, 0, 1), (5, 1, 0), (4, 7, 2), (-3, 6, 1))]
+    base += [(Fraction(-5), Fraction(-2), Fraction(3)), (Fraction(1), Fraction(-4), Fraction(-2))]
+    platform = [(Fraction(step * n * n, 3), Fraction(step * n * n), Fraction(0)) for n in range(6)]
+    squares = [
+        sum(((c + x - y) ** 2 for c, x, y in zip((1, 2, 3), b, a, strict=True)), Fraction(0))
+        for a, b in zip(base, platform, strict=True)
+    ]
+    return _made_up("6-UPS", base, platform, [squares[0] + wrong, *squares[1:]])
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A certificate to be changed, how often in a quick run, and in a complete one: every change if None."""
+
+    make: Callable[[], Content]
+    quick: int = 40
+    complete: int | None = None
+
+
+SUBJECTS = {
+    "general 6-6, representation": Subject(partial(golden, "mourrain-l"), complete=1500),
+    "general 6-6, boxes": Subject(partial(_boxed, "mourrain-l"), 4, 200),
+    "general 6-6 of Rolland, representation": Subject(partial(golden, "rolland-6-6"), 0, 60),
+    "general 6-6 of Rolland, boxes": Subject(partial(_boxed, "rolland-6-6"), 0, 60),
+    "special robot, exact elimination": Subject(partial(golden, "similar-planar-s"), complete=1500),
+    "special robot, 28 solutions": Subject(partial(golden, "ssm-exact"), 0, 200),
+    "Gram metric, exact elimination": Subject(partial(golden, "robocrane-r"), 4, 200),
+    "chain 6-RUS, representation": Subject(partial(golden, "hexa"), 0, 100),
+    "chain 6-RUS in a Gram metric, boxes": Subject(partial(_boxed, "hexa"), 2, 100),
+    "planar, representation": Subject(partial(golden, "3-rrr"), complete=1500),
+    "planar, multiple solutions": Subject(partial(golden, "3-rpr-triple")),
+    "planar, boxes": Subject(partial(_boxed, "3-rpr-merlet-p")),
+    "tolerance, planar, complete": Subject(partial(_tolerant, "3-rpr-merlet-p", "1/100000")),
+    "tolerance-open, planar": Subject(partial(_open, "3-rrr", "1/1000"), complete=1500),
+    "tolerance, spatial, complete": Subject(partial(_tolerant, "mourrain-l", "1/1000000000000"), 4, 200),
+    "tolerance, Rolland, complete": Subject(partial(_tolerant, "rolland-6-6", "1/1000000000000000"), 0, 60),
+    "moving, congruent hexagons": Subject(_congruent),
+    "moving, dependent legs": Subject(_similar),
+    "moving, joints in a point": Subject(partial(_held, 0, 0)),
+    "moving, joints on a line": Subject(partial(_held, 1, 0)),
+    "moving beside isolated poses": Subject(_parallelogram),
+    "inconsistent, joints in a point": Subject(partial(_held, 0, 1)),
+    "inconsistent, joints on a line": Subject(partial(_held, 1, 1), 0, 60),
+    "unproved multiplicities": Subject(partial(_unproved, "3-rpr-triple")),
+    "not proven complete": Subject(lambda: without_proof(golden("similar-planar-s")), complete=1500),
+    "nothing known": Subject(_nothing),
+}
+"""Certificates of every kind, by name; the first word of the name is the kind that ``FREE`` speaks of."""
+
+
+@cache
+def subject(name: str) -> Content:
+    """The certificate with this name."""
+    return SUBJECTS[name].make()

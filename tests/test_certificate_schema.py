@@ -1,0 +1,157 @@
+"""The published schemas and the page that defines the format: they say the same, and certificates are so."""
+
+import json
+import re
+from functools import cache
+from importlib import resources
+from itertools import chain
+from typing import Any
+
+import jsonschema
+import pytest
+from certificate_subjects import SUBJECTS, subject
+from certificate_tools import CERTS, golden, leaves, with_entry
+from mutations import FREE
+
+from pkm_exact.certify import build, pure, tolerance_build
+from pkm_exact.certify.build import sealed
+from pkm_exact.certify.checker import document, tolerance_document, verdict
+
+POSES, TOLERANCES = "certificate-1.schema.json", "tolerance-certificate-1.schema.json"
+GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
+QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
+
+
+@cache
+def _schema(name: str) -> Any:
+    return json.loads(resources.files("pkm_exact.certify").joinpath(name).read_text("utf-8"))
+
+
+def schema_of(content: Any) -> jsonschema.Draft202012Validator:
+    """The validator for a certificate of this kind."""
+    name = TOLERANCES if content["format"] == tolerance_build.FORMAT else POSES
+    return jsonschema.Draft202012Validator(_schema(name))
+
+
+@pytest.mark.parametrize("name", [POSES, TOLERANCES])
+def test_schemas_are_schemas(name: str) -> None:
+    jsonschema.Draft202012Validator.check_schema(_schema(name))
+
+
+@pytest.mark.parametrize("name", GOLDEN)
+def test_golden_certificates_fit(name: str) -> None:
+    schema_of(golden(name)).validate(golden(name))
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_certificates_of_every_kind_fit(name: str) -> None:
+    content = sealed(subject(name))
+    schema_of(content).validate(content)
+
+
+# Keys
+
+
+def _objects(value: Any, node: Any, root: Any) -> Any:
+    """Every object below a value, with the part of the schema that describes it."""
+    while "$ref" in node:
+        node = root["$defs"][node["$ref"].rpartition("/")[2]]
+    for choice in node.get("anyOf", ()):
+        if choice != {"type": "null"} and value is not None:
+            node = choice
+            while "$ref" in node:
+                node = root["$defs"][node["$ref"].rpartition("/")[2]]
+    if isinstance(value, dict):
+        yield value, node
+        yield from chain.from_iterable(_objects(value[key], node["properties"][key], root) for key in value)
+    elif isinstance(value, list):
+        yield from chain.from_iterable(_objects(entry, node["items"], root) for entry in value)
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_schemas_know_every_key_and_its_order(name: str) -> None:
+    content = sealed(subject(name))
+    root = schema_of(content).schema
+    for value, node in _objects(content, root, root):
+        assert list(value) == list(node["properties"]) == node["required"]
+        assert node["additionalProperties"] is False
+
+
+@pytest.mark.parametrize("wrong", [1.5, True, [], {}, "nonsense!"])
+@pytest.mark.parametrize("name", ["planar, representation", "moving beside isolated poses", "tolerance-open, planar"])
+def test_schemas_refuse_what_is_malformed(name: str, wrong: Any) -> None:
+    content = sealed(subject(name))
+    texts = [free.path.split(".") for free in FREE if free.reason == "describes" and free.path != "formulation"]
+    for number, (path, value) in enumerate(leaves(content)):
+        if number % 7 == 0 and list(map(str, path[:2])) not in texts and path[0] != "notes" and value is not wrong:
+            assert not schema_of(content).is_valid(with_entry(content, path, wrong)), path
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "value"),
+    [
+        ("planar, boxes", ("robot", "metric", 2), "2"),
+        ("planar, boxes", ("robot", "base", 0, 2), "1"),
+        ("planar, boxes", ("robot", "base"), [["0", "0", "0"]] * 6),
+        ("general 6-6, boxes", ("robot", "kind"), "3-RPR"),
+        ("general 6-6, boxes", ("configuration", "lengths_squared"), ["1"] * 3),
+        ("nothing known", ("box_exponent",), 31),
+        ("moving, dependent legs", ("poses",), [None]),
+        ("tolerance, planar, complete", ("complete",), False),
+        ("tolerance-open, planar", ("complete",), True),
+        ("tolerance-open, planar", ("boxes", 0, "outer", 0), "0x0"),
+    ],
+)
+def test_schemas_refuse_what_does_not_go_together(name: str, path: Any, value: Any) -> None:
+    content = sealed(subject(name))
+    assert not schema_of(content).is_valid(with_entry(content, path, value))
+
+
+# The page
+
+
+def _tables(start: str, end: str) -> list[list[str]]:
+    """The keys in the tables between two headings of the page."""
+    page = (CERTS.parent / "docs" / "certificates.md").read_text()
+    part = page.partition(f"\n## {start}\n")[2].partition(f"\n{end}\n")[0]
+    tables = part.split("| key | value |\n|---|---|\n")[1:]
+    return [re.findall(r"^\| `(\w+)` \|", table.partition("\n\n")[0], flags=re.MULTILINE) for table in tables]
+
+
+def _keys(node: Any) -> list[str]:
+    return list(node["properties"])
+
+
+def test_the_page_defines_every_key_in_its_order() -> None:
+    root = _schema(POSES)
+    parts = [root["properties"][key] for key in ("robot", "configuration")]
+    parts += [root["$defs"][key] for key in ("representation", "krawczyk", "pose")]
+    assert _tables("Format", "### Spelling") == [_keys(root), *map(_keys, parts)]
+    root = _schema(TOLERANCES)
+    parts = [root["properties"][key] for key in ("tolerances", "frames")]
+    expected = [_keys(root), *map(_keys, parts), _keys(root["$defs"]["poseBox"])]
+    assert _tables("Tolerance certificates", "## References") == expected
+
+
+def test_words_and_limits_are_the_same_everywhere() -> None:
+    root = _schema(POSES)["properties"]
+    for words, key in ((document.METHODS, "method"), (document.CLAIMS, "claim")):
+        assert list(words) == root[key]["enum"]
+    assert (*document.ROUTES, None) == tuple(root["completeness_route"]["enum"])
+    assert list(document.KINDS) == root["robot"]["properties"]["kind"]["enum"]
+    assert (pure.METHODS, pure.CLAIMS, pure.ROUTES) == (document.METHODS, document.CLAIMS, document.ROUTES)
+    assert root["box_exponent"]["maximum"] == verdict.MAX_BOX_EXPONENT == pure.MAX_BOX_EXPONENT
+    assert _schema(POSES)["$defs"]["grid"]["items"]["maximum"] == verdict.MAX_GRID_EXPONENT == pure.MAX_BOX_GRID
+    exponent = _schema(TOLERANCES)["properties"]["exponent"]["maximum"]
+    assert exponent == tolerance_document.MAX_EXPONENT == pure.MAX_TOLERANCE_GRID
+
+
+def test_versions_are_the_same_everywhere() -> None:
+    for name, writer, reader in ((POSES, build, document), (TOLERANCES, tolerance_build, tolerance_document)):
+        schema = _schema(name)
+        version = schema["properties"]["version"]["const"]
+        assert writer.VERSION == reader.VERSION == version
+        assert writer.FORMAT == reader.FORMAT == schema["properties"]["format"]["const"]
+        assert f"-{version}.schema.json" in name
+        assert schema["$id"].endswith(f"-{version}")
+        assert name in (CERTS.parent / "docs" / "certificates.md").read_text()

@@ -1,0 +1,160 @@
+"""Whatever is changed in a certificate, both checkers refuse it, but for what is listed in ``mutations.FREE``."""
+
+import re
+from fractions import Fraction
+from typing import Any
+
+import mutations
+import pytest
+from certificate_subjects import SUBJECTS, subject
+from certificate_tools import CERTS, Path_, at, golden_bytes, with_entry
+from mutations import FREE, Mutation, outcome, quick_names, report
+
+from pkm_exact.certify import pure
+from pkm_exact.certify.check import Status, Verdict, check_bytes
+
+
+@pytest.mark.parametrize("name", quick_names())
+def test_no_change_survives(name: str) -> None:
+    found = report(name, complete=False)
+    print(f"{mutations.HEADING}\n{found}")
+    assert not found.survivors
+    assert found.outcomes["digest"] == SUBJECTS[name].quick
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_no_change_of_all_survives(name: str) -> None:
+    found = report(name, complete=True)
+    print(f"{mutations.HEADING}\n{found}")
+    assert not found.survivors
+    assert sum(found.outcomes.values()) == 2 * found.outcomes["digest"]
+
+
+@pytest.mark.parametrize("name", SUBJECTS)
+def test_certificates_are_accepted_unchanged(name: str) -> None:
+    content = subject(name)
+    data = mutations.canonical_bytes(mutations.sealed(content))
+    assert check_bytes(data).status is Status.ACCEPTED
+    assert SUBJECTS[name].quick == 0 or pure.check_bytes(data).lines == check_bytes(data).lines
+
+
+# What is free
+
+
+def _replaced(name: str, path: Path_, value: Any) -> str:
+    content = {key: entry for key, entry in subject(name).items() if key != "digest"}
+    new = value(at(content, path)) if callable(value) else value
+    return outcome(name, Mutation(path, "", with_entry(content, path, new)))
+
+
+def _by(step: int) -> Any:
+    return lambda value: hex(int(value, 16) + step)
+
+
+PLANAR, SPATIAL, OPEN = "tolerance, planar, complete", "tolerance, spatial, complete", "tolerance-open, planar"
+NEEDED: dict[str, tuple[str, Path_, Any]] = {
+    "robot.name": ("planar, boxes", ("robot", "name"), "another"),
+    "robot.unit": ("planar, boxes", ("robot", "unit"), "inch"),
+    "robot.source": ("tolerance, planar, complete", ("robot", "source"), "elsewhere"),
+    "configuration.name": ("planar, boxes", ("configuration", "name"), None),
+    "formulation": ("planar, boxes", ("formulation",), "AFP3:124"),
+    "notes": ("planar, boxes", ("notes",), ["a remark"]),
+    "representation.chart": ("planar, multiple solutions", ("representation", "chart", 1), 5),
+    "representation.separating_form": ("planar, multiple solutions", ("representation", "separating_form", 1), 5),
+    "elimination": ("planar, multiple solutions", ("elimination",), lambda steps: [*steps, ["0 0"]]),
+    "complex_solutions": ("unproved multiplicities", ("complex_solutions",), 5),
+    "claim": ("nothing known", ("claim",), "positive-dimensional-detected"),
+    "robot": ("inconsistent, joints in a point", ("robot", "metric", 0), "2"),
+    "configuration.lengths_squared": (
+        "inconsistent, joints in a point",
+        ("configuration", "lengths_squared", 0),
+        "1000",
+    ),
+    "tolerances": (PLANAR, ("tolerances", "lengths"), "0"),
+    "boxes.*.outer": (PLANAR, ("boxes", 0, "outer", 0), _by(1)),
+    "boxes.*.inner": (PLANAR, ("boxes", 0, "inner", 0), _by(1)),
+    "pairs.*.outer": (PLANAR, ("pairs", 0, "outer", 0), _by(1)),
+    **{
+        f"boxes.*.{key}": (PLANAR, ("boxes", 0, key, *place, 1), lambda end: str(Fraction(end) + Fraction(1, 2**60)))
+        for key, place in (("position", (0,)), ("rotation", (0, 2)), ("quaternion", (1,)), ("centroid", (0,)))
+    },
+    "boxes.*.position_error": (PLANAR, ("boxes", 0, "position_error"), "1"),
+    "boxes.*.rotation_error": (PLANAR, ("boxes", 0, "rotation_error"), "1"),
+    "boxes": (OPEN, ("boxes",), lambda boxes: boxes[:-1]),
+    "unproved": (OPEN, ("unproved",), lambda numbers: [*numbers, 7]),
+}
+"""For each entry of ``FREE`` a change that is accepted."""
+
+
+def test_no_entry_of_the_table_is_there_for_nothing() -> None:
+    assert [free.path for free in FREE] == list(NEEDED)
+
+
+@pytest.mark.parametrize("path", NEEDED)
+def test_what_is_free_may_change(path: str) -> None:
+    assert _replaced(*NEEDED[path]) == "free"
+
+
+def test_the_page_lists_what_is_free() -> None:
+    page = (CERTS.parent / "docs" / "certificates.md").read_text()
+    table = page.partition("### What the digest binds")[2].partition("\n#")[0]
+    listed = re.findall(r"^\| `([a-z_.*]+)` \|", table, flags=re.MULTILINE)
+    assert listed == [free.path for free in FREE]
+
+
+# The suite itself
+
+
+def test_a_checker_that_accepts_everything_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(mutations, "check_bytes", lambda _: Verdict(Status.ACCEPTED, ("fine: all of it",)))
+    found = report("planar, boxes", complete=False)
+    assert len(found.survivors) > SUBJECTS["planar, boxes"].quick
+
+
+def test_checkers_that_disagree_are_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pure, "near_inverse", lambda *_: None)
+    assert any(" but " in survivor for survivor in report("tolerance, planar, complete", complete=False).survivors)
+
+
+def test_a_refusal_without_a_reason_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    refusal = Verdict(Status.REJECTED, ("no",))
+    monkeypatch.setattr(mutations, "check_bytes", lambda _: refusal)
+    monkeypatch.setattr(pure, "check_bytes", lambda _: pure.Verdict("rejected", ("no",)))
+    assert report("planar, boxes", complete=False).survivors
+
+
+@pytest.mark.parametrize(
+    ("value", "key", "others"),
+    [
+        (5, "version", [6, 4, -5, 0, 5.0, "5", True, None]),
+        ("3/7", "x", ["10/7", "-4/7", "-3/7", "0", "3/2", "03/7", "+3/7", "6/14", 3 / 7]),
+        ("-0x1f", "x", ["-0x1e", "-0x20", "0x1f", "0x0", "-0x10", "-31", "-0x01f", "+-0x1f", -31, "-0X1F"]),
+        ("36 2 5", "x", ["37 2 5", "36 5", "36 2 5 5", "36  2 5"]),
+        ("complete", "claim", ["completex", "complet", "COMPLETE", "inconsistent"]),
+        (True, "complete", [False, 1, None]),
+        ([1, 2, 3], "x", [[], [2, 3], [1, 2], [1, 1, 2, 3], [1, 2, 3, 3], [2, 1, 3], [3, 2, 1], [1, 2, 3, None]]),
+        (
+            {"a": 1, "b": 2},
+            "x",
+            [{"a": 1}, {"b": 2}, {"b": 2, "a": 1}, {"a_": 1, "b": 2}, {"a": 1, "b": 2, "extra": None}],
+        ),
+    ],
+)
+def test_what_an_entry_is_changed_into(value: Any, key: str, others: list[Any]) -> None:
+    found = [repr(new) for _, new in mutations.changed(value, (key,))]
+    assert {repr(other) for other in others} <= set(found)
+
+
+# Bytes
+
+
+@pytest.mark.parametrize("name", ["3-rpr-triple", "mourrain-l"])
+def test_a_changed_byte(name: str) -> None:
+    data = golden_bytes(name)
+    for place in range(0, len(data), len(data) // 50):
+        for byte in (data[place] ^ 1, data[place] ^ 0x80):
+            changed = data[:place] + bytes([byte]) + data[place + 1 :]
+            one, other = check_bytes(changed), pure.check_bytes(changed)
+            assert str(one.status) == other.status
+            assert one.status in (Status.REJECTED, Status.MALFORMED)
