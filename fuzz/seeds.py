@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from targets import PLAIN, ROOT
 
-from pkm_exact import Robot, certificate, read_robot, solve, solve_krawczyk
+from pkm_exact import Robot, Tolerances, certificate, read_robot, solve, solve_krawczyk, tolerance_boxes
 from pkm_exact.certify.build import canonical_bytes
+from pkm_exact.certify.tolerance_build import tolerance_certificate
 
 SMALL = 12_000
 """Bytes of golden certificates that serve as seeds: quick to check."""
+SMALL_TOLERANCES = Tolerances.uniform("1/1000000")
 
 
 def seeds(target: str) -> list[bytes]:
@@ -17,6 +19,12 @@ def seeds(target: str) -> list[bytes]:
         return [path.read_bytes() for path in sorted((ROOT / "models").glob("*.toml"))]
     if target == "path":
         return [b"l1,l2,l3\n7,5,5\n7.5,5,5\n", b"time,l1,l2,l3\n0,7,5,5\n1,15/2,5,5e0\n", b"# none\n\n7,5,5\n7,5,5\n"]
+    if target == "lengths":
+        return [
+            b"l1,l2,l3\n7,5,5\n# none\n7.5,5,1e1\n",
+            b"7,5,5\r\n,,\r\n15/2,x,5\r\n",
+            b"\xef\xbb\xbfl1,l2,l3\n\n7,5\n",
+        ]
     if target == "command":
         return [bytes([255 - 1 - index]) for index in range(len(PLAIN))] + [bytes([index]) for index in range(64)]
     found = [path.read_bytes() for path in sorted((ROOT / "certs").glob("*.json")) if path.stat().st_size < SMALL]
@@ -24,7 +32,7 @@ def seeds(target: str) -> list[bytes]:
 
 
 def _other_certificates() -> list[bytes]:
-    """Of the kinds that no golden file has: Krawczyk's operator, and a robot that moves."""
+    """Of the kinds that no golden file has: Krawczyk's operator, a robot that moves, and tolerances."""
     robot = read_robot(ROOT / "models" / "3-rpr-merlet-p.toml")
     configuration = robot.configuration()
     problem = robot.problem(configuration)
@@ -32,5 +40,6 @@ def _other_certificates() -> list[bytes]:
     documents = [
         certificate(robot, configuration.name, solve_krawczyk(problem)),
         certificate(parallelogram, None, solve(parallelogram.problem([25, 25, 25]))),
+        tolerance_certificate(robot, configuration.name, tolerance_boxes(problem, SMALL_TOLERANCES, solve(problem))),
     ]
     return [canonical_bytes(document) for document in documents]

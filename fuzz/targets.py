@@ -18,10 +18,14 @@ from pkm_exact.cli.main import ExitCode, main
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.path_reader import read_path
 from pkm_exact.geometry.reader import read_robot, robot_from_toml
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.sweep.lengths import LengthRow, problem_of, read_lengths
 
 ROOT = Path(__file__).parent.parent
 QUICK = ROOT / "models" / "3-rpr-merlet-p.toml"
-STATUSES = {"accepted", "rejected", "malformed"}
+STATUSES = {"accepted", "rejected", "malformed", "too-large"}
+TOO_LARGE = "too-large"
+"""The second checker may say so where the first decides: it is the slower one."""
 
 
 class Finding(Exception):  # noqa: N818 - what a fuzzer looks for
@@ -50,7 +54,7 @@ def fuzz_certificate(data: bytes) -> None:
 def fuzz_checkers(data: bytes) -> None:
     """Both checkers have the same verdict."""
     first, second = check_bytes(data), pure.check_bytes(data)
-    if str(first.status) != str(second.status):
+    if str(first.status) != str(second.status) != TOO_LARGE:
         raise Finding(f"{first.status} {first.lines[-1:]}, but {second.status} {second.lines[-1:]}")
 
 
@@ -67,6 +71,30 @@ def fuzz_path(data: bytes) -> None:
             return
     if not path.rows or any(len(row) != 3 or min(row) <= 0 for row in path.rows):
         raise Finding(f"a path that is none: {path.rows[:2]}")
+
+
+def fuzz_lengths(data: bytes) -> None:
+    """Length vectors are read row by row, and each that is none, or the whole file, refused in one sentence."""
+    robot = read_robot(QUICK)
+    with TemporaryDirectory() as name:
+        file = Path(name) / "lengths.csv"
+        file.write_bytes(data)
+        try:
+            lengths = read_lengths(file, robot)
+            for row in lengths.rows():
+                _try_row(robot, row, lengths.names)
+        except InputError as error:
+            _require_sentence(str(error))
+
+
+def _try_row(robot: Robot, row: LengthRow, names: tuple[str, ...]) -> None:
+    try:
+        problem = problem_of(robot, row, names, squared=False)
+    except InputError as error:
+        _require_sentence(str(error))
+        return
+    if any(leg.length_squared <= 0 for leg in problem.legs):
+        raise Finding(f"lengths that are none: {row}")
 
 
 FILES = ("r.toml", "c.json", "p.csv", "none.toml", ".", "", "o.json", "/dev/null", "-", "no/o.json")
@@ -160,6 +188,7 @@ TARGETS: Mapping[str, Callable[[bytes], None]] = {
     "certificate": fuzz_certificate,
     "checkers": fuzz_checkers,
     "path": fuzz_path,
+    "lengths": fuzz_lengths,
     "command": fuzz_command,
 }
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 FOLDER = Path(__file__).parent.parent / "fuzz"
-NAMES = ("model", "path", "certificate", "checkers", "command")
+NAMES = ("model", "path", "lengths", "certificate", "checkers", "command")
 
 
 @pytest.fixture
@@ -55,7 +55,7 @@ def test_changed_certificates_reach_the_checks(fuzzing: Any) -> None:
     statuses = {
         str(check_bytes(mutation.mutated(data, seed)).status) for data in seeds.seeds("checkers") for seed in range(40)
     }
-    assert statuses == {"accepted", "rejected", "malformed"}
+    assert statuses >= {"accepted", "rejected", "malformed"}
 
 
 def test_a_fault_is_a_finding(fuzzing: Any, monkeypatch: pytest.MonkeyPatch) -> None:
