@@ -60,7 +60,6 @@ class Program:
         None if it is not installed.
     command : callable
         From the model's path, the problem and a folder of its own to the command; None if it cannot be given this one.
-    is_ours : bool
     """
 
     title: str

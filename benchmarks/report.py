@@ -108,9 +108,9 @@ def _formulations(part: Mapping[str, Any]) -> str:
         for code, entry in entries.items():
             both = entry["engine"] and entry["msolve"]
             ratio = median(entry["engine"]) / median(entry["msolve"]) if both else None
-            other = _spread(entry["msolve"]) if entry["ended"] else f"none in {_spread(entry['msolve'])}"
-            rows.append([code, _spread(entry["engine"]), other, "" if ratio is None else f"{ratio:.2f}"])
-        head = ["formulation", "exact engine, in process", "msolve on the same system", "ratio"]
+            times = _spread(entry["engine"]), _spread(entry["msolve"])
+            rows.append([code, *times, entry["answer"], "" if ratio is None else f"{ratio:.2f}"])
+        head = ["formulation", "exact engine, in process", "msolve on the same system", "its answer", "ratio"]
         text += f"\n\n### {robot}\n\n" + _table(head, rows)
     return text
 

@@ -88,7 +88,7 @@ def formulations(model: Path, runs: int, limit: float, log: Log) -> dict[str, di
     problem = robot.problem(robot.configuration())
     results: dict[str, dict[str, Any]] = {}
     for code in formulation_codes():
-        entry: dict[str, Any] = {"engine": [], "msolve": [], "ended": True}
+        entry: dict[str, Any] = {"engine": [], "msolve": [], "ended": True, "answer": ""}
         with TemporaryDirectory() as name:
             command = msolve_on(code, problem, Path(name))
             for number in range(runs + 1):
@@ -99,6 +99,7 @@ def formulations(model: Path, runs: int, limit: float, log: Log) -> dict[str, di
                 if command is not None and entry["ended"]:
                     done = run(command.words, limit, Path(name))
                     entry["ended"] = done.code in GOOD_EXITS
+                    entry["answer"] = command.answer(done) if entry["ended"] else f"none in {limit:g} s"
                     if number or not entry["ended"]:
                         entry["msolve"].append(done.seconds)
                 log(f"{model.stem}: {code}, run {number}")

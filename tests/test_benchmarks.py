@@ -17,21 +17,34 @@ def _run(script: str, *arguments: str, limit: float = 120) -> subprocess.Complet
     return subprocess.run(command, capture_output=True, text=True, timeout=limit, check=False)
 
 
-def test_programs_and_engines_side_by_side(tmp_path: Path) -> None:
+def test_engines_in_process(tmp_path: Path) -> None:
+    words = ["--runs", "1", "--robots", "3-rpr-merlet-p", "--family", "--parts", "engines"]
+    done = _run("bench.py", "--output", str(tmp_path), *words)
+    assert done.returncode == 0, done.stderr
+    results = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert set(results) == {"machine", "engines", "limits"}
+    for method in ("exact", "krawczyk"):
+        entry = results["engines"]["3-rpr-merlet-p"][method]
+        assert entry["method"] == method
+        assert 0 < sum(seconds for (seconds,) in entry["stages"].values()) <= entry["seconds"][0]
+    assert {"date", "processor", "cores", "memory", "versions"} <= set(results["machine"])
+    assert "| 3-rpr-merlet-p | " in (tmp_path / "report.md").read_text(encoding="utf-8")
+    assert (tmp_path / "engines.svg").stat().st_size > 1000
+
+
+@pytest.mark.slow
+def test_programs_side_by_side(tmp_path: Path) -> None:
     words = ["--runs", "1", "--limit", "20", "--robots", "3-rpr-merlet-p", "--family"]
-    done = _run("bench.py", "--output", str(tmp_path), *words, "--parts", "programs", "engines")
+    done = _run("bench.py", "--output", str(tmp_path), *words, "--parts", "programs")
     assert done.returncode == 0, done.stderr
     results = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
     entries = results["whole processes"]["robots"]["3-rpr-merlet-p"]
     for method in ("exact", "krawczyk"):
         assert entries[method]["answer"] == "2 real, complete"
         assert all(run["memory"] > 1e7 and run["seconds"] > 0 for run in entries[method]["runs"])
-        assert results["engines"]["3-rpr-merlet-p"][method]["stages"]
     if "msolve" in entries:
         assert entries["msolve"]["answer"] == "6 complex, 2 real"
-    assert {"date", "processor", "cores", "memory", "versions"} <= set(results["machine"])
     assert "| pkm_exact, exact |" in (tmp_path / "report.md").read_text(encoding="utf-8")
-    assert (tmp_path / "engines.svg").stat().st_size > 1000
 
 
 @pytest.mark.slow
