@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 from samples import MODELS, random_placed, shipped, solved
 from tolerance_tools import errors_of, exact_robot, poses_near, robots_with
 
-from pkm_exact import InputError, read_robot
+from pkm_exact import InputError, read_robot, solve
 from pkm_exact.certify.build import canonical_bytes
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.certify.tolerance_build import tolerance_certificate
@@ -425,3 +425,17 @@ def test_certificates_of_tiny_tolerances_are_accepted(tolerance: str, tmp_path: 
     model, target = Path(__file__).parent.parent / "models" / "3-rpr-merlet-p.toml", tmp_path / "tolerance.json"
     assert main(["solve", str(model), "--tolerance", tolerance, "-o", str(target)]) == 0
     assert main(["check", str(target)]) == 0
+
+
+def test_solutions_with_coordinates_that_are_0_are_found(tmp_path: Path) -> None:
+    """Of a symmetric robot: such a coordinate has no small error in proportion to itself, at any precision."""
+    model = tmp_path / "symmetric.toml"
+    words = ["new", "--kind", "6-6", "--base-sides", "400,200", "--platform-sides", "100,300", "--height", "500"]
+    assert main([*words, "-o", str(model)]) == 0
+    robot = read_robot(model)
+    problem = robot.problem(robot.configuration())
+    result = tolerance_boxes(problem, Tolerances.uniform("1/100"), solve(problem))
+    bounds = [box.bounds for box in result.boxes if box.bounds is not None]
+    assert bounds
+    assert all(0 <= each.position_error.lo <= each.position_error.hi for each in bounds)
+    assert all(0 <= each.rotation_error.lo <= each.rotation_error.hi for each in bounds)

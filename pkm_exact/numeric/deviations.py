@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import product
 from typing import Final
 
@@ -136,7 +137,13 @@ def pose_bounds(near: Linearisation, errors: DataErrors, radii: Sequence[arb]) -
     chord = _greatest(effects, offsets, legs, QUATERNION_ROWS)
     if not chord < 1:
         return None
-    return PoseBounds(components, interval(distance), interval(4 * (chord / 2).asin()))
+    return PoseBounds(components, _not_negative(distance), _not_negative(4 * (chord / 2).asin()))
+
+
+def _not_negative(length: arb) -> Interval:
+    """The ball as an interval, without what its rounding puts below 0."""
+    bounds = interval(length)
+    return Interval(max(bounds.lo, Fraction(0)), bounds.hi)
 
 
 def _widened(value: arb, reach: arb) -> arb:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import reduce
 from typing import Final, cast
 
 from flint import acb, acb_mat, acb_poly, arb, ctx
@@ -13,6 +14,7 @@ from pkm_exact.numeric.parametric import Linearisation, holds_one, linearise, re
 from pkm_exact.numeric.pose_maps import interval_ball, pose_map
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 from pkm_exact.solution import Solution
 
@@ -63,15 +65,28 @@ def _roots(representation: PoseRepresentation) -> list[list[acb]]:
     """(e, f) at the roots of the eliminant in the upper half plane; the precision rises until they are accurate."""
     precision = ctx.prec
     while True:
-        with ctx.workprec(precision):
+        with working_precision(precision):
             h = representation.univariate.primitive_polynomial
             roots = [root for root, _ in cast("list[tuple[acb, int]]", h.complex_roots()) if root.imag > 0]
             numerators = [acb_poly(numerator) for numerator in representation.univariate.numerator_polynomials]
             slope = acb_poly(representation.denominator)
             rows = [[numerator(root) / slope(root) for numerator in numerators] for root in roots]
-        if all(value.rel_accuracy_bits() > ACCURATE_BITS or value == 0 for row in rows for value in row):
+        if all(_is_accurate(row) for row in rows):
             return rows
         precision *= 2
+
+
+def _is_accurate(row: Sequence[acb]) -> bool:
+    """Whether the errors are small beside e, and those of f beside f, which may vanish.
+
+    Not beside each coordinate: one that is 0 never has a small enclosure in proportion to itself.
+    """
+    small = arb(2) ** -ACCURATE_BITS
+    sizes = [reduce(arb.max, (value.abs_upper() for value in half)) for half in (row[:4], row[4:])]
+    errors = [reduce(arb.max, (value.rad() for value in half)) for half in (row[:4], row[4:])]
+    if not errors[0] <= small * sizes[0]:
+        return False
+    return bool(errors[1] <= small * sizes[1] or sizes[1] <= small * small * sizes[0])
 
 
 def _ordinary(robot: CentredRobot, row: Sequence[acb]) -> acb_mat:
