@@ -16,6 +16,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
+    from pkm_exact.batch.many import ManySolutions as ManySolutions
+    from pkm_exact.batch.many import solve_many as solve_many
     from pkm_exact.certify.build import certificate as certificate
     from pkm_exact.certify.build import write_certificate as write_certificate
     from pkm_exact.certify.certificate import Certificate as Certificate
@@ -31,8 +33,6 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Configuration as Configuration
     from pkm_exact.geometry.robot import Robot as Robot
     from pkm_exact.geometry.tolerances import Tolerances as Tolerances
-    from pkm_exact.many import ManySolutions as ManySolutions
-    from pkm_exact.many import solve_many as solve_many
     from pkm_exact.numeric.tolerance import tolerance_boxes as tolerance_boxes
     from pkm_exact.numeric.tolerance_result import ToleranceResult as ToleranceResult
     from pkm_exact.numeric.trajectory import track_branch as track_branch
@@ -56,7 +56,7 @@ _HOME: Final = {
     "InputError": "errors",
     "Interval": "poses.pose",
     "Leg": "geometry.problem",
-    "ManySolutions": "many",
+    "ManySolutions": "batch.many",
     "PkmExactError": "errors",
     "Policy": "policy",
     "Pose": "poses.pose",
@@ -72,7 +72,7 @@ _HOME: Final = {
     "recompute": "recomputation",
     "solve": "engine",
     "solve_krawczyk": "numeric_engine",
-    "solve_many": "many",
+    "solve_many": "batch.many",
     "tolerance_boxes": "numeric.tolerance",
     "track_branch": "numeric.trajectory",
     "write_certificate": "certify.build",

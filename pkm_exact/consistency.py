@@ -13,7 +13,7 @@ from fractions import Fraction
 from flint import fmpq, fmpz_poly, nmod_mat, nmod_poly
 
 from pkm_exact.algebra.primes import primes_below
-from pkm_exact.contradiction import require
+from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import evaluate, pose_quadrics
 from pkm_exact.numeric.consistency import require_sound_boxes
@@ -30,8 +30,6 @@ from pkm_exact.roots.counting import roots_in_gaps
 from pkm_exact.solution import Solution
 from pkm_exact.verdict import Claim, CompletenessRoute
 
-MOTION_DEGREES = {False: 40, True: 6}
-"""Degree of the variety of rigid motions, or of planar ones."""
 _PROVED = (Claim.COMPLETE, Claim.INCONSISTENT)
 
 
@@ -45,8 +43,8 @@ def consistent(solution: Solution) -> Solution:
     """
     _require_proof_of_claim(solution)
     _require_counts(solution)
-    for representation, problem in _representations(solution):
-        _require_representation(representation, problem)
+    for representation in _representations(solution):
+        _require_representation(representation, solution.problem)
     if solution.isolated is not None:
         counts = {"poses": len(solution.poses), "distinct": solution.distinct_solutions}
         require(solution.isolated.count == counts["distinct"], "the boxes are not as many as the solutions", **counts)
@@ -72,7 +70,7 @@ def _require_proof_of_claim(solution: Solution) -> None:
     counts = {"total": proof.total, "complex": solution.complex_solutions, "distinct": solution.distinct_solutions}
     require(proof.total == solution.complex_solutions, "the proof is one of another number of solutions", **counts)
     if proof.route == CompletenessRoute.REFINED_BEZOUT:
-        degree = MOTION_DEGREES[solution.problem.planar]
+        degree = solution.problem.motion_degree
         require(solution.distinct_solutions == proof.total == degree, "fewer solutions than the degree", **counts)
     _require_multiplicities(proof, solution)
 
@@ -92,7 +90,7 @@ def _require_counts(solution: Solution) -> None:
     facts = {"real": real, "distinct": distinct, "complex": count}
     require(real <= distinct <= count, "the numbers of solutions are out of order", **facts)
     require((distinct - real) % 2 == 0, "solutions that are not real come in pairs", **facts)
-    limit = MOTION_DEGREES[solution.problem.planar]
+    limit = solution.problem.motion_degree
     require(distinct <= limit, "more solutions than the variety of motions allows", limit=limit, **facts)
     if solution.claim == Claim.COMPLETE:
         multiplicities = [pose.multiplicity for pose in solution.poses]
@@ -102,11 +100,12 @@ def _require_counts(solution: Solution) -> None:
         require(rest >= 0 and rest % 2 == 0, "solutions that are not real come in pairs", rest=rest, **facts)
 
 
-def _representations(solution: Solution) -> list[tuple[PoseRepresentation, ForwardProblem]]:
+def _representations(solution: Solution) -> list[PoseRepresentation]:
+    """That of the poses, and that of the witnesses of a self-motion."""
     found = [] if solution.representation is None else [solution.representation]
     if isinstance(solution.self_motion, SelfMotion):
         found.append(solution.self_motion.representation)
-    return [(representation, solution.problem) for representation in found]
+    return found
 
 
 def _require_representation(representation: PoseRepresentation, problem: ForwardProblem) -> None:

@@ -18,7 +18,7 @@ class ReconstructionError(PkmExactError):
 
 
 class InternalError(PkmExactError):
-    """Something that a correct program never does; no answer is given (``contradiction``).
+    """Something that a correct program never does; no answer is given (``failures``).
 
     Attributes
     ----------

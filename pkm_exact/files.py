@@ -20,7 +20,10 @@ def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
     OSError
         If the file cannot be written; what stood there before is then untouched.
     """
-    target = Path(os.path.realpath(path))
+    name = os.fsdecode(path)
+    if "\0" in name:
+        raise OSError(errno.EINVAL, "embedded null byte", name)
+    target = Path(os.path.realpath(name))
     if target.exists() and not target.is_file():
         raise OSError(errno.EINVAL, "not a regular file", str(target))
     draft = target.with_name(f".{target.name[:100]}.{token_hex(8)}.tmp")

@@ -12,15 +12,15 @@ from fractions import Fraction
 from typing import Final
 
 from pkm_exact.consistency import consistent
-from pkm_exact.contradiction import attached, require
 from pkm_exact.engine import solve
+from pkm_exact.failures.contradiction import attached, require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.certification import IsolatedSolutions
 from pkm_exact.numeric.krawczyk import ChartSystem
-from pkm_exact.numeric.poses import approximations, certified_solutions, motion_degree, real_poses
+from pkm_exact.numeric.poses import approximations, certified_solutions, real_poses
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.policy import Policy
-from pkm_exact.poses.boxes import DEFAULT_WIDTH
+from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width
 from pkm_exact.poses.completeness import CompletenessProof
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Stages
@@ -69,6 +69,7 @@ def solve_krawczyk(
         As ``engine.solve``, if that has to be called.
     """
     policy, stages = policy or Policy(), Stages(progress)
+    exponent_for_width(width)  # refuses what is no width before the work
     with attached(problem, stages, method="krawczyk", width=width, policy=policy):
         found = _by_numbers(problem, width, policy, stages, start)
         if found is not None:
@@ -80,7 +81,7 @@ def _by_numbers(
     problem: ForwardProblem, width: Fraction, policy: Policy, stages: Stages, start: StartSection | None
 ) -> Solution | None:
     """The answer of the numeric engine, or None if it cannot certify all solutions."""
-    degree = motion_degree(problem)
+    degree = problem.motion_degree
     starts = [(None, policy.seed * attempt) for attempt in range(ATTEMPTS)]
     for section, seed in starts if start is None else [(start, 0), *starts]:
         stages.enter("path tracking")
@@ -115,7 +116,7 @@ def solve_exactly_instead(
     exact = solve(problem, width=width, policy=policy, progress=progress)
     # How many solutions were certified depends on rounding, and so on the machine: it is not for a certificate.
     note = (
-        f"{FALLBACK_NOTE} certify all of the {motion_degree(problem)} solutions that would prove its list "
+        f"{FALLBACK_NOTE} certify all of the {problem.motion_degree} solutions that would prove its list "
         "complete; the exact engine answered instead"
     )
     return replace(exact, notes=(*exact.notes, note))

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final
+
+SMALLEST_WIDTH: Final = Fraction(1, 2**4096)
+"""Boxes narrower than this are refused: they would take for ever."""
 
 
 @dataclass(frozen=True)

@@ -14,26 +14,28 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from pkm_exact.certify.build import canonical_bytes, certificate
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.certify.tolerance_build import FORMAT as TOLERANCE_FORMAT
 from pkm_exact.certify.tolerance_build import tolerance_certificate
-from pkm_exact.contradiction import require
 from pkm_exact.engine import solve
+from pkm_exact.errors import InputError
+from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.numeric_engine import FALLBACK_NOTE, solve_exactly_instead, solve_krawczyk
 from pkm_exact.policy import Policy
-from pkm_exact.wording import shown
+from pkm_exact.stages import Progress
+from pkm_exact.wording import counted, shown
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.problem import ForwardProblem, Vector
     from pkm_exact.solution import Solution
 
-Progress = Callable[[str], None]
-Path_ = tuple[str | int, ...]
+Place: TypeAlias = tuple[str | int, ...]
+"""Where an entry stands in a certificate: keys and indices from the outermost one on."""
 
 _PROOF: Final = ("representation", "elimination", "krawczyk", "digest")
 """What may depend on random choices, if they are not the default ones."""
@@ -90,7 +92,7 @@ def recompute(
     Raises
     ------
     InputError
-        If the robot has no such configuration.
+        If the robot has no such configuration, or no bytes are given.
     PkmExactError
         As ``engine.solve``.
 
@@ -107,6 +109,8 @@ def recompute(
     >>> print(recompute(data, robot=changed))
     differs: first at robot.platform[2][1]: '2' in the file, '1' now
     """
+    if not isinstance(data, bytes):
+        raise InputError("certificate: recompute takes the bytes of the file; give Certificate.load(path).data")
     verdict = check_bytes(data)
     if verdict.status != "accepted":
         outcome = {"rejected": Outcome.REJECTED, "malformed": Outcome.MALFORMED}.get(verdict.status, Outcome.TOO_LARGE)
@@ -191,8 +195,7 @@ def _summary(content: dict[str, Any]) -> str:
         total = proved + len(content["unproved"])
         claim = "complete within tolerance" if content["complete"] else "not proven complete within tolerance"
         return f"{claim}, {proved} of {total} poses proved"
-    count = content["real_poses"]
-    return f"{content['claim'].replace('-', ' ')}, {count} pose{'' if count == 1 else 's'}"
+    return f"{content['claim'].replace('-', ' ')}, {counted(content['real_poses'], 'pose')}"
 
 
 def _difference(file: dict[str, Any], now: dict[str, Any]) -> str:
@@ -210,7 +213,7 @@ def _without_proof(content: dict[str, Any]) -> dict[str, Any]:
     return {**kept, "poses": [{**pose, "parameter": None} for pose in content.get("poses", [])]}
 
 
-def _differences(left: Any, right: Any, path: Path_) -> Iterator[tuple[Path_, Any, Any]]:
+def _differences(left: Any, right: Any, path: Place) -> Iterator[tuple[Place, Any, Any]]:
     """Paths and values of the leaves that differ, in order; of lists of different lengths, first the lists."""
     if isinstance(left, dict) and isinstance(right, dict):
         for key in [*left, *(key for key in right if key not in left)]:
@@ -224,7 +227,7 @@ def _differences(left: Any, right: Any, path: Path_) -> Iterator[tuple[Path_, An
         yield path, left, right
 
 
-def _spelled(path: Path_) -> str:
+def _spelled(path: Place) -> str:
     """A path as in ``poses[3].position[0][1]``; the first entry is number 0.
 
     Examples

@@ -172,9 +172,9 @@ class Solution:
         PkmExactError
             If scipy is not installed; the message says how to get it.
         """
-        from pkm_exact.poses.arrays import rotation_of
+        from pkm_exact.poses.arrays import rotations_of
 
-        return rotation_of(self.to_numpy())
+        return rotations_of(self.to_numpy().quaternion, "to_scipy")
 
     def to_frame(self) -> DataFrame:
         """A pandas table with one row per real pose, numbered from 1.
@@ -222,7 +222,7 @@ class Solution:
         PkmExactError
             If matplotlib is not installed, or the solution does not know its robot.
         """
-        from pkm_exact.display import solution_figure
+        from pkm_exact.interactive.display import solution_figure
 
         self._known_robot("plot")
         return solution_figure(self)
@@ -236,6 +236,6 @@ class Solution:
         return self.robot
 
     def _repr_html_(self) -> str:
-        from pkm_exact.display import solution_html
+        from pkm_exact.interactive.display import solution_html
 
         return solution_html(self)

@@ -35,7 +35,7 @@ from pkm_exact import (
     solve_many,
     tolerance_boxes,
 )
-from pkm_exact.facade import Question, posed
+from pkm_exact.interactive.facade import Question, posed
 
 ROOT = Path(__file__).parent.parent
 MODELS = ROOT / "models"
@@ -440,7 +440,7 @@ def test_a_solution_shows_claim_poses_and_picture(two: Solution) -> None:
 
 
 def test_without_matplotlib_there_is_no_picture(two: Solution, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pkm_exact.display.find_spec", lambda _: None)
+    monkeypatch.setattr("pkm_exact.interactive.display.find_spec", lambda _: None)
     page = Page(two._repr_html_())
     assert page.images == []
     assert page.tags.count("tr") == 3
@@ -587,7 +587,7 @@ def test_a_notebook_sees_progress(
     planar: Robot, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setitem(sys.modules, "ipykernel", builtins)
-    monkeypatch.setattr("pkm_exact.cli.progress.PATIENCE", 0)
+    monkeypatch.setattr("pkm_exact.interactive.progress.PATIENCE", 0)
     planar.solve(progress=True)
     shown = capsys.readouterr().err
     assert "self-motion" in shown

@@ -20,10 +20,10 @@ from samples import shipped, solved
 from pkm_exact import Policy, Tolerances, solve, solve_krawczyk, tolerance_boxes
 from pkm_exact.cli.main import main
 from pkm_exact.consistency import consistent
-from pkm_exact.contradiction import require
 from pkm_exact.engine import _Run
 from pkm_exact.errors import InternalContradictionError, InternalError, PkmExactError, UnexpectedError
-from pkm_exact.failure_report import internal_error, reported
+from pkm_exact.failures.contradiction import require
+from pkm_exact.failures.failure_report import internal_error, reported
 from pkm_exact.numeric.certification import IsolatedSolutions
 from pkm_exact.numeric.fallback import solve_within
 from pkm_exact.poses.consistency import require_degree_zero
@@ -93,6 +93,7 @@ def _at_five(found: Any) -> Any:
     return replace(found, algebra=found.algebra.quotient_by(found.position[0] - found.algebra.one * 5))
 
 
+SEARCH = "pkm_exact.poses.search"
 L, P, S, Q, T = "mourrain-l", "3-rpr-merlet-p", "similar-planar-s", "3-rpr-double-q", "3-rpr-triple"
 D = "dietmaier"
 EXACT: dict[str, Fault] = {
@@ -126,15 +127,25 @@ EXACT: dict[str, Fault] = {
         "disjoint_cells",
         _cells(lambda rows: [[*row[:12], *(Interval(-entry.hi, -entry.lo) for entry in row[12:])] for row in rows]),
     ),
-    "a coefficient of a rotation is wrong": (P, "pkm_exact.engine", "pose_representation", _numerator(3)),
-    "a coefficient of a translation is wrong": (P, "pkm_exact.engine", "pose_representation", _numerator(5)),
-    "a coefficient of the eliminant is wrong": (P, "pkm_exact.engine", "pose_representation", _eliminant),
-    "the coefficient goes wrong after verification": (P, "pkm_exact.engine", "_Run._representation", _numerator(6)),
-    "the eliminant goes wrong after verification": (P, "pkm_exact.engine", "_Run._representation", _eliminant),
+    "a coefficient of a rotation is wrong": (P, SEARCH, "pose_representation", _numerator(3)),
+    "a coefficient of a translation is wrong": (P, SEARCH, "pose_representation", _numerator(5)),
+    "a coefficient of the eliminant is wrong": (P, SEARCH, "pose_representation", _eliminant),
+    "the coefficient goes wrong after verification": (
+        P,
+        SEARCH,
+        "PoseSearch.representation",
+        _numerator(6),
+    ),
+    "the eliminant goes wrong after verification": (
+        P,
+        SEARCH,
+        "PoseSearch.representation",
+        _eliminant,
+    ),
     "the chart goes wrong after verification": (
         L,
-        "pkm_exact.engine",
-        "_Run._representation",
+        SEARCH,
+        "PoseSearch.representation",
         lambda found: replace(found, chart=(0, 0, 1, 1)),
     ),
     "a determinant changes sign": (
@@ -188,7 +199,7 @@ EXACT: dict[str, Fault] = {
         "ModularPoses.distinct_poses",
         lambda n: n + 1,
     ),
-    "all poses but one are lost modulo a prime": (P, "pkm_exact.engine", "modular_poses", _at_five),
+    "all poses but one are lost modulo a prime": (P, SEARCH, "modular_poses", _at_five),
 }
 """What is wrong: a robot, the module and function, and the change of its result."""
 
@@ -427,7 +438,7 @@ COMMANDS = {
     "pkm_exact.engine.solve": ["solve", str(MODEL)],
     "pkm_exact.numeric_engine.solve_krawczyk": ["solve", str(MODEL), "--method", "krawczyk"],
     "pkm_exact.numeric.newton.solve_newton": ["solve", str(MODEL), "--method", "newton"],
-    "pkm_exact.certify.build.certificate": ["solve", str(MODEL), "-o", "never.json"],
+    "pkm_exact.certify.build.certificate_bytes": ["solve", str(MODEL), "-o", "never.json"],
     "pkm_exact.certify.check.check_bytes": ["check", str(ROOT / "certs" / "3-rrr.json")],
     "pkm_exact.certify.pure.check_bytes": ["check", "--pure", str(ROOT / "certs" / "3-rrr.json")],
     "pkm_exact.geometry.reader.read_robot": ["solve", str(MODEL)],
@@ -483,14 +494,14 @@ def test_without_a_writable_folder_the_report_goes_elsewhere(
     monkeypatch.chdir(closed)
     monkeypatch.setattr("tempfile.tempdir", str(other))
     monkeypatch.setattr("pkm_exact.engine.mobility", lambda _: 1 // 0)
-    refused = import_module("pkm_exact.failure_report").write_whole
+    refused = import_module("pkm_exact.failures.failure_report").write_whole
 
     def write(path: Path, data: bytes) -> None:
         if not path.is_absolute():
             raise PermissionError
         refused(path, data)
 
-    monkeypatch.setattr("pkm_exact.failure_report.write_whole", write)
+    monkeypatch.setattr("pkm_exact.failures.failure_report.write_whole", write)
     assert main(["solve", str(MODEL)]) == 4
     assert str(other) in capsys.readouterr().err
     assert _only_report(other)["sentence"].startswith("ZeroDivisionError")
@@ -498,7 +509,7 @@ def test_without_a_writable_folder_the_report_goes_elsewhere(
     def never(path: Path, data: bytes) -> None:
         raise PermissionError
 
-    monkeypatch.setattr("pkm_exact.failure_report.write_whole", never)
+    monkeypatch.setattr("pkm_exact.failures.failure_report.write_whole", never)
     assert main(["solve", str(MODEL)]) == 4
     assert "no report could be written" in capsys.readouterr().err
 

@@ -218,3 +218,9 @@ def test_an_empty_path_is_named(capsys: Capture) -> None:
         err = capsys.readouterr().err
         assert "the path '' is empty; give the path of a file" in err
         assert err.count("\n") == 1
+
+
+def test_a_path_with_a_null_character_is_named(capsys: Capture) -> None:
+    for words in (["solve", "\0"], ["check", "\0"], ["plot", "\0", "-o", "x.png"], ["report", "\0", "-o", "x.html"]):
+        assert main(words) == 2
+        assert "has a null character; give the path of a file" in capsys.readouterr().err

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.hexagons import HEXAGON_METRIC, semi_regular_hexagon, triangle
+from pkm_exact.geometry.hexagons import HEXAGON_METRIC, semi_regular_hexagon
 from pkm_exact.geometry.inverse import distance_squared, dot, rotation_of
 from pkm_exact.geometry.problem import Vector
 
@@ -35,10 +35,9 @@ def test_sides_angles_and_centre(p: Fraction, q: Fraction, height: Fraction) -> 
     assert len(radius) == 1
 
 
-@given(lengths.filter(bool), st.sampled_from(["1-2", "2-3"]))
-def test_a_triangle_has_its_joints_merged_in_pairs(side: Fraction, merged: str) -> None:
-    joints = triangle(side, 1, merged=merged)
-    start = int(merged[0]) - 1
+@given(lengths.filter(bool), st.sampled_from([0, 1]))
+def test_without_one_side_it_is_a_triangle_whose_joints_are_merged_in_pairs(side: Fraction, start: int) -> None:
+    joints = semi_regular_hexagon(*((0, side) if start == 0 else (side, 0)), 1)
     for k in range(3):
         assert joints[(start + 2 * k) % 6] == joints[(start + 2 * k + 1) % 6]
     corners = sorted(set(joints))
@@ -51,7 +50,5 @@ def test_a_triangle_has_its_joints_merged_in_pairs(side: Fraction, merged: str) 
 def test_defects_give_one_sentence() -> None:
     with pytest.raises(InputError, match=r"sides\[1\]: 0.5 is a binary float"):
         semi_regular_hexagon(0.5, 1)
-    with pytest.raises(InputError, match="merged: '3-4' is unknown"):
-        triangle(1, merged="3-4")
     with pytest.raises(InputError, match="both are 0"):
-        triangle(0)
+        semi_regular_hexagon(0, 0)

@@ -1,7 +1,10 @@
 """What importing the package and starting the command cost."""
 
+import ast
 import subprocess
 import sys
+from collections.abc import Iterable, Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -10,6 +13,7 @@ import pkm_exact
 from pkm_exact.cli.commands import certify_poses
 
 ROOT = Path(__file__).parent.parent
+PACKAGE = ROOT / "pkm_exact"
 HEAVY = ("sympy", "matplotlib", "flint", "numpy", "mpmath", "rich")
 
 
@@ -61,3 +65,40 @@ def test_every_public_name_is_there(name: str) -> None:
 def test_an_unknown_name_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
         pkm_exact.nonsense  # noqa: B018
+
+
+def _imported(nodes: Iterable[ast.AST]) -> Iterator[str]:
+    """The modules of the package that some statements import."""
+    for node in nodes:
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("pkm_exact"):
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name.startswith("pkm_exact."))
+
+
+def _part(module: str) -> str:
+    """The folder of the package, or the module beside the folders, to which a module belongs."""
+    return f"{module}.".split(".")[1]
+
+
+MODULES = {
+    ".".join(path.relative_to(ROOT).with_suffix("").parts): ast.parse(path.read_text(encoding="utf-8"))
+    for path in PACKAGE.rglob("*.py")
+    if path != PACKAGE / "__init__.py"
+}
+
+
+def test_folders_import_in_one_direction() -> None:
+    """What a module needs to be loaded; convenience methods such as ``Robot.solve`` import when they are called."""
+    needed: dict[str, set[str]] = {}
+    for module, tree in MODULES.items():
+        found = {_part(name) for name in _imported(tree.body)}
+        needed.setdefault(_part(module), set()).update(found - {_part(module)})
+    order = list(TopologicalSorter(needed).static_order())
+    flow = ["geometry", "formulations", "poses", "solution", "engine", "recomputation"]
+    assert [part for part in order if part in flow] == flow
+
+
+def test_only_the_command_line_imports_the_command_line() -> None:
+    importing = {module for module, tree in MODULES.items() if "cli" in map(_part, _imported(ast.walk(tree)))}
+    assert {_part(module) for module in importing} == {"cli"}

@@ -9,7 +9,7 @@ from flint import arb, ctx, fmpz_poly
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from pkm_exact.roots.isolation import RealRoot, isolate_real_roots, narrow, real_root_enclosures
+from pkm_exact.roots.isolation import RealRoot, isolate_real_roots, real_root_enclosures
 
 # Polynomials without a real root.
 COMPLEX_FACTORS = [fmpz_poly([1]), fmpz_poly([1, 0, 1]), fmpz_poly([3, 1, 1]) * fmpz_poly([7, 0, 0, 0, 2])]
@@ -82,10 +82,9 @@ def test_cells_do_not_depend_on_the_context() -> None:
         assert isolate_real_roots(polynomial) == expected
 
 
-def test_narrow_gives_balls_inside_the_cells() -> None:
+def test_balls_are_as_small_as_asked() -> None:
     polynomial = fmpz_poly([-2, 0, 1])
-    isolated = isolate_real_roots(polynomial)
-    balls = narrow(polynomial, isolated, 500)
+    balls = real_root_enclosures(polynomial, 500)
     assert len(balls) == len(real_root_enclosures(polynomial, 64)) == 2
     with ctx.workprec(600):
         for ball in balls:

@@ -27,7 +27,7 @@ from pkm_exact.geometry.robot import Robot
 from pkm_exact.solution import Solution
 from pkm_exact.templates.design import Design, Draft, drawn, has_cranks
 from pkm_exact.templates.layout import rounded_root, sides_on_circle
-from pkm_exact.templates.text import described, model_text, toml_number
+from pkm_exact.templates.text import model_text, toml_number
 from pkm_exact.verdict import Claim
 
 Capture = pytest.CaptureFixture[str]
@@ -365,4 +365,4 @@ def test_defaults_on_a_terminal_make_a_robot(terminal: Callable[..., tuple[int, 
 def test_every_kind_can_be_chosen() -> None:
     option = next(parameter for parameter in new.params if parameter.name == "kind")
     assert set(KINDS) < set(option.type.choices)  # type: ignore[attr-defined]
-    assert all(described(kind) for kind in KINDS)
+    assert all(kind.description for kind in KINDS.values())

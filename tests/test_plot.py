@@ -96,7 +96,7 @@ def test_drawn_legs_have_their_true_lengths_and_stand_on_the_base(name: str) -> 
             if shown.chain:
                 assert line(axes, f"chain-{leg + 1}") == [
                     list_of(axes, shown.base[leg]),
-                    list_of(axes, pose.elbows[leg]),
+                    list_of(axes, pose.knees[leg]),
                 ]
 
 
@@ -107,7 +107,7 @@ def test_one_pose_is_the_one_that_was_asked_for(number: int, ghosts: bool) -> No
     figure = pose_figure(shown, number, ghosts=ghosts)
     for leg in range(3):
         joint = shown.poses[number - 1].platform[leg]
-        assert line(figure.axes[0], f"leg-{leg + 1}") == [shown.poses[0].elbows[leg][:2], joint[:2]]
+        assert line(figure.axes[0], f"leg-{leg + 1}") == [shown.poses[0].knees[leg][:2], joint[:2]]
     texts = [text for text, _ in render(figure).texts]
     assert any(text.startswith(f"pose {number} of 6: ") for text in texts)
     others = {str(pose.number) for pose in shown.poses} - {str(number), "1", "2", "3"}  # legs have numbers too
@@ -239,7 +239,7 @@ def test_titles_overlap_neither_each_other_nor_drawings(name: str) -> None:
     for one, two in combinations([*titles, *headlines(drawn)], 2):
         assert not one.overlaps(two)
     shot = camera(shown, View())
-    joints = [*shown.base, *(joint for pose in shown.poses for joint in (*pose.platform, *pose.elbows))]
+    joints = [*shown.base, *(joint for pose in shown.poses for joint in (*pose.platform, *pose.knees))]
     plan = grid(shown, window([shot.flat(joint) for joint in joints]), None)
     for cell in (plan.cell(place) for place in range(len(shown.poses))):
         ends = (cell.left, cell.bottom, cell.left + cell.width, cell.bottom + cell.height)

@@ -13,9 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from samples import solved
 
-from pkm_exact.cli import progress as progress_module
-from pkm_exact.cli.progress import PATIENCE, Progress
 from pkm_exact.comparison.compare import compare_formulations
 from pkm_exact.comparison.numeric import compare_numeric
 from pkm_exact.comparison.worker import run_apart
@@ -23,6 +22,8 @@ from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.interactive import progress as progress_module
+from pkm_exact.interactive.progress import PATIENCE, Progress
 from pkm_exact.numeric.fallback import solve_within
 from pkm_exact.numeric.tolerance import tolerance_boxes
 from pkm_exact.numeric_engine import solve_krawczyk
@@ -145,8 +146,7 @@ def test_a_plain_callable_gets_names_of_stages_only() -> None:
 
 
 def test_what_is_told_changes_nothing() -> None:
-    problem = _problem("mssm")
-    assert solve(problem, progress=Recorder()) == solve(problem)
+    assert solve(_problem("mssm"), progress=Recorder()) == solved("mssm")
 
 
 def test_a_relay_sends_both() -> None:

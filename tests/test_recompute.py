@@ -29,7 +29,7 @@ from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.tolerance_build import tolerance_certificate
 from pkm_exact.cli.main import main
 from pkm_exact.errors import InputError, ReconstructionError
-from pkm_exact.failure_report import FORMAT as REPORT
+from pkm_exact.failures.failure_report import FORMAT as REPORT
 from pkm_exact.recomputation import Outcome
 from pkm_exact.recomputation import recompute as recomputed
 

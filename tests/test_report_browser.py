@@ -513,7 +513,7 @@ def test_robots_of_any_size_and_place(chromium: WebDriver, tmp_path: Path, scale
     squares = [square * scale * scale for square in model.configuration().lengths_squared]
     path = tmp_path / "any.html"
     path.write_text(
-        written(certificate(robot, None, solve(robot.problem(squares), width=scale / 10**9))), encoding="utf-8"
+        written(certificate(robot, None, solve(robot.problem(squares), width=Fraction(scale, 10**9)))), encoding="utf-8"
     )
     for tab in _opened(chromium, path):
         tab.click("#ghosts")

@@ -258,10 +258,10 @@ def test_chains_are_drawn_with_the_model() -> None:
     knees = [[float(Fraction(x)) for x in joint] for joint in content["robot"]["base"]]
     metric = [int(g) for g in content["robot"]["metric"]]
     for pose in data["poses"]:
-        assert len(pose["elbows"]) == 6
-        for shown_knee, knee in zip(pose["elbows"], knees, strict=True):
+        assert len(pose["knees"]) == 6
+        for shown_knee, knee in zip(pose["knees"], knees, strict=True):
             assert shown_knee == pytest.approx([x * g**0.5 for x, g in zip(knee, metric, strict=True)])
-    assert all(not pose["elbows"] for pose in data_of(page("hexa"))["poses"])
+    assert all(not pose["knees"] for pose in data_of(page("hexa"))["poses"])
 
 
 def test_numbers_beyond_drawing_are_refused() -> None:

@@ -113,14 +113,14 @@ def test_models_add_their_chains(name: str, chain: str) -> None:
     plain, scene = scene_of(content), scene_of(content, robot)
     axes = [math.sqrt(g) for g in robot.metric]
     assert (scene.chain, plain.chain, scene.kind) == (chain, "", robot.kind)
-    assert plain.poses[0].elbows == ()
+    assert plain.poses[0].knees == ()
     for drawn, joint in zip(scene.base, robot.base_joints, strict=True):
         assert drawn == pytest.approx([float(x) * axis for x, axis in zip(joint, axes, strict=True)], rel=1e-15)
     values = robot.configuration().joint_values
     for pose in scene.poses:
-        assert pose.elbows == plain.base
-        for leg, elbow in enumerate(pose.elbows):
-            offset = np.subtract(elbow, scene.base[leg])
+        assert pose.knees == plain.base
+        for leg, knee in enumerate(pose.knees):
+            offset = np.subtract(knee, scene.base[leg])
             if chain == "crank":
                 arm = [float(x) * axis for x, axis in zip(robot.chains[leg].at_0, axes, strict=True)]
                 assert np.linalg.norm(offset) == pytest.approx(np.linalg.norm(arm), rel=1e-12)
@@ -128,7 +128,7 @@ def test_models_add_their_chains(name: str, chain: str) -> None:
                 way = [float(x * values[leg]) * axis for x, axis in zip(robot.chains[leg].direction, axes, strict=True)]
                 assert offset == pytest.approx(way, abs=1e-12 * max(scene.lengths))
             rod = math.sqrt(robot.chains[leg].rod_squared)
-            assert math.dist(elbow, pose.platform[leg]) == pytest.approx(rod, rel=1e-12)
+            assert math.dist(knee, pose.platform[leg]) == pytest.approx(rod, rel=1e-12)
 
 
 @pytest.mark.parametrize(("name", "other"), [("hexa", "hexaglide"), ("3-rrr", "3-prr"), ("mourrain-l", "dietmaier")])

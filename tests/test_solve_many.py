@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from samples import MODELS
 
 from pkm_exact import InputError, Interval, ManySolutions, PkmExactError, Robot, read_robot, solve, solve_many
-from pkm_exact.many import _table, ball_of
+from pkm_exact.batch.many import _table, ball_of
 from pkm_exact.poses.pose import Pose
 
 PLANAR = [[Fraction(7) + Fraction(k, 8), Fraction(5) - Fraction(k, 9), Fraction(5)] for k in range(5)]

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from samples import random_placed, shipped
 
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.geometry.problem import MOTION_DEGREES, ForwardProblem, Leg
 from pkm_exact.numeric.nearby import nearby_start
-from pkm_exact.numeric.poses import approximations, motion_degree
-from pkm_exact.numeric.start import DEGREES, StartSection, find_start, generic_start
+from pkm_exact.numeric.poses import approximations
+from pkm_exact.numeric.start import StartSection, find_start, generic_start
 from pkm_exact.numeric.study_system import (
     leg_forms,
     motion_values,
@@ -58,7 +58,7 @@ def random_factors(problem: ForwardProblem, seed: int) -> list[Fraction]:
 def test_shipped_starts_have_as_many_solutions_as_the_degree(planar: bool) -> None:
     start = generic_start(planar=planar)
     assert residuals(start, planar=planar).max() < 1e-13
-    assert different(start.solutions) == len(start.solutions) == DEGREES[planar]
+    assert different(start.solutions) == len(start.solutions) == MOTION_DEGREES[planar]
 
 
 def test_monodromy_finds_a_planar_start_again() -> None:
@@ -72,7 +72,7 @@ def test_monodromy_finds_a_planar_start_again() -> None:
 def test_all_solutions_of_known_robots_are_found(name: str, seed: int) -> None:
     problem = shipped(name)
     found = approximations(problem, seed=seed)
-    assert different(found.points) == motion_degree(problem)
+    assert different(found.points) == problem.motion_degree
 
 
 @pytest.mark.parametrize("name", GENERAL)
@@ -102,7 +102,7 @@ def test_a_start_near_the_robot_finds_the_same_solutions(name: str) -> None:
         one, two = (rational_coordinates(part.points, part.section) for part in found)
         one, two = (points / np.linalg.norm(points, axis=1, keepdims=True) for points in (one, two))
         likeness = np.abs(one.conj() @ two.T)
-        assert len(one) == len(two) == motion_degree(problem)
+        assert len(one) == len(two) == problem.motion_degree
         assert (likeness.max(axis=0) > 1 - 1e-9).all()
         assert (likeness.max(axis=1) > 1 - 1e-9).all()
 

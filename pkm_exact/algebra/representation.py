@@ -37,6 +37,10 @@ class UnivariateRepresentation:
     eliminant: tuple[int, ...]
     numerators: tuple[tuple[int, ...], ...]
 
+    def __getstate__(self) -> dict[str, object]:
+        """For copies and other processes: without FLINT's polynomials, which are made again when they are needed."""
+        return {name: self.__dict__[name] for name in self.__dataclass_fields__}
+
     @property
     def degree(self) -> int:
         """Number of distinct solutions."""

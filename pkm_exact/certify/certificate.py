@@ -5,12 +5,13 @@ The bytes are kept as they are: what is checked is the file, not what a reader m
 
 from __future__ import annotations
 
+import errno
 import json
 import os
+import stat
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.errors import InputError
@@ -53,14 +54,9 @@ class Certificate:
         """
         from pkm_exact.certify.checker.verdict import MAX_BYTES
 
-        name = printable(os.fspath(path))
-        try:
-            with Path(path).open("rb") as stream:
-                data = stream.read(MAX_BYTES + 1)
-        except (OSError, ValueError) as error:
-            reason = error.strerror if isinstance(error, OSError) else str(error)
-            raise InputError(f"{name}: cannot be read ({reason}); give the path of a certificate") from None
+        data = content_of(path)
         if len(data) > MAX_BYTES:
+            name = printable(os.fsdecode(path))
             raise InputError(f"{name}: is larger than {MAX_BYTES} bytes; give the path of a certificate")
         return cls(data)
 
@@ -84,8 +80,10 @@ class Certificate:
     def check(self) -> Verdict:
         """The verdict of the checker, which shares nothing with the solver; it never raises on account of the data."""
         from pkm_exact.certify.check import check_bytes
+        from pkm_exact.precision import working_precision
 
-        return check_bytes(self.data)
+        with working_precision():  # no other thread changes it; the checker itself imports nothing of this
+            return check_bytes(self.data)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write it to a file, which appears whole or not at all.
@@ -98,11 +96,14 @@ class Certificate:
         try:
             write_whole(path, self.data)
         except OSError as error:
-            name = printable(os.fspath(path))
+            name = printable(os.fsdecode(path))
             raise InputError(f"{name}: cannot be written ({error.strerror}); give another path") from None
 
     def __str__(self) -> str:
-        content = self.content
+        try:
+            content = self.content
+        except InputError:
+            return "no JSON object; not checked yet"
         robot = content.get("robot")
         name = robot.get("name") if isinstance(robot, dict) else None
         return f"{printable(str(name))}, claim: {printable(str(content.get('claim')))}; not checked yet"
@@ -112,6 +113,28 @@ class Certificate:
 
     def _repr_html_(self) -> str:
         return f"<p>{escape(repr(self))} {escape(str(self))}: use <code>.check()</code></p>"
+
+
+def content_of(path: str | os.PathLike[str]) -> bytes:
+    """The content of a file, cut off where it is too large for a certificate anyway.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read.
+    """
+    from pkm_exact.certify.checker.verdict import MAX_BYTES
+
+    name = os.fsdecode(path)
+    try:
+        # Opening a pipe must not wait for a writer.
+        with open(os.open(name, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as stream:  # noqa: PTH123
+            if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
+                raise OSError(errno.EINVAL, "not a regular file")
+            return stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise InputError(f"{printable(name)}: cannot be read ({reason}); give the path of a certificate") from None
 
 
 def check(certificate: Certificate | str | os.PathLike[str]) -> Verdict:

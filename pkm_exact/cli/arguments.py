@@ -12,13 +12,13 @@ from pkm_exact.cli.completion import configurations
 from pkm_exact.cli.main import PROBLEM
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import checked_code, formulation_codes
+from pkm_exact.policy import SMALLEST_WIDTH
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.geometry.robot import Configuration, Robot
 
-SMALLEST_WIDTH: Final = Fraction(1, 2**4096)
 LONGEST_TIME: Final = 10**8
 
 
@@ -137,19 +137,40 @@ def require_writable(path: Path, option: str) -> None:
 
     if path.is_dir():
         raise InputError(f"{path}: is a directory; give {option} the path of a file")
-    if not path.parent.is_dir():
-        raise InputError(f"{path}: the folder {path.parent} does not exist; create it or give {option} another path")
-    if not os.access(path.parent, os.W_OK):
-        raise InputError(f"{path}: the folder {path.parent} is not writable; give {option} another path")
+    if path.exists() and not path.is_file():  # a device or a pipe, which a file would take the place of
+        raise InputError(f"{path}: is not a regular file; give {option} the path of one")
+    folder = Path(os.path.realpath(path)).parent if path.is_symlink() else path.parent
+    if not folder.is_dir():
+        raise InputError(f"{path}: the folder {folder} does not exist; create it or give {option} another path")
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"{path}: the folder {folder} is not writable; give {option} another path")
+
+
+def write_output(path: str | Path, data: bytes, option: str = "-o") -> None:
+    """Write what an option asks for.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
+    from pkm_exact.files import write_whole
+
+    try:
+        write_whole(path, data)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written ({error.strerror}); give another path to {option}") from None
 
 
 class FilePath(click.Path):
     """The path of a file, which may or may not exist: it is opened, or refused, where it is needed."""
 
     def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> Any:
-        """The path itself, refused if it is empty."""
+        """The path itself, refused if it is empty or no path."""
         if value == "":
             self.fail("the path '' is empty; give the path of a file", parameter, context)
+        if isinstance(value, str) and "\0" in value:
+            self.fail(f"the path {shown(value)} has a null character; give the path of a file", parameter, context)
         return super().convert(value, parameter, context)
 
 
@@ -158,6 +179,14 @@ configuration_option = click.option(
     metavar="NAME",
     shell_complete=configurations,
     help="Configuration of the model file.  [default: the first one]",
+)
+width_option = click.option(
+    "--width",
+    callback=width,
+    metavar="W",
+    default="1e-9",
+    show_default=True,
+    help="Greatest width of a box, exact: 1e-9 or 1/1000.",
 )
 lengths_option = click.option(
     "--lengths",

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import errno
 import os
-import stat
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Final
 
 import click
 
@@ -17,8 +14,6 @@ from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.stages import Amount
 from pkm_exact.wording import printable
-
-MAX_CERTIFICATE_BYTES: Final = 64 << 20
 
 
 @click.command(short_help="Replay certificates, or recompute them.")
@@ -64,7 +59,7 @@ def check(paths: tuple[str, ...], pure: bool, recompute: bool, models: str | Non
         from pkm_exact.cli.recompute_report import recompute_all
 
         return recompute_all(files, None if models is None else Path(models), update=update)
-    from pkm_exact.cli.progress import Progress
+    from pkm_exact.interactive.progress import Progress
 
     codes = []
     with Progress(verbose=False) as progress:
@@ -92,26 +87,9 @@ def _files(paths: Sequence[str]) -> Iterator[Path]:
         yield from inside
 
 
-def content_of(path: Path) -> bytes:
-    """The content of a file, cut off where it is too large for a certificate anyway.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read.
-    """
-    try:
-        # Opening a pipe must not wait for a writer.
-        with open(os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0)), "rb") as stream:  # noqa: PTH123
-            if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
-                raise OSError(errno.EINVAL, "not a regular file")
-            return stream.read(MAX_CERTIFICATE_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise InputError(f"{path}: cannot be read ({reason}); give the path of a certificate") from None
-
-
 def _check(path: Path, *, pure: bool, before_output: Callable[[], None]) -> ExitCode:
+    from pkm_exact.certify.certificate import content_of
+
     name = printable(str(path))
     try:
         data = content_of(path)

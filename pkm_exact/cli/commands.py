@@ -39,7 +39,7 @@ COMMANDS: Final = (
 def _show_versions(context: click.Context, _option: click.Parameter, wanted: bool) -> None:
     if not wanted or context.resilient_parsing:
         return
-    from pkm_exact.installation import version_lines
+    from pkm_exact.support.installation import version_lines
 
     for line in version_lines():
         click.echo(line)

@@ -58,11 +58,9 @@ def compare(
         arguments.require_writable(Path(output), "--json")
 
     from pkm_exact.cli.compare_table import print_comparison
-    from pkm_exact.cli.progress import Progress
     from pkm_exact.cli.report import configuration_object
     from pkm_exact.comparison.numeric import compare_numeric
-    from pkm_exact.files import write_whole
-    from pkm_exact.verdict import Claim
+    from pkm_exact.interactive.progress import Progress
 
     with Progress(verbose=False) as progress:
         try:
@@ -73,10 +71,6 @@ def compare(
     if output is not None:
         entry = configuration_object(robot, name, problem)
         content = {"model": model, "configuration": entry, "unit": robot.unit, **comparison.as_object()}
-        try:
-            write_whole(output, (json.dumps(content, indent=1) + "\n").encode("utf-8"))
-        except OSError as error:
-            raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to --json") from None
+        arguments.write_output(output, (json.dumps(content, indent=1) + "\n").encode("utf-8"), "--json")
     print_comparison(robot, name, comparison)
-    complete = comparison.solution.claim in (Claim.COMPLETE, Claim.INCONSISTENT)
-    return ExitCode.DONE if complete else ExitCode.WEAKER_CLAIM
+    return ExitCode.DONE if comparison.solution.is_complete else ExitCode.WEAKER_CLAIM

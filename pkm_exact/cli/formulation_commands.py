@@ -65,15 +65,15 @@ def formulations(
         arguments.require_writable(Path(output), "--json")
 
     from pkm_exact.cli.formulations_table import print_tables
-    from pkm_exact.cli.progress import Progress
     from pkm_exact.comparison.compare import compare_formulations
+    from pkm_exact.interactive.progress import Progress
 
     with Progress(verbose=False) as progress:
         rows = compare_formulations(problem, codes, seconds=timeout, progress=progress)
     if output is not None:
         name = chosen.name if chosen else None
         content = {"model": model, "configuration": name, "rows": [row.as_object() for row in rows]}
-        _write(output, json.dumps(content, indent=1) + "\n", "--json")
+        arguments.write_output(output, (json.dumps(content, indent=1) + "\n").encode("utf-8"), "--json")
     print_tables(_title(robot, chosen), rows)
     return ExitCode.DONE if all(row.agrees for row in rows) else ExitCode.WEAKER_CLAIM
 
@@ -133,18 +133,9 @@ def export(
     if output is None:
         sys.stdout.write(text)
     else:
-        _write(output, text, "-o")
+        arguments.write_output(output, text.encode("utf-8"))
     return ExitCode.DONE
 
 
 def _title(robot: Robot, configuration: Configuration | None) -> str:
     return f"{robot.name} ({robot.kind}), configuration {configuration.name if configuration else 'none'}"
-
-
-def _write(path: str, text: str, option: str) -> None:
-    from pkm_exact.files import write_whole
-
-    try:
-        write_whole(path, text.encode("utf-8"))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror}); give another path to {option}") from None

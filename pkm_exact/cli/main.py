@@ -3,7 +3,7 @@
 Exit codes: 0 done, and the claim is "complete" or "inconsistent" (or every certificate was accepted); 1 a certificate
 was rejected; 2 input or usage that cannot be used; 3 done, but the claim is weaker than complete; 4 no answer, the
 engine gave up or contradicted itself, or the program failed; 130 interrupted; 141 the reader of the output went away.
-A contradiction or failure leaves a report to send (``failure_report``).
+A contradiction or failure leaves a report to send (``failures.failure_report``).
 """
 
 from __future__ import annotations
@@ -51,8 +51,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     >>> main(["completion", "tcsh"])
     <ExitCode.BAD_INPUT: 2>
     """
-    if sys.stdout is None:  # closed by the caller: the exit code and the files still count
-        sys.stdout = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115 - the output from now on
+    for stream in ("stdout", "stderr"):
+        if getattr(sys, stream) is None:  # closed by the caller: the exit code and the files still count
+            setattr(sys, stream, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 - from now on
     _accept_any_character()
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
@@ -112,14 +113,14 @@ def _invoked(command: click.Command, context: click.Context) -> int:
         return int(command.invoke(context) or ExitCode.DONE)
     except Exception as error:
         if PROBLEM in context.meta:
-            from pkm_exact.contradiction import attach
+            from pkm_exact.failures.contradiction import attach
 
             attach(error, context.meta[PROBLEM])
         raise
 
 
 def _failed(error: Exception, words: list[str]) -> ExitCode:
-    from pkm_exact.failure_report import reported
+    from pkm_exact.failures.failure_report import reported
 
     return _complain(f"no answer: {reported(error, words)}", ExitCode.NO_ANSWER)
 

@@ -15,13 +15,15 @@ from pkm_exact.cli import arguments
 from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.templates import MOST_DECIMALS
 from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
     from pkm_exact.templates.design import Design, Draft
 
 STDOUT: Final = "-"
-MOST_DIGITS: Final = 30  # of a number given here: more is no length of a machine
+MOST_DIGITS: Final = 30
+"""Of a number given here: more is no length of a machine."""
 _ALIASES: Final = {"6-6": "6-UPS"}
 _PARTS: Final = ("base", "platform")
 _SIDES: Final = {False: ("400,200", "100,300"), True: ("600,500,500", "160,100,100")}
@@ -51,7 +53,9 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
 @click.option("--platform-circle", metavar="R,DEGREES", help="The same of the platform.")
 @click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
 @click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
-@click.option("--digits", type=click.IntRange(0, 12), help="Round joints to so many decimals.  [default: exact joints]")
+@click.option(
+    "--digits", type=click.IntRange(0, MOST_DECIMALS), help="Round joints to so many decimals.  [default: exact joints]"
+)
 @click.option("--unit", help="Unit of all lengths, for display.  [default: mm]")
 @click.option("--name", help="Name of the robot.  [default: that of the file]")
 @click.option(
@@ -91,7 +95,7 @@ def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
     if output == STDOUT:
         sys.stdout.write(text)
         return ExitCode.DONE
-    _write(output, text)
+    arguments.write_output(output, text.encode("utf-8"))
     click.echo(f"{printable(output)}: {design.kind}, home: {found}")
     click.echo(f"next: {PROGRAM} solve {printable(shlex.quote(output))}")
     return ExitCode.DONE
@@ -100,13 +104,12 @@ def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
 def _design(given: dict[str, Any], *, interview: bool) -> Design:
     """The design that the options give, the rest asked for."""
     from pkm_exact.templates.design import Design, has_cranks
-    from pkm_exact.templates.text import described
 
     kind = given["kind"]
     if interview:
         click.echo("A first model: a symmetric robot, to be changed by hand. Kinds:", err=True)
         for code in KINDS:
-            click.echo(f"  {code}  {described(code)}", err=True)
+            click.echo(f"  {code}  {KINDS[code].description}", err=True)
         kind = _ask("Kind", next(iter(KINDS)), click.Choice([*KINDS, *_ALIASES]))
     kind = _ALIASES.get(kind, kind)
     planar = KINDS[kind].planar
@@ -126,7 +129,7 @@ def _design(given: dict[str, Any], *, interview: bool) -> Design:
 
 
 def _digits(text: str) -> int | None:
-    return None if text == "exact" else int(click.IntRange(0, 12)(text))
+    return None if text == "exact" else int(click.IntRange(0, MOST_DECIMALS)(text))
 
 
 _EXPLANATION: Final = {
@@ -240,9 +243,9 @@ def _checked_output(output: str | None, force: bool) -> str | None:
 
 def _proved_at_home(draft: Draft, text: str) -> str:
     """What is proved of the home configuration of the model; refused if its poses are not proved complete."""
-    from pkm_exact.cli.progress import Progress
     from pkm_exact.engine import solve
     from pkm_exact.geometry.reader import robot_from_toml
+    from pkm_exact.interactive.progress import Progress
     from pkm_exact.verdict import Claim
 
     robot = robot_from_toml(text)
@@ -256,12 +259,3 @@ def _proved_at_home(draft: Draft, text: str) -> str:
     if any(pose.multiplicity != 1 for pose in solution.poses):
         click.echo("note: one of the poses is singular; `solve` says which", err=True)
     return f"{len(solution.poses)} real poses of {solution.complex_solutions} complex ones, proved complete"
-
-
-def _write(output: str, text: str) -> None:
-    from pkm_exact.files import write_whole
-
-    try:
-        write_whole(output, text.encode("utf-8"))
-    except OSError as error:
-        raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.wording import printable, shown
 
@@ -108,7 +108,7 @@ def plot(
     if roots and (pose is not None or overlay or view is not None or model is not None):
         raise click.UsageError("--roots excludes --pose, --overlay, --view and --model.")
     path, source = Path(output), Path(certificate)
-    from pkm_exact.cli.progress import Progress
+    from pkm_exact.interactive.progress import Progress
     from pkm_exact.pictures.output import picture_format
     from pkm_exact.pictures.scene import RejectedError, accepted_document
     from pkm_exact.pictures.style import require_matplotlib
@@ -124,14 +124,14 @@ def plot(
             progress(f"checking {source.name}")
             document = accepted_document(source)
     except RejectedError as error:
-        click.echo(f"certify-poses: error: {printable(str(error))}", err=True)
+        click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
         return ExitCode.REJECTED
     try:
         figure, line = _figure(document, pose, overlay, roots, model, view, size)
         data = _bytes(figure, suffix, dpi)
     except InputError as error:
         raise InputError(f"{certificate}: {error}") from None
-    _write(path, data)
+    arguments.write_output(path, data)
     sys.stdout.write(f"{printable(output)}: {line}\n")
     return ExitCode.DONE
 
@@ -167,12 +167,3 @@ def _bytes(figure: Figure, suffix: str, dpi: int) -> bytes:
     from pkm_exact.pictures.output import figure_bytes
 
     return figure_bytes(figure, suffix, dpi=dpi)
-
-
-def _write(path: Path, data: bytes) -> None:
-    from pkm_exact.files import write_whole
-
-    try:
-        write_whole(path, data)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror}); give another path to -o") from None

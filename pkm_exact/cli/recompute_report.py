@@ -7,16 +7,17 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
-from pkm_exact.cli.check import content_of, worst
+from pkm_exact.certify.certificate import content_of
+from pkm_exact.cli.check import worst
 from pkm_exact.cli.main import ExitCode
-from pkm_exact.cli.progress import Progress
 from pkm_exact.errors import InputError, InternalError, PkmExactError
-from pkm_exact.failure_report import reported
+from pkm_exact.failures.failure_report import reported
 from pkm_exact.files import write_whole
 from pkm_exact.geometry.reader import read_robot
+from pkm_exact.interactive.progress import Progress
 from pkm_exact.recomputation import Outcome, Recomputation, recompute
 from pkm_exact.stages import Prefixed
-from pkm_exact.wording import printable
+from pkm_exact.wording import counted, printable
 
 _CODES = {
     Outcome.SAME: ExitCode.DONE,
@@ -40,7 +41,7 @@ def recompute_all(files: Sequence[Path], models: Path | None, *, update: bool) -
         counts[outcome] += 1
         codes.append(code)
     parts = ", ".join(f"{count} {outcome}" for outcome, count in counts.items())
-    sys.stdout.write(f"{len(files)} certificate{'' if len(files) == 1 else 's'}: {parts}\n")
+    sys.stdout.write(f"{counted(len(files), 'certificate')}: {parts}\n")
     return worst(codes)
 
 
@@ -52,7 +53,7 @@ def _outcome(path: Path, models: Path | None, *, update: bool) -> tuple[ExitCode
             _write(path, found.data)
             return ExitCode.DONE, _UPDATED, found.detail
     except InputError as error:
-        return ExitCode.BAD_INPUT, _UNUSABLE, str(error).removeprefix(f"{path}: ")
+        return ExitCode.BAD_INPUT, _UNUSABLE, printable(str(error)).removeprefix(f"{printable(str(path))}: ")
     except MemoryError:
         return ExitCode.NO_ANSWER, _NO_ANSWER, "the memory is exhausted"
     except Exception as error:

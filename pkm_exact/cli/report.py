@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.modes import assembly_modes
-from pkm_exact.display import headline
+from pkm_exact.interactive.display import headline
 from pkm_exact.poses.planar import planar_coordinates
 
 if TYPE_CHECKING:

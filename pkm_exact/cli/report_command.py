@@ -37,8 +37,7 @@ def report(certificate: str, output: str, model: str | None) -> int:
         if source is not None and Path(source).exists():
             arguments.require_other_file(target, source, "-o", what)
     arguments.require_writable(target, "-o")
-    from pkm_exact.cli.progress import Progress
-    from pkm_exact.files import write_whole
+    from pkm_exact.interactive.progress import Progress
     from pkm_exact.pictures.scene import RejectedError, accepted_with_lines
     from pkm_exact.report_page.words import meaning_of
 
@@ -50,10 +49,7 @@ def report(certificate: str, output: str, model: str | None) -> int:
         click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
         return ExitCode.REJECTED
     page = _page(document, lines, certificate, model)
-    try:
-        write_whole(target, page.encode("utf-8"))
-    except OSError as error:
-        raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
+    arguments.write_output(target, page.encode("utf-8"))
     sys.stdout.write(f"{printable(output)}: {meaning_of(document).headline}\n")
     return ExitCode.DONE
 

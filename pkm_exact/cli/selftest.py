@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 import click
 
 from pkm_exact.cli.main import PROGRAM, ExitCode
-from pkm_exact.wording import printable
+from pkm_exact.wording import counted, printable
 
-_COLUMN = 24
+_COLUMN: Final = 24
 
 
 @click.command(short_help="Check that this installation works.")
@@ -23,8 +25,8 @@ def selftest() -> int:
     Example:
       certify-poses selftest
     """
-    from pkm_exact.installation import extras, version_lines
-    from pkm_exact.selftest import run_checks
+    from pkm_exact.support.installation import extras, version_lines
+    from pkm_exact.support.selftest import run_checks
 
     for line in version_lines():
         click.echo(line)
@@ -37,8 +39,10 @@ def selftest() -> int:
     for name, version in (*extras().items(), ("msolve", _msolve())):
         click.echo(f"{'optional: ' + name:<{_COLUMN - 1}} {version or 'not installed'}")
     if failed:
-        count = f"{failed} check{'s' if failed > 1 else ''}"
-        click.echo(f"{PROGRAM}: error: {count} failed; reinstall the package, or report these lines", err=True)
+        click.echo(
+            f"{PROGRAM}: error: {counted(failed, 'check')} failed; reinstall the package, or report these lines",
+            err=True,
+        )
         return ExitCode.NO_ANSWER
     click.echo("everything works")
     return ExitCode.DONE

@@ -40,14 +40,7 @@ from pkm_exact.formulations.registry import formulation_codes
     help="For newton: position and quaternion to start from. X,Y,DEGREES if planar.  [default: a home pose, the "
     "platform over the base]",
 )
-@click.option(
-    "--width",
-    callback=arguments.width,
-    metavar="W",
-    default="1e-9",
-    show_default=True,
-    help="Greatest width of a box, exact: 1e-9 or 1/1000.",
-)
+@arguments.width_option
 @click.option(
     "--time-limit",
     callback=arguments.time_limit,
@@ -114,7 +107,7 @@ def solve(
         arguments.require_other_file(Path(output), model, "-o")
         arguments.require_writable(Path(output), "-o")
 
-    from pkm_exact.cli.progress import Progress
+    from pkm_exact.interactive.progress import Progress
     from pkm_exact.numeric.uncertified import UncertifiedSolution
 
     with Progress(verbose=verbose) as progress:
@@ -130,15 +123,11 @@ def solve(
                 robot, name, solution, tolerances, output, layout, verbose=verbose, progress=progress
             )
     if output is not None:
-        from pkm_exact.certify.build import certificate, write_certificate
+        from pkm_exact.certify.build import certificate_bytes
 
-        try:
-            write_certificate(Path(output), certificate(robot, name, solution))
-        except OSError as error:
-            raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
+        arguments.write_output(output, certificate_bytes(robot, name, solution))
 
     from pkm_exact.cli.report import report
-    from pkm_exact.verdict import Claim
 
     report(robot, name, solution, layout, verbose=verbose)
-    return ExitCode.DONE if solution.claim in (Claim.COMPLETE, Claim.INCONSISTENT) else ExitCode.WEAKER_CLAIM
+    return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM

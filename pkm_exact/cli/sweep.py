@@ -14,10 +14,14 @@ import click
 from pkm_exact.cli import arguments
 from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
+from pkm_exact.wording import counted
 
 if TYPE_CHECKING:
-    from pkm_exact.cli.progress import Progress
+    from collections.abc import Callable
+
+    from pkm_exact.interactive.progress import Progress
     from pkm_exact.sweep.job import SweepJob
+    from pkm_exact.sweep.lengths import LengthsFile
     from pkm_exact.sweep.run import Tally, Workers
 
 METHODS: Final = ("krawczyk", "exact")
@@ -43,14 +47,7 @@ _SECONDS_PER_LINE: Final = 0.2
     show_default=True,
     help="krawczyk: continuation from neighbouring lengths, then proof. exact: elimination.",
 )
-@click.option(
-    "--width",
-    callback=arguments.width,
-    metavar="W",
-    default="1e-9",
-    show_default=True,
-    help="Greatest width of a box, exact: 1e-9 or 1/1000.",
-)
+@arguments.width_option
 @click.option("--squared", is_flag=True, help="The rows have squared lengths.")
 @click.option(
     "--certificates",
@@ -111,10 +108,8 @@ def sweep(
     if folder is not None:
         _require_folder(folder)
 
-    from pkm_exact.cli.progress import Progress
     from pkm_exact.policy import Policy
     from pkm_exact.sweep.job import sweep_job
-    from pkm_exact.sweep.run import sweep as run
 
     job = sweep_job(
         robot, rows, method=method, width=width, policy=Policy(), squared=squared, certificates=folder is not None
@@ -123,10 +118,28 @@ def sweep(
     def started(job: SweepJob) -> AbstractContextManager[Workers]:
         return _workers(job, min(workers or _cores(), rows.count), scheduler)
 
+    tally = _swept(job, rows, target, started, folder, verbose=verbose)
+    click.echo(_summary(tally), err=True)
+    return ExitCode.DONE if tally.is_complete else ExitCode.WEAKER_CLAIM
+
+
+def _swept(
+    job: SweepJob,
+    rows: LengthsFile,
+    output: Path,
+    workers: Callable[[SweepJob], AbstractContextManager[Workers]],
+    certificates: Path | None,
+    *,
+    verbose: bool,
+) -> Tally:
+    """Run the sweep, show its progress, and say how to go on where it ends early."""
+    from pkm_exact.interactive.progress import Progress
+    from pkm_exact.sweep.run import sweep as run
+
     with Progress(verbose=verbose) as progress:
         shown = _Shown(progress, rows.count)
         try:
-            tally = run(job, rows, target, started, certificates=folder, progress=shown)
+            return run(job, rows, output, workers, certificates=certificates, progress=shown)
         except KeyboardInterrupt:
             progress.clear()
             done = f"{shown.rows} of {rows.count} rows"
@@ -136,8 +149,6 @@ def sweep(
             raise InputError(
                 f"{output}: cannot be written ({error.strerror}); make room, and the same command goes on"
             ) from None
-    click.echo(_summary(tally), err=True)
-    return ExitCode.DONE if tally.is_complete else ExitCode.WEAKER_CLAIM
 
 
 def _workers(job: SweepJob, count: int, scheduler: str | None) -> AbstractContextManager[Workers]:
@@ -168,8 +179,7 @@ def _summary(tally: Tally) -> str:
     parts = [f"{count} {claim.replace('-', ' ')}" for claim, count in sorted(tally.claims.items())]
     if tally.errors:
         parts.append(f"{tally.errors} without an answer, the first: {tally.first_error}")
-    noun = "row" if tally.rows == 1 else "rows"
-    return f"{tally.rows} {noun}, {tally.poses} real poses; {', '.join(parts)}"
+    return f"{counted(tally.rows, 'row')}, {tally.poses} real poses; {', '.join(parts)}"
 
 
 class _Shown:

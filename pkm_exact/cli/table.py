@@ -7,7 +7,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from pkm_exact.cli.modes import assembly_modes, summary
-from pkm_exact.display import HEADER, PLANAR_HEADER, pose_cells
+from pkm_exact.interactive.display import HEADER, PLANAR_HEADER, pose_cells
 from pkm_exact.roots.interval import decimal as decimal
 
 if TYPE_CHECKING:

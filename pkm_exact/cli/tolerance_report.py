@@ -6,11 +6,11 @@ import json
 import sys
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import click
 
+from pkm_exact.cli import arguments
 from pkm_exact.cli.main import ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.rational import NumberText, parse_positive
@@ -78,12 +78,14 @@ def report_tolerances(
     progress: Callable[[str], None],
 ) -> ExitCode:
     """Analyse, write the certificate and print: first the nominal poses, then the boxes for all robots."""
+    from pkm_exact.certify.build import canonical_bytes
+    from pkm_exact.certify.tolerance_build import tolerance_certificate
     from pkm_exact.cli.report import as_object, report
     from pkm_exact.numeric.tolerance import tolerance_boxes
 
     result = tolerance_boxes(solution.problem, tolerances, solution, progress)
     if output is not None:
-        _write(Path(output), robot, name, result)
+        arguments.write_output(output, canonical_bytes(tolerance_certificate(robot, name, result)))
     if layout == "json":
         content = {**as_object(robot, name, solution), "tolerance": tolerance_object(result)}
         sys.stdout.write(json.dumps(content, indent=1) + "\n")
@@ -91,16 +93,6 @@ def report_tolerances(
         report(robot, name, solution, layout, verbose=verbose)
         _print(robot, result)
     return ExitCode.DONE if result.is_complete else ExitCode.WEAKER_CLAIM
-
-
-def _write(path: Path, robot: Robot, name: str | None, result: ToleranceResult) -> None:
-    from pkm_exact.certify.build import write_certificate
-    from pkm_exact.certify.tolerance_build import tolerance_certificate
-
-    try:
-        write_certificate(path, tolerance_certificate(robot, name, result))
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror}); give another path to -o") from None
 
 
 def tolerance_object(result: ToleranceResult) -> dict[str, Any]:

@@ -18,10 +18,10 @@ from pkm_exact.wording import printable
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from pkm_exact.cli.progress import Progress
     from pkm_exact.cli.track_store import TrackStore
     from pkm_exact.geometry.path_reader import JointPath
     from pkm_exact.geometry.robot import Robot
+    from pkm_exact.interactive.progress import Progress
     from pkm_exact.numeric.trajectory import BranchPoint, TrackedSample
     from pkm_exact.poses.pose import Pose
 
@@ -41,14 +41,7 @@ _SECONDS_PER_LINE: Final = 0.1
     metavar="POSE",
     help="The pose to follow: its number in the list that `solve` prints for the path's first row.",
 )
-@click.option(
-    "--width",
-    callback=arguments.width,
-    metavar="W",
-    default="1e-9",
-    show_default=True,
-    help="Greatest width of a box, exact: 1e-9 or 1/1000.",
-)
+@arguments.width_option
 @click.option(
     "-o",
     "--output",
@@ -84,9 +77,9 @@ def track(model: str, path: str, number: int, width: Fraction, output: str, verb
     arguments.require_other_file(target, path, "-o", "the file of the path")
     arguments.require_writable(target, "-o")
 
-    from pkm_exact.cli.progress import Progress
     from pkm_exact.cli.track_report import written
     from pkm_exact.cli.track_store import TrackStore
+    from pkm_exact.interactive.progress import Progress
 
     with TrackStore(target, _job(robot, joints, number, width)) as store, Progress(verbose=verbose) as progress:
         try:

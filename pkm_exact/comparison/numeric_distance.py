@@ -16,11 +16,12 @@ from enum import StrEnum
 from fractions import Fraction
 from typing import Final
 
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb, arb_mat, fmpq
 
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.uncertified import NumericPose
 from pkm_exact.poses.pose import Pose
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
 REACH: Final = Fraction(1, 1000)
@@ -79,7 +80,7 @@ class Judge:
         self._reach = REACH * size
         ends = [end.denominator.bit_length() for pose in poses for end in (pose.position[0].lo, pose.rotation[0][0].lo)]
         self._precision = 64 + max(ends, default=0) + GUARD_BITS
-        with ctx.workprec(self._precision):
+        with working_precision(self._precision):
             scales = [arb(g).sqrt() for g in problem.metric]
             rows = [[scale * _exact(leg.platform[i]) for leg in problem.legs] for i, scale in enumerate(scales)]
             self._joints = arb_mat([*rows, [arb(1)] * len(problem.legs)])
@@ -96,7 +97,7 @@ class Judge:
 
     def distances(self, pose: NumericPose) -> list[Interval]:
         """Bounds for the distance to each certified pose."""
-        with ctx.workprec(self._precision):
+        with working_precision(self._precision):
             rows = zip(pose.rotation, pose.position, strict=True)
             place = self._placed([[*map(arb, row), arb(c)] for row, c in rows])
             return [_distance(place, other) for other in self._places]

@@ -13,7 +13,7 @@ from pkm_exact.geometry.study import PLANAR_SUPPORT
 from pkm_exact.numeric.home import home_pose, random_states
 from pkm_exact.numeric.levenberg_marquardt import DescentPolicy, levenberg_marquardt
 from pkm_exact.numeric.newton import newton, newton_from
-from pkm_exact.numeric.poses import approximations, motion_degree
+from pkm_exact.numeric.poses import approximations
 from pkm_exact.numeric.robot import NumericRobot
 from pkm_exact.numeric.study_system import Complex, motion_values
 from pkm_exact.numeric.uncertified import NumericPose
@@ -76,7 +76,7 @@ def path_tracking(problem: ForwardProblem, robot: NumericRobot, _starts: int, _s
         q0, q1, q2, q3 = (e / np.linalg.norm(e)).tolist()
         c = (values[4:7] / values[-1]).real * (found.section.frames.unit / robot.unit)
         poses.append(newton_from(robot, c, (q0, q1, q2, q3)))
-    lost = motion_degree(problem) - len(found.points)
+    lost = problem.motion_degree - len(found.points)
     return Ends(tuple(poses), {"not real": complex_ends, "lost or at infinity": lost})
 
 

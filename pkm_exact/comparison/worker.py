@@ -9,7 +9,7 @@ from typing import Any
 from pkm_exact.comparison.measure import measure
 from pkm_exact.comparison.row import ResultFigures, Row, Status, SystemFigures
 from pkm_exact.errors import InputError, InternalError, PkmExactError
-from pkm_exact.failure_report import reported
+from pkm_exact.failures.failure_report import reported
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.pose import Pose
 from pkm_exact.processes import end_with_parent, messages, process_apart

@@ -61,30 +61,6 @@ def semi_regular_hexagon(first_side: object, second_side: object, height: object
     )
 
 
-def triangle(side: object, height: object = 0, *, merged: str = "1-2") -> Joints:
-    """Six joints merged in pairs at the corners of an equilateral triangle, coordinates for the metric (1, 3, 1).
-
-    Parameters
-    ----------
-    side, height : str, int, Decimal or Fraction
-        Length of a side, and the z-coordinate of all joints.
-    merged : {"1-2", "2-3"}
-        Whether joints 1 and 2, 3 and 4, 5 and 6 coincide (one corner at the bottom), or 2 and 3, 4 and 5, 6 and 1
-        (one side at the bottom).
-
-    Examples
-    --------
-    >>> corners = triangle(2, merged="2-3")
-    >>> [str(x) for x in corners[1]], corners[1] == corners[2]
-    (['1', '-1/3', '0'], True)
-    """
-    if merged not in ("1-2", "2-3"):
-        raise InputError(f'merged: {shown(merged)} is unknown; write "1-2" or "2-3"')
-    if merged == "1-2":
-        return semi_regular_hexagon(0, side, height)
-    return semi_regular_hexagon(side, 0, height)
-
-
 def _side(value: object, where: str) -> Fraction:
     length = parse_rational(value, where)
     if length < 0:

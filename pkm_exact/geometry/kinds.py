@@ -25,6 +25,8 @@ class Kind:
 
     Attributes
     ----------
+    description : str
+        In a few words.
     chain : type or None
         Class of the actuated chains; None if the legs themselves are actuated.
     chain_table : str
@@ -37,6 +39,7 @@ class Kind:
         Number of coordinates of a joint: 3, or 2 if the robot is planar.
     """
 
+    description: str
     chain: type[Crank] | type[Slide] | None
     chain_table: str
     joint_keys: tuple[str, ...]
@@ -54,14 +57,18 @@ class Kind:
         return 3 if self.planar else 6
 
 
+_LEG_KEYS: Final = ("lengths", "lengths_squared", "pose")
+_CRANK_KEYS: Final = ("half_tangents", "cos_sin")
+_SLIDE_KEYS: Final = ("slides",)
+
 KINDS: Final[Mapping[str, Kind]] = MappingProxyType(
     {
-        "6-UPS": Kind(None, "", ("lengths", "lengths_squared", "pose")),
-        "6-RUS": Kind(Crank, "cranks", ("half_tangents", "cos_sin")),
-        "6-PUS": Kind(Slide, "slides", ("slides",)),
-        "3-RPR": Kind(None, "", ("lengths", "lengths_squared", "pose"), "3-RPR", 2),
-        "3-RRR": Kind(Crank, "cranks", ("half_tangents", "cos_sin"), "3-RPR", 2),
-        "3-PRR": Kind(Slide, "slides", ("slides",), "3-RPR", 2),
+        "6-UPS": Kind("six legs of actuated length", None, "", _LEG_KEYS),
+        "6-RUS": Kind("six rods of fixed length on cranks", Crank, "cranks", _CRANK_KEYS),
+        "6-PUS": Kind("six rods of fixed length on slides", Slide, "slides", _SLIDE_KEYS),
+        "3-RPR": Kind("planar: three legs of actuated length", None, "", _LEG_KEYS, "3-RPR", 2),
+        "3-RRR": Kind("planar: three rods of fixed length on cranks", Crank, "cranks", _CRANK_KEYS, "3-RPR", 2),
+        "3-PRR": Kind("planar: three rods of fixed length on slides", Slide, "slides", _SLIDE_KEYS, "3-RPR", 2),
     }
 )
 """The kinds by the names used in model files."""

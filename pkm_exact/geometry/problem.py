@@ -9,9 +9,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TypeAlias
+from types import MappingProxyType
+from typing import Final, TypeAlias
 
 Vector: TypeAlias = tuple[Fraction, Fraction, Fraction]
+
+MOTION_DEGREES: Final = MappingProxyType({False: 40, True: 6})
+"""Degree of the variety of rigid motions, or of planar ones (key: planar); every leg is a hyperplane on it."""
 
 
 @dataclass(frozen=True)
@@ -51,3 +55,8 @@ class ForwardProblem:
     legs: tuple[Leg, ...]
     metric: tuple[int, int, int] = (1, 1, 1)
     planar: bool = False
+
+    @property
+    def motion_degree(self) -> int:
+        """Degree of the variety of the robot's motions: most solutions that it can have, if they are finitely many."""
+        return MOTION_DEGREES[self.planar]

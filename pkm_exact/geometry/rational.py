@@ -100,6 +100,27 @@ def bounded(value: Fraction, original: object, where: str, digits: int = MAX_DIG
     return value
 
 
+def finite_decimal(value: Fraction) -> str | None:
+    """The number as a decimal with as few digits as it needs; None if no decimal that ends is equal to it.
+
+    Examples
+    --------
+    >>> finite_decimal(Fraction(-5, 4)), finite_decimal(Fraction(300)), finite_decimal(Fraction(1, 3))
+    ('-1.25', '300', None)
+    """
+    rest, powers = value.denominator, {2: 0, 5: 0}
+    for prime in powers:
+        while rest % prime == 0:
+            rest, powers[prime] = rest // prime, powers[prime] + 1
+    if rest != 1:
+        return None
+    digits = max(powers.values())
+    if not digits:
+        return str(value)
+    whole, part = divmod(abs(value.numerator) * 10**digits // value.denominator, 10**digits)
+    return f"{'-' if value < 0 else ''}{whole}.{part:0{digits}d}"
+
+
 def _plain(text: str, where: str) -> Fraction:
     if _NOT_FINITE.fullmatch(text):
         raise InputError(f"{where}: {shown(text)} is not a finite number; {_FORMS}")

@@ -18,9 +18,10 @@ from pkm_exact.geometry.chain_reader import CHAIN_TABLES, read_chains, read_join
 from pkm_exact.geometry.configurations import read_configuration
 from pkm_exact.geometry.fields import known_keys, label, required
 from pkm_exact.geometry.inverse import UNIT_METRIC
+from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
-from pkm_exact.geometry.robot import Robot, parse_metric
+from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.tolerances import read_tolerances
 from pkm_exact.wording import printable, shown
 

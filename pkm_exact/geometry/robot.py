@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Final, Literal
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Chain, Crank, JointValue, parse_cosine_and_sine
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
-from pkm_exact.geometry.kinds import KINDS, Joints, Kind, gough_legs, knees
-from pkm_exact.geometry.problem import ForwardProblem, Vector
-from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational, parse_vector
+from pkm_exact.geometry.joints import in_plane, parse_joints, parse_metric, refuse_equal_legs
+from pkm_exact.geometry.kinds import KINDS, Joints, gough_legs, knees
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.wording import printable, shown
 
@@ -104,12 +105,12 @@ class Robot:
             raise InputError(f"kind: {shown(self.kind)} is unknown; use one of: {', '.join(KINDS)}")
         kind = KINDS[self.kind]
         for field, where in (("base_joints", "base.joints"), ("platform_joints", "platform.joints")):
-            rows = [_in_plane(row) for row in getattr(self, field)] if kind.planar else getattr(self, field)
+            rows = [in_plane(row) for row in getattr(self, field)] if kind.planar else getattr(self, field)
             object.__setattr__(self, field, parse_joints(rows, where, kind))
         object.__setattr__(self, "metric", parse_metric(self.metric, kind))
         self._require_chains()
         if not self.chains:
-            _refuse_equal_legs(self.base_joints, self.platform_joints)
+            refuse_equal_legs(self.base_joints, self.platform_joints)
         _refuse_equal_names(self.configurations)
 
     def __repr__(self) -> str:
@@ -122,7 +123,7 @@ class Robot:
         return f"{printable(self.name)} ({self.kind}, lengths in {printable(self.unit)}), {found}"
 
     def _repr_html_(self) -> str:
-        from pkm_exact.display import robot_html
+        from pkm_exact.interactive.display import robot_html
 
         return robot_html(self)
 
@@ -196,7 +197,7 @@ class Robot:
         6 complex solutions, 2 real poses; complete
         """
         # The one place where the geometry reaches up to the engines, and only when it is asked to.
-        from pkm_exact.facade import Question, answer
+        from pkm_exact.interactive.facade import Question, answer
 
         question = Question(lengths, configuration, method, formulation, width, squared, doubles_are_exact)
         return answer(self, question, policy, progress)
@@ -265,7 +266,7 @@ class Robot:
         for leg, foot in enumerate(feet, 1):
             for coordinate in foot:
                 bounded(coordinate, coordinate, f"the knee of leg {leg}", MAX_COMPUTED_DIGITS)
-        _refuse_equal_legs(feet, self.platform_joints, "knees and platform.joints")
+        refuse_equal_legs(feet, self.platform_joints, "knees and platform.joints")
         return locked
 
     def knees(self, locked: Configuration) -> Joints:
@@ -322,49 +323,6 @@ class Robot:
     def _problem(self, feet: Joints, lengths_squared: tuple[Fraction, ...]) -> ForwardProblem:
         legs = gough_legs(feet, self.platform_joints, lengths_squared)
         return ForwardProblem(legs, self.metric, KINDS[self.kind].planar)
-
-
-def parse_joints(rows: Sequence[object], where: str, kind: Kind) -> Joints:
-    """As many vectors as the kind has legs; with third coordinate 0 if it is planar, where two are to be given."""
-    if len(rows) != kind.legs:
-        raise InputError(
-            f"{where}: {len(rows)} rows; give {kind.legs} joints of {kind.dimension} coordinates, one per leg"
-        )
-    return tuple(parse_vector(row, f"{where}[{i}]", kind.dimension) for i, row in enumerate(rows, 1))
-
-
-def _in_plane(row: object) -> object:
-    """The row without the third coordinate 0 that joints of planar robots have once they are read."""
-    if isinstance(row, tuple) and len(row) == 3 and isinstance(row[2], Fraction) and row[2] == 0:
-        return row[:2]
-    return row
-
-
-def parse_metric(row: object, kind: Kind) -> Metric:
-    """Three positive integers: the Gram diagonal. In place of p/q write p q, and divide that coordinate by q.
-
-    For planar kinds the third does not matter; it is 1 if it is left out.
-    """
-    numbers = []
-    if kind.planar and isinstance(row, list | tuple) and len(row) == 2:
-        row = [*row, 1]
-    for i, number in enumerate(parse_vector(row, "metric"), 1):
-        if number <= 0 or number.denominator != 1:
-            raise InputError(f"metric[{i}]: {shown(number)} is not a positive integer; give one such as 1 or 3")
-        numbers.append(number.numerator)
-    g1, g2, g3 = numbers
-    return g1, g2, g3
-
-
-def _refuse_equal_legs(base: Joints, platform: Joints, where: str = "base.joints and platform.joints") -> None:
-    """Merged joints are legal (TSSM, MSSM robots); two legs between the same two points are one leg."""
-    seen: dict[tuple[Vector, Vector], int] = {}
-    for number, ends in enumerate(zip(base, platform, strict=True), 1):
-        first = seen.setdefault(ends, number)
-        if first != number:
-            raise InputError(
-                f"{where}: legs {first} and {number} join the same two points; give each leg its own pair of joints"
-            )
 
 
 def _refuse_equal_names(configurations: tuple[Configuration, ...]) -> None:

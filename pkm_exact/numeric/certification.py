@@ -13,10 +13,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from flint import acb, acb_mat, arb, ctx
+from flint import acb, acb_mat, arb
 
 from pkm_exact.numeric.krawczyk import GUARD_BITS, RADIUS, Balls, Box, ChartSystem, certified, middle
 from pkm_exact.numeric.study_system import Complex
+from pkm_exact.precision import working_precision
 from pkm_exact.stages import Amount, Watch
 
 GRIDS = (28, 44, 72, 120, 200, 340, 600, 1000)
@@ -145,7 +146,7 @@ def refined(system: ChartSystem, point: Balls, exponent: int) -> Balls | None:
     Steps are halved until the next one, with the same matrix, is smaller (Deuflhard's natural monotonicity test): the
     iteration then follows the path from the point to its solution, however small the basin of the full method is.
     """
-    with ctx.workprec(2 * exponent + GUARD_BITS):
+    with working_precision(2 * exponent + GUARD_BITS):
         jacobian = system.jacobians(point)[0]
         values = system.values(jacobian, point)
         for _ in range(NEWTON_STEPS):

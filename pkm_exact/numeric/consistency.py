@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from flint import acb, acb_mat, arb, ctx, fmpz_mat
+from flint import acb, acb_mat, arb, fmpz_mat
 
-from pkm_exact.contradiction import require
+from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, pose_quadrics
 from pkm_exact.numeric.krawczyk import GUARD_BITS, RADIUS, Box
+from pkm_exact.precision import working_precision
 
 if TYPE_CHECKING:
     from pkm_exact.numeric.certification import IsolatedSolutions
@@ -52,7 +53,7 @@ def _reach(box: Box, finest: int) -> tuple[int, int]:
 
 def _require_room(boxes: Sequence[Box], chart: Sequence[int], problem: ForwardProblem) -> None:
     """A combination of legs and Study's condition, and the chart, can be satisfied in every box."""
-    with ctx.workprec(2 * max(max(box.exponents) for box in boxes) + GUARD_BITS):
+    with working_precision(2 * max(max(box.exponents) for box in boxes) + GUARD_BITS):
         points = [_balls(box) for box in boxes]
         gradients = (acb_mat(points) * _combination(pose_quadrics(problem))).tolist()
         for number, (x, gradient) in enumerate(zip(points, gradients, strict=True)):

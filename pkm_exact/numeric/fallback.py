@@ -12,7 +12,7 @@ from typing import Any, Final
 from flint import fmpq, fmpq_mat, fmpz, fmpz_mat, fmpz_poly
 
 from pkm_exact.errors import InternalError, PkmExactError
-from pkm_exact.failure_report import internal_error
+from pkm_exact.failures.failure_report import internal_error
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.levenberg_marquardt import solve_levenberg_marquardt
 from pkm_exact.numeric.robot import numeric_robot

@@ -20,10 +20,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
-from flint import acb, acb_mat, arb, arb_mat, ctx, fmpz_mat
+from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
 
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, pose_quadrics, support
+from pkm_exact.precision import working_precision
 
 Balls: TypeAlias = Any
 """An ``arb_mat`` or an ``acb_mat``, which have the same methods: real points are kept real, which takes less time."""
@@ -155,7 +156,7 @@ def certified(system: ChartSystem, boxes: Sequence[Box]) -> list[bool]:
     """
     if not boxes:
         return []
-    with ctx.workprec(2 * max(max(box.exponents) for box in boxes) + GUARD_BITS):
+    with working_precision(2 * max(max(box.exponents) for box in boxes) + GUARD_BITS):
         answers = [
             dict(zip(same, _proved(system, same), strict=True))
             for is_real in (True, False)

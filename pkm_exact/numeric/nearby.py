@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.numeric.start import DEGREES, StartSection, generic_start, joined, start_quadrics
+from pkm_exact.numeric.start import StartSection, generic_start, joined, start_quadrics
 from pkm_exact.numeric.study_system import numeric_section, section_quadrics
 from pkm_exact.numeric.tracker import polished, track
 
@@ -60,6 +60,6 @@ def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
             ends, arrived = track(start.solutions, from_here, quadrics)
             ends, change = polished(ends[arrived], quadrics)
         solutions = joined(solutions, ends[change < GREATEST_CHANGE])
-        if len(solutions) == DEGREES[problem.planar]:
+        if len(solutions) == problem.motion_degree:
             return StartSection(legs, solutions, section.frames)
     return None

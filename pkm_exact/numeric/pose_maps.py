@@ -28,8 +28,6 @@ from pkm_exact.numeric.centred import (
 )
 from pkm_exact.roots.interval import Interval
 
-COMPONENTS: Final = 19
-"""Position (3), rotation matrix by rows (9), quaternion (4), centroid (3)."""
 OUTPUT_BITS: Final = 24
 """Bits to which the radius of an interval is rounded up."""
 
@@ -41,6 +39,7 @@ class PoseMap:
     Attributes
     ----------
     values : list of 19 arb
+        Position (3), rotation matrix by rows (9), quaternion (4), centroid (3).
     slopes : 19 x n matrix
         Their derivatives by the coordinates.
     """

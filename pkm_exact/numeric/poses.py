@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Final
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb
 
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem
@@ -25,12 +25,13 @@ from pkm_exact.numeric.krawczyk import (
     krawczyk_image,
     middle,
 )
-from pkm_exact.numeric.start import DEGREES, StartSection, generic_start, start_quadrics
+from pkm_exact.numeric.start import StartSection, generic_start, start_quadrics
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates
 from pkm_exact.numeric.tracker import polished, track
 from pkm_exact.poses.boxes import Enclosures, disjoint_cells, in_order, ordinary_coordinates, pose_in_cells
 from pkm_exact.poses.jacobian import LEAST_PRECISION, pose_jacobians
 from pkm_exact.poses.pose import Pose
+from pkm_exact.precision import working_precision
 from pkm_exact.stages import Watch
 
 CHARTS: Final = ((3, -1, 2, 1), (1, 2, -1, 3), (2, 3, 1, -1), (-1, 1, 3, 2), (5, -3, 1, 4), (1, 4, -5, -2))
@@ -113,11 +114,6 @@ def _chart(e: Complex, used: Sequence[int]) -> tuple[int, int, int, int]:
     return next(chart for least in CLEARANCES for chart, value in zip(charts, closest, strict=True) if value >= least)
 
 
-def motion_degree(problem: ForwardProblem) -> int:
-    """Degree of the variety of the robot's motions: 40, or 6 if it is planar."""
-    return DEGREES[problem.planar]
-
-
 def real_poses(
     system: ChartSystem, isolated: IsolatedSolutions, width: Fraction
 ) -> tuple[IsolatedSolutions, int, tuple[Pose, ...]]:
@@ -173,7 +169,7 @@ def box_enclosures(system: ChartSystem, boxes: Sequence[Box]) -> Enclosures:
             values = [arb(0)] * 8
             for place, coordinate in enumerate(system.support):
                 values[coordinate] = point[place, 0]
-            with ctx.workprec(bits + GUARD_BITS):
+            with working_precision(bits + GUARD_BITS):
                 known[index] = bits, ordinary_coordinates(values, system.problem.metric)
         return (known[index][1] for index in indices)
 
@@ -189,14 +185,14 @@ def _narrowed(system: ChartSystem, box: Box, exponent: int) -> Balls:
     precision, most = 2 * box.exponents[0] + GUARD_BITS, exponent + box.exponents[0] + GUARD_BITS
     enclosure = _near_limit(system, box, exponent, most)
     if enclosure is None:
-        with ctx.workprec(precision):
+        with working_precision(precision):
             enclosure = ball(system, box)
     else:
         precision = most
     for _ in range(NARROWINGS):
         if all(entry.rad() <= width for entry, width in zip(enclosure.entries(), wanted, strict=True)):
             return enclosure
-        with ctx.workprec(precision):
+        with working_precision(precision):
             point = middle(enclosure)
             gradients = (system.jacobians(place)[0] for place in (point, enclosure))
             image = krawczyk_image(system, point, enclosure - point, *gradients)
@@ -214,17 +210,17 @@ def _near_limit(system: ChartSystem, box: Box, exponent: int, most: int) -> Ball
     operator maps into itself holds exactly one solution, and if the ball lies in the box, it is the solution there.
     """
     reached, precision = box.exponents[0], 2 * box.exponents[0] + GUARD_BITS
-    with ctx.workprec(precision):
+    with working_precision(precision):
         start = point = centre(system, box)
     while 2 * (reached - LOST_BITS) < exponent:
-        with ctx.workprec(precision):
+        with working_precision(precision):
             jacobian = system.jacobians(point)[0]
             try:
                 point = middle(point - jacobian.solve(system.values(jacobian, point), algorithm="approx"))
             except ZeroDivisionError:
                 return None
         reached, precision = 2 * reached, min(2 * precision, most)
-    with ctx.workprec(most):
+    with working_precision(most):
         widths = [arb(2) ** (LOST_BITS - reached + box.exponents[0] - box.exponent(index)) for index in system.support]
         spread = type(point)(system.size, 1, [arb(0, width) for width in widths])
         image = krawczyk_image(system, point, spread, *(system.jacobians(x)[0] for x in (point, point + spread)))

@@ -17,12 +17,11 @@ from typing import Final
 
 import numpy as np
 
+from pkm_exact.geometry.problem import MOTION_DEGREES
 from pkm_exact.geometry.study import PLANAR_SUPPORT
 from pkm_exact.numeric.study_system import Complex, Frames, leg_forms, motion_values, section_quadrics
 from pkm_exact.numeric.tracker import normalised, polished, track
 
-DEGREES: Final = {False: 40, True: 6}
-"""Degree of the variety of rigid motions, and of planar ones (key ``planar``)."""
 SEED: Final = 20081125
 SIZES: Final = {"base": 0.6, "platform": 0.4, "square": 0.5}
 """Typical joints and squared lengths of normalised robots."""
@@ -97,9 +96,9 @@ def find_start(seed: int, *, planar: bool) -> StartSection:
             arrived &= ended
         points, change = polished(points, here)
         solutions = joined(solutions, points[arrived & (change < _SAME)])
-        if len(solutions) == DEGREES[planar]:
+        if len(solutions) == MOTION_DEGREES[planar]:
             return StartSection(legs, polished(solutions, here)[0])
-    raise RuntimeError(f"{len(solutions)} of {DEGREES[planar]} solutions were found; take another seed")
+    raise RuntimeError(f"{len(solutions)} of {MOTION_DEGREES[planar]} solutions were found; take another seed")
 
 
 def _random_legs(random: np.random.Generator, *, planar: bool) -> Complex:

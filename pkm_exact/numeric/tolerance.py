@@ -14,9 +14,9 @@ from fractions import Fraction
 from itertools import combinations
 from typing import Final
 
-from flint import acb, acb_mat, arb, ctx
+from flint import acb, acb_mat, arb
 
-from pkm_exact.contradiction import require
+from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import PLANAR_SUPPORT
 from pkm_exact.geometry.tolerances import Tolerances
@@ -50,8 +50,9 @@ from pkm_exact.numeric.parametric import (
     up,
 )
 from pkm_exact.numeric.pose_maps import interval_ball
-from pkm_exact.numeric.tolerance_result import DEGREES, ProvedBox, ToleranceBox, ToleranceResult
+from pkm_exact.numeric.tolerance_result import ProvedBox, ToleranceBox, ToleranceResult
 from pkm_exact.poses.pose import Pose
+from pkm_exact.precision import working_precision
 from pkm_exact.solution import Solution
 from pkm_exact.stages import Amount, Progress, tell
 
@@ -103,7 +104,7 @@ poses, one in each box
     show = progress or (lambda _: None)
     frames = centred_frames(problem)
     exponent = _grid(tolerances, frames)
-    with ctx.workprec(exponent + GUARD_BITS):
+    with working_precision(exponent + GUARD_BITS):
         robot = centred_robot(problem, frames)
         boxes, near = [], []
         show("tolerance boxes")
@@ -124,12 +125,12 @@ poses, one in each box
         is_complete = (
             all(box.is_proved for box in boxes)
             and len(proved) == len(found)
-            and count == DEGREES[problem.planar]
+            and count == problem.motion_degree
             and are_distinct(
                 [_core(around, exponent) for around in near], [_core(around, exponent) for around in pairs]
             )
         )
-    require(count <= DEGREES[problem.planar], "more solutions than the variety of motions allows", proved=count)
+    require(count <= problem.motion_degree, "more solutions than the variety of motions allows", proved=count)
     for box, pose in zip(boxes, solution.poses, strict=True):
         require(_may_hold(box, pose), "a box of all robots does not hold the nominal pose", pose=box.pose)
     shown = proved if is_complete else ()

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Final
 
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.numeric.centred import CentredFrames, Chart
 from pkm_exact.numeric.deviations import Influence, PoseBounds
-
-DEGREES: Final = {False: 40, True: 6}
-"""Degree of the variety of rigid motions, and of planar ones (key ``planar``)."""
 
 
 @dataclass(frozen=True)
@@ -106,7 +102,7 @@ class ToleranceResult:
         return f"<ToleranceResult: {self}>"
 
     def _repr_html_(self) -> str:
-        from pkm_exact.display import tolerance_html
+        from pkm_exact.interactive.display import tolerance_html
 
         return tolerance_html(self)
 
@@ -115,7 +111,7 @@ class ToleranceResult:
         if not self.is_complete:
             claim = (
                 "that there are no others is not proved for every robot within tolerance, as "
-                f"{self.proved_solutions} of {DEGREES[self.problem.planar]} complex solutions are proved"
+                f"{self.proved_solutions} of {self.problem.motion_degree} complex solutions are proved"
             )
         elif count:
             claim = f"complete: every robot within tolerance has exactly {count} poses, one in each box"

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final
 
-from flint import acb, acb_mat, arb, arb_mat, ctx
+from flint import acb, acb_mat, arb, arb_mat
 
 from pkm_exact.errors import InputError, InternalContradictionError, PkmExactError
 from pkm_exact.geometry.robot import Robot
@@ -28,6 +28,7 @@ from pkm_exact.numeric.pose_maps import pose_map
 from pkm_exact.numeric.tube import FloatPath, Prediction, Tube, floats, in_weights, predict, prove, station
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, disjoint_cells, exponent_for_width, pose_in_cells
 from pkm_exact.poses.pose import Pose
+from pkm_exact.precision import working_precision
 
 STEP_PRECISION: Final = 96
 """Bits of the balls in which a step is proved."""
@@ -204,7 +205,7 @@ class _Run:
             yield TrackedSample(self._boxed(frames, row + 1, near), steps, point)
 
     def _start(self, frames: CentredFrames, start: Pose, poses: Sequence[Pose]) -> Linearisation:
-        with ctx.workprec(self._exponent + GUARD_BITS):
+        with working_precision(self._exponent + GUARD_BITS):
             near = certified_pose(self._robot_at(0, frames), start, poses, self._exponent)
         if near is None:
             raise InputError("start: no box with exactly one pose was proved around it; it is nearly singular")
@@ -223,7 +224,7 @@ class _Run:
 
     def _followed(self, frames: CentredFrames, row: int, near: Linearisation, halvings: int) -> tuple[Tube, int, int]:
         """The tube that reaches the next row, the number of steps, and the length of the next."""
-        with ctx.workprec(STEP_PRECISION):
+        with working_precision(STEP_PRECISION):
             path = FloatPath.of(path_forms(self.robot, frames, self.rows[row], self.rows[row + 1]))
             entering = _core_ball(near, self._exponent)
             here = predict(path, floats(entering)[:, 0], 0.0)
@@ -248,7 +249,7 @@ class _Run:
 
     def _arrived(self, frames: CentredFrames, row: int, tube: Tube) -> Linearisation:
         """The solution at a row, proved in a narrow box in the last slice of the tube that leads there."""
-        with ctx.workprec(self._exponent + GUARD_BITS):
+        with working_precision(self._exponent + GUARD_BITS):
             point = acb_mat([[acb(value.mid())] for value in tube.leaving.entries()])
             near = certified_point(self._robot_at(row, frames), point, self._exponent)
             if near is None or not tube.holds(in_weights(_core_ball(near, self._exponent), tube.weights)):
@@ -257,13 +258,13 @@ class _Run:
 
     def _branch_point(self, row: int, near: Linearisation, halvings: int, sign: int) -> BranchPoint:
         unit = arb(2) ** self._exponent
-        with ctx.workprec(2 * self._exponent):
+        with working_precision(2 * self._exponent):
             centre = tuple(exact_integer(value.real * unit) for value in near.centre.entries())
         return BranchPoint(row, near.chart, self._exponent, centre, halvings, sign)
 
     def _again(self, frames: CentredFrames, point: BranchPoint) -> Linearisation:
         """The solution at a row at which an earlier run stood, proved once more."""
-        with ctx.workprec(self._exponent + GUARD_BITS):
+        with working_precision(self._exponent + GUARD_BITS):
             robot = self._robot_at(point.row, frames)
             unit = arb(2) ** -point.exponent
             centre = acb_mat([[acb(value * unit)] for value in point.centre])
@@ -277,7 +278,7 @@ class _Run:
 
         def enclosures(precision: int, indices: Sequence[int]) -> Iterable[list[arb]]:
             exponent = max(self._exponent, 2 * precision)
-            with ctx.workprec(exponent + GUARD_BITS):
+            with working_precision(exponent + GUARD_BITS):
                 finer = near if exponent == self._exponent else self._finer(frames, row, near, exponent)
                 x = finer.centre + spread(core_radii(finer.robot.size, exponent), real=True)
                 values = pose_map(finer.robot, x).values[:16]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
 from pkm_exact.pictures.scene import PoseView, Scene
+from pkm_exact.wording import counted
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -54,15 +55,6 @@ def statement(scene: Scene) -> str:
         shown = f"{counted(len(scene.poses), 'isolated real pose')} listed"
         return f"poses on curves or surfaces ({proved}); {shown}"
     return f"{poses} listed; not proven complete"
-
-
-def counted(count: int, noun: str) -> str:
-    """The number with its noun.
-
-    >>> counted(1, "pose"), counted(2, "pose")
-    ('1 pose', '2 poses')
-    """
-    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def title(pose: PoseView, *, of: int | None = None) -> str:

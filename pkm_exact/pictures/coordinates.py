@@ -11,12 +11,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
-from flint import arb, ctx
+from flint import arb
 
 from pkm_exact.certify.checker.krawczyk import Equations, narrowed
 from pkm_exact.certify.checker.realposes import ordinary_coordinates
 from pkm_exact.geometry.problem import ForwardProblem, Leg
 from pkm_exact.poses.jacobian import LegJacobian, pose_jacobians
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.isolation import real_root_enclosures
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ class _Enclosures:
 
 def _study_coordinates(representation: Representation, root: arb, precision: int) -> tuple[list[arb], list[arb]]:
     """(e, f) at an enclosed root of the eliminant."""
-    with ctx.workprec(precision):
+    with working_precision(precision):
         slope = representation.eliminant.derivative()(root)
         return (
             [numerator(root) / slope for numerator in representation.quaternion],

@@ -53,12 +53,12 @@ def draw_robot(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen)
 
 def draw_chains(axes: Axes, scene: Scene, pose: PoseView, pen: Pen, colour: str | None = None) -> None:
     """Cranks or slides, from base joints to knees, in the colours of their legs unless a colour is given."""
-    for leg, knee in enumerate(pose.elbows):
+    for leg, knee in enumerate(pose.knees):
         options = {"linewidth": 1.9 * pen.width, "linestyle": style.DASHES[scene.chain], "zorder": _CHAINS}
         shade = colour or style.LEG_COLOURS[leg]
         _line(axes, scene, (scene.base[leg], knee), color=shade, gid=f"chain-{leg + 1}", **options)
-    if pose.elbows:
-        _dots(axes, scene, pose.elbows, "D", style.INK, pen)
+    if pose.knees:
+        _dots(axes, scene, pose.knees, "D", style.INK, pen)
 
 
 def draw_legs(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen, colour: str | None = None) -> None:

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any, Final, cast
 from pkm_exact.errors import InputError
 from pkm_exact.pictures import captions, style
 from pkm_exact.pictures.scene import LARGEST
+from pkm_exact.precision import working_precision
+from pkm_exact.wording import counted
 
 if TYPE_CHECKING:
     from flint import acb, fmpz_poly
@@ -228,11 +230,11 @@ def _draw_arcs(axes: Axes, roots: Roots, stretch: Stretch) -> None:
 
 def _scaled_values(h: fmpz_poly, places: Sequence[float]) -> list[float]:
     """The values at exact doubles, divided by the largest of them."""
-    from flint import arb, ctx, fmpq
+    from flint import arb, fmpq
 
     values = [h(fmpq(*place.as_integer_ratio())) for place in places]
     largest = max(map(abs, values), default=fmpq(0))
-    with ctx.workprec(64):
+    with working_precision(64):
         return [float(arb(value / largest)) if largest else 0.0 for value in values]
 
 
@@ -288,7 +290,7 @@ def _headline(figure: Figure, document: Mapping[str, Any], roots: Roots) -> None
     else:
         wide = f"isolating intervals at most {float(widest):.2g} wide"
     degree = roots.polynomial.degree()
-    second = f"eliminant h of degree {degree}: {captions.counted(len(roots.real), 'real root')}; {wide}"
+    second = f"eliminant h of degree {degree}: {counted(len(roots.real), 'real root')}; {wide}"
     robot = document["robot"]
     first = captions.headline(robot["name"], robot["kind"], document["configuration"]["name"])
     captions.add_headline(figure, first, second)

@@ -56,7 +56,7 @@ class PoseView:
         Its condition number; None at a singular pose or where it is not decided.
     multiplicity : int or None
         None where it is not proved.
-    elbows : tuple of points
+    knees : tuple of points
         Where cranks or slides hold the lower ends of the rods, one per leg; empty if the legs themselves are actuated.
     """
 
@@ -69,7 +69,7 @@ class PoseView:
     det_sign: int | None
     condition: float | None
     multiplicity: int | None
-    elbows: tuple[Point, ...] = ()
+    knees: tuple[Point, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -114,8 +114,8 @@ class Scene:
     poses: tuple[PoseView, ...]
 
     def feet(self, pose: PoseView) -> tuple[Point, ...]:
-        """The lower ends of the legs or rods: elbows, or base joints."""
-        return pose.elbows or self.base
+        """The lower ends of the legs or rods: knees, or base joints."""
+        return pose.knees or self.base
 
 
 def accepted_document(path: Path) -> dict[str, Any]:
@@ -139,16 +139,11 @@ def accepted_with_lines(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
     InputError
         If it cannot be read or is no certificate, or checking it exceeds a limit.
     """
+    from pkm_exact.certify.certificate import content_of
     from pkm_exact.certify.check import Status, check_bytes
-    from pkm_exact.certify.checker.verdict import MAX_BYTES
 
     name = printable(str(path))
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise InputError(f"{name}: cannot be read ({reason}); give the path of a certificate") from None
+    data = content_of(path)
     verdict = check_bytes(data)
     if verdict.status == Status.ACCEPTED:
         return json.loads(data), verdict.lines
@@ -199,9 +194,9 @@ def _scene(document: Mapping[str, Any], robot: Robot | None) -> Scene:
     locked = None if robot is None else configuration_of(document, robot)
     base = tuple(_ordinary(leg.base, axes) for leg in typed.legs)
     platform = tuple(_ordinary(leg.platform, axes) for leg in typed.legs)
-    elbows: tuple[Point, ...] = ()
+    knees: tuple[Point, ...] = ()
     if robot is not None and robot.chains and locked is not None:
-        base, elbows = tuple(_ordinary(joint, axes) for joint in robot.base_joints), base
+        base, knees = tuple(_ordinary(joint, axes) for joint in robot.base_joints), base
     places = placed_poses(typed)
     return Scene(
         name=str(document["robot"]["name"]),
@@ -217,7 +212,7 @@ def _scene(document: Mapping[str, Any], robot: Robot | None) -> Scene:
         lengths=tuple(sqrt(leg.length_squared) for leg in typed.legs),
         chain=_chain(robot),
         poses=tuple(
-            _view(number, listed, place, platform, elbows)
+            _view(number, listed, place, platform, knees)
             for number, (listed, place) in enumerate(zip(document["poses"], places, strict=True), 1)
         ),
     )
@@ -240,7 +235,7 @@ def scene_of_solution(robot: Robot, configuration_name: str | None, solution: So
 
 
 def _view(
-    number: int, listed: Mapping[str, Any], place: Placed, platform: Sequence[Point], elbows: tuple[Point, ...]
+    number: int, listed: Mapping[str, Any], place: Placed, platform: Sequence[Point], knees: tuple[Point, ...]
 ) -> PoseView:
     x = place.coordinates
     position = (x[0], x[1], x[2])
@@ -251,16 +246,16 @@ def _view(
         position_half_width=max(float(Fraction(hi) - Fraction(lo)) / 2 for lo, hi in listed["position"]),
         rotation=rotation,
         quaternion=(x[12], x[13], x[14], x[15]),
-        platform=tuple(_moved(position, rotation, joint) for joint in platform),
+        platform=tuple(moved(position, rotation, joint) for joint in platform),
         det_sign=place.det_sign,
         condition=place.condition,
         multiplicity=listed["multiplicity"],
-        elbows=elbows,
+        knees=knees,
     )
 
 
-def _moved(position: Point, rotation: tuple[Point, Point, Point], joint: Point) -> Point:
-    """C + R B."""
+def moved(position: Point, rotation: tuple[Point, Point, Point], joint: Point) -> Point:
+    """Where a platform joint stands in a pose: C + R B."""
     x, y, z = (
         c + sum(r * b for r, b in zip(row, joint, strict=True)) for c, row in zip(position, rotation, strict=True)
     )

@@ -180,4 +180,4 @@ def _title(figure: Figure, text: str, cell: Rectangle, size: float) -> None:
 
 def _points(scene: Scene, poses: Sequence[PoseView]) -> list[Point]:
     """All joints that are drawn."""
-    return [*scene.base, *(joint for pose in poses for joint in (*pose.platform, *pose.elbows))]
+    return [*scene.base, *(joint for pose in poses for joint in (*pose.platform, *pose.knees))]

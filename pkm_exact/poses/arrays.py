@@ -128,16 +128,16 @@ def _condition(pose: Pose) -> float:
     return inf if pose.jacobian.condition is None else float(pose.jacobian.condition)
 
 
-def rotation_of(arrays: PoseArrays) -> Rotation:
-    """The rotations for scipy.
+def rotations_of(quaternions: NDArray[np.float64], what: str) -> Rotation:
+    """The rotations of quaternions (.., 4), scalar first, for scipy; ``what`` names the caller in messages.
 
     Raises
     ------
     PkmExactError
         If scipy is not installed.
     """
-    transform = required("scipy.spatial.transform", "to_scipy", 'pip install "pkm_exact[scipy]"')
-    rotations: Rotation = transform.Rotation.from_quat(arrays.quaternion[..., [1, 2, 3, 0]])
+    transform = required("scipy.spatial.transform", what, 'pip install "pkm_exact[scipy]"')
+    rotations: Rotation = transform.Rotation.from_quat(quaternions[..., [1, 2, 3, 0]])
     return rotations
 
 

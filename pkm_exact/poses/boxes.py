@@ -11,13 +11,15 @@ from fractions import Fraction
 from functools import partial
 from typing import TypeAlias
 
-from flint import arb, arb_poly, ctx, fmpz_poly
+from flint import arb, arb_poly, fmpz_poly
 
-from pkm_exact.errors import InternalContradictionError
+from pkm_exact.errors import InputError, InternalContradictionError
 from pkm_exact.geometry.study import evaluate, motion_quadrics
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.isolation import isolate_real_roots, real_root_enclosures
+from pkm_exact.wording import shown
 
 DEFAULT_WIDTH = Fraction(1, 10**9)
 """Largest width of a box if none is asked for, in every coordinate."""
@@ -37,11 +39,18 @@ Enclosures: TypeAlias = Callable[[int, Sequence[int]], Iterable[Sequence[arb]]]
 def exponent_for_width(width: Fraction) -> int:
     """The smallest grid exponent, at least 0, whose boxes (two cells at most) are no wider than ``width``.
 
+    Raises
+    ------
+    InputError
+        If the width is no exact number greater than 0.
+
     Examples
     --------
     >>> exponent_for_width(Fraction(1, 1000))
     11
     """
+    if not isinstance(width, Fraction | int) or width <= 0:
+        raise InputError(f"width: {shown(width)} cannot be used; give a Fraction greater than 0")
     exponent = 0
     while Fraction(2, 1 << exponent) > width:
         exponent += 1
@@ -80,9 +89,10 @@ def _at_roots(
     roots = real_root_enclosures(representation.univariate.primitive_polynomial, precision)
     if not set(indices) <= set(range(len(roots))):
         raise InternalContradictionError("the number of real roots changed with the precision")
-    with ctx.workprec(precision):
-        for index in indices:
-            yield ordinary_coordinates(study_coordinates(representation, roots[index]), metric)
+    for index in indices:
+        with working_precision(precision):
+            coordinates = ordinary_coordinates(study_coordinates(representation, roots[index]), metric)
+        yield coordinates
 
 
 def disjoint_cells(enclosures: Enclosures, count: int, width: Fraction) -> tuple[int, list[list[Interval]]]:
@@ -102,7 +112,7 @@ def _cells(enclosures: Enclosures, exponent: int, count: int) -> list[list[Inter
     late = 0
     while left := [index for index, row in enumerate(decided) if None in row]:
         fine = True
-        with ctx.workprec(precision):
+        with working_precision(precision):
             for index, values in zip(left, enclosures(precision, left), strict=True):
                 row = decided[index]
                 for place, value in enumerate(values):

@@ -22,7 +22,7 @@ from pkm_exact.algebra.elimination import Elimination
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
 from pkm_exact.algebra.quotient import standard_monomials
-from pkm_exact.contradiction import require
+from pkm_exact.failures.contradiction import require
 from pkm_exact.formulations.motion_variety import SE3
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
@@ -31,9 +31,6 @@ from pkm_exact.poses.representation import PoseRepresentation
 from pkm_exact.poses.singularity import are_isolated
 from pkm_exact.stages import Watch
 from pkm_exact.verdict import CompletenessRoute
-
-MOTION_DEGREE = 40
-"""Degree of the variety of rigid motions in P^16."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +64,7 @@ def prove_complete(
     if (
         len(problem.legs) == 6
         and not problem.planar
-        and degree == MOTION_DEGREE
+        and degree == problem.motion_degree
         and are_isolated(representation, problem, policy)
     ):
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)

@@ -16,14 +16,15 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-from flint import arb, arb_mat, ctx, fmpq, fmpz_mat
+from flint import arb, arb_mat, fmpq, fmpz_mat
 
-from pkm_exact.contradiction import require
 from pkm_exact.errors import InternalContradictionError
+from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.geometry.study import translation_coordinates
 from pkm_exact.poses.pose import Pose
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
 GUARD_BITS = 64
@@ -123,7 +124,7 @@ def require_on_robot(
     """
     if not poses:
         return
-    with ctx.workprec(exponent + GUARD_BITS):
+    with working_precision(exponent + GUARD_BITS):
         robot = _Robot(problem)
         rows = _enclosures(poses, exponent)
         for number, has_lengths in enumerate(robot.have_lengths(rows)):

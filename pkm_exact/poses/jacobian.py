@@ -16,12 +16,13 @@ from math import isqrt
 from typing import TypeAlias
 
 import numpy as np
-from flint import arb, arb_mat, ctx
+from flint import arb, arb_mat
 
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.poses.boxes import Enclosures
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
 LEAST_PRECISION = 192
@@ -105,7 +106,7 @@ def pose_jacobians(enclosures: Enclosures, problem: ForwardProblem, ranks: Seque
     while None in found:
         if precision > GREATEST_PRECISION:
             raise InternalContradictionError("a regular Jacobian is not confirmed by its enclosures")
-        with ctx.workprec(precision):
+        with working_precision(precision):
             left = [index for index, jacobian in enumerate(found) if jacobian is None]
             joints = _joints(problem)
             for index, values in zip(left, enclosures(precision, left), strict=True):

@@ -12,7 +12,7 @@ from flint import fmpq_mpoly, nmod_mat
 from pkm_exact.algebra.quotient import QuotientAlgebra
 from pkm_exact.algebra.rur import ModularRepresentation, distinct_values, modular_representation
 from pkm_exact.algebra.system import modular_image
-from pkm_exact.contradiction import require
+from pkm_exact.failures.contradiction import require
 from pkm_exact.formulations.base import FormulatedProblem, integer_multiple
 from pkm_exact.geometry.study import translation_coordinates
 from pkm_exact.poses.study_equations import Chart, dependent_coordinate

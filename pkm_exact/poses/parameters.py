@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import islice
 
 from pkm_exact.algebra.rur import ModularRepresentation
-from pkm_exact.contradiction import require
+from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.modular import Form, ModularPoses, candidate_charts, candidate_forms

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from flint import arb, ctx
+from flint import arb
 
 from pkm_exact.poses.pose import Pose
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
 GUARD_BITS = 64
@@ -40,7 +41,7 @@ def angle_in_degrees(cos: Interval, sin: Interval) -> Interval | None:
     if cos.contains(Fraction(0)) and sin.contains(Fraction(0)):
         return None
     longest = max(end.denominator.bit_length() for end in (cos.lo, cos.hi, sin.lo, sin.hi))
-    with ctx.workprec(longest + GUARD_BITS):
+    with working_precision(longest + GUARD_BITS):
         c, s = _ball(cos), _ball(sin)
         if cos.hi < 0:  # away from the cut of the arctangent
             turns = -1 if sin.hi < 0 else 1

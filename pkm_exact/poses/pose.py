@@ -98,9 +98,9 @@ class Pose:
         PkmExactError
             If scipy is not installed; the message says how to get it.
         """
-        from pkm_exact.poses.arrays import rotation_of
+        from pkm_exact.poses.arrays import rotations_of
 
-        return rotation_of(self.to_numpy())
+        return rotations_of(self.to_numpy().quaternion, "to_scipy")
 
     def __str__(self) -> str:
         position, quaternion = (", ".join(map(str, part)) for part in (self.position, self.quaternion))

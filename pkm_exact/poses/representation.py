@@ -29,6 +29,10 @@ class PoseRepresentation:
     chart: Chart
     univariate: UnivariateRepresentation
 
+    def __getstate__(self) -> dict[str, object]:
+        """For copies and other processes: without FLINT's polynomials, which are made again when they are needed."""
+        return {name: self.__dict__[name] for name in self.__dataclass_fields__}
+
     @property
     def separating_form(self) -> tuple[int, ...]:
         """Coefficients of t on (e0, .., e3, f0, .., f3)."""

@@ -8,11 +8,12 @@ from fractions import Fraction
 from math import isqrt
 from typing import Final
 
+from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.roots.interval import Interval, decimal
 
 _UPWARDS: Final = Context(prec=2, rounding=ROUND_CEILING, Emin=MIN_EMIN, Emax=MAX_EMAX)
 _ABOUT: Final = Context(prec=8, Emin=MIN_EMIN, Emax=MAX_EMAX)
-_LONGEST_DECIMAL: Final = 40
+_MOST_DECIMALS: Final = 40
 _NO_UNIT: Final = "1"
 
 
@@ -51,16 +52,8 @@ def exact(value: Fraction) -> str:
     >>> exact(Fraction(464141, 1000)), exact(Fraction(-1, 3)), exact(Fraction(5))
     ('464.141', '-1/3', '5')
     """
-    rest, twos, fives = value.denominator, 0, 0
-    while rest % 2 == 0:
-        rest, twos = rest // 2, twos + 1
-    while rest % 5 == 0:
-        rest, fives = rest // 5, fives + 1
-    digits = max(twos, fives)
-    if rest > 1 or digits > _LONGEST_DECIMAL or not digits:
-        return str(value)
-    whole, part = divmod(abs(value.numerator) * 10**digits // value.denominator, 10**digits)
-    return f"{'-' if value < 0 else ''}{whole}.{part:0{digits}d}"
+    text = finite_decimal(value)
+    return str(value) if text is None or len(text.partition(".")[2]) > _MOST_DECIMALS else text
 
 
 def times_root(value: Fraction, square: int) -> str:

@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING, Any, Final
 import pkm_exact
 from pkm_exact.certify.build import canonical_bytes
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.pictures.scene import configuration_of, scene_of
 from pkm_exact.report_page.markup import Markup, element, embedded_json, joined
 from pkm_exact.report_page.numerals import exact, unit_words, with_unit
 from pkm_exact.report_page.payload import payload
 from pkm_exact.report_page.rows import PoseRows, certified_rows
 from pkm_exact.report_page.sections import (
-    KINDS,
     Facts,
     claim_section,
     groups,
@@ -78,7 +78,7 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
     extra = _tolerance_facts(document) if tolerances else {}
     sections = {
         "claim": claim_section(meaning, counts, limits_of(document), notes),
-        "workplace": _workplace(scene, poses, tolerances=tolerances) if poses.rows else Markup(),
+        "explorer": _explorer(scene, poses, tolerances=tolerances) if poses.rows else Markup(),
         "robot": robot_section(document, {**extra, **_actuators(document, scene, robot)}, has_knees=bool(scene.chain)),
         "proof": proof_section(facts, document),
     }
@@ -137,10 +137,11 @@ def _actuators(document: Mapping[str, Any], scene: Scene, robot: Robot | None) -
         return {}
     texts = (f"({', '.join(map(str, v))})" if isinstance(v, tuple) else str(v) for v in locked.joint_values)
     stands = f"the certificate has it as {len(scene.legs)} legs that stand on its {scene.chain}s"
-    return {"model": f"{robot.kind}: {KINDS[robot.kind]}; {stands}", "joint values": ", ".join(texts)}
+    return {"model": f"{robot.kind}: {KINDS[robot.kind].description}; {stands}", "joint values": ", ".join(texts)}
 
 
-def _workplace(scene: Scene, poses: PoseRows, *, tolerances: bool) -> Markup:
+def _explorer(scene: Scene, poses: PoseRows, *, tolerances: bool) -> Markup:
+    """The picture to turn, beside the table to choose from."""
     presets = {"reset": "Reset"} if scene.planar else _PRESETS
     buttons = (element("button", title, type="button", data_preset=name) for name, title in presets.items())
     turn = "Drag to move it" if scene.planar else "Drag to turn it, with Shift or two fingers to move it"
@@ -159,7 +160,7 @@ def _workplace(scene: Scene, poses: PoseRows, *, tolerances: bool) -> Markup:
         "count": str(len(poses.rows)),
         "table": pose_table(poses),
     }
-    return Markup(Template(_asset("workplace.html")).substitute(words))
+    return Markup(Template(_asset("explorer.html")).substitute(words))
 
 
 def _assembled(

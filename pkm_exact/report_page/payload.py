@@ -33,7 +33,7 @@ def _pose(row: Row, view: PoseView) -> dict[str, Any]:
         "origin": _point(view.position),
         "axes": _points(view.rotation),
         "platform": _points(view.platform),
-        "elbows": _points(view.elbows),
+        "knees": _points(view.knees),
         "lines": row.lines,
         "summary": row.summary,
         "position": row.position,

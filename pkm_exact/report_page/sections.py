@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
+from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.report_page.markup import Markup, element, joined
 from pkm_exact.report_page.numerals import exact, in_unit, root_of, times_root, unit_words
 
@@ -15,14 +16,6 @@ if TYPE_CHECKING:
     from pkm_exact.report_page.rows import PoseRows, Row
     from pkm_exact.report_page.words import Meaning
 
-KINDS: Final = {
-    "6-UPS": "six legs of actuated length from base to platform",
-    "6-RUS": "six rods on cranks that motors turn",
-    "6-PUS": "six rods on carriages on slides",
-    "3-RPR": "planar, three legs of actuated length from base to platform",
-    "3-RRR": "planar, three rods on cranks that motors turn",
-    "3-PRR": "planar, three rods on carriages on slides",
-}
 _GROUPS: Final = {1: "with det J > 0", -1: "with det J < 0", 0: "singular"}
 
 
@@ -160,7 +153,7 @@ def robot_section(document: Mapping[str, Any], extra: Mapping[str, str], *, has_
     kind = robot["kind"]
     facts = {
         "name": robot["name"],
-        "kind": f"{kind}: {KINDS[kind]}",
+        "kind": f"{kind}: {KINDS[kind].description}",
         "configuration": configuration["name"] or "leg lengths given freely",
         "unit of length": unit_words(robot["unit"]),
         "source": robot["source"],
@@ -223,6 +216,28 @@ def _joint_table(document: Mapping[str, Any], caption: str, foot: str) -> Markup
 
 def proof_section(facts: Facts, document: Mapping[str, Any]) -> Markup:
     """What the checker said, and how to ask it again."""
+    return element(
+        "section",
+        element("h2", "What was checked, and how to check it again", id="proof-title"),
+        element("div", _checked(facts.lines), _how_to_check(facts, document), cls="halves even"),
+        cls="sheet",
+        id="proof",
+        aria_labelledby="proof-title",
+    )
+
+
+def _checked(lines: Iterable[str]) -> Markup:
+    said = (
+        "When this page was made, the checker accepted the certificate. It shares nothing with the solver, takes no "
+        "count and no verdict from the file, and proved:"
+    )
+    return element(
+        "div", element("p", said), element("ul", *(element("li", line) for line in lines), cls="checks"), cls="stack"
+    )
+
+
+def _how_to_check(facts: Facts, document: Mapping[str, Any]) -> Markup:
+    """Commands, and the digests that tell whether it is the same certificate."""
     name = shlex.quote(facts.file if not facts.file.startswith("-") else f"./{facts.file}")
     commands = [f"certify-poses check {name}"]
     if facts.has_second_checker:
@@ -233,49 +248,20 @@ def proof_section(facts: Facts, document: Mapping[str, Any]) -> Markup:
         "certificate": facts.file,
         "SHA-256 of the file": facts.file_digest,
         "digest inside, of its content": facts.digest,
-        **(
-            {"solved by": f"{document['method']}, formulation {document['formulation']}"}
-            if "method" in document
-            else {}
-        ),
-        "page made by": f"pkm_exact {facts.version}",
     }
+    if "method" in document:
+        origin["solved by"] = f"{document['method']}, formulation {document['formulation']}"
+    origin["page made by"] = f"pkm_exact {facts.version}"
     entries = (joined(element("dt", key), element("dd", element("code", value))) for key, value in origin.items())
+    advice = (
+        "This page proves nothing by itself, the certificate does. Compare its SHA-256 with the one below, and have it "
+        f"checked.{second}"
+    )
+    lines = (element("code", command) for command in commands)
     return element(
-        "section",
-        element("h2", "What was checked, and how to check it again", id="proof-title"),
-        element(
-            "div",
-            element(
-                "div",
-                element(
-                    "p",
-                    "When this page was made, the checker accepted the certificate. It shares nothing with the solver, "
-                    "takes no count and no verdict from the file, and proved:",
-                ),
-                element("ul", *(element("li", line) for line in facts.lines), cls="checks"),
-                cls="stack",
-            ),
-            element(
-                "div",
-                element(
-                    "p",
-                    "This page proves nothing by itself, the certificate does. Compare its SHA-256 with the one below, "
-                    f"and have it checked.{second}",
-                ),
-                element(
-                    "pre",
-                    *(element("code", command) for command in commands),
-                    tabindex="0",
-                    role="region",
-                    aria_label="Commands",
-                ),
-                element("dl", *entries, cls="facts small"),
-                cls="stack",
-            ),
-            cls="halves even",
-        ),
-        cls="sheet",
-        id="proof",
-        aria_labelledby="proof-title",
+        "div",
+        element("p", advice),
+        element("pre", *lines, tabindex="0", role="region", aria_label="Commands"),
+        element("dl", *entries, cls="facts small"),
+        cls="stack",
     )

@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import sqrt
 from typing import Any, Final
 
-from pkm_exact.pictures.scene import Point, PoseView, Scene
+from pkm_exact.pictures.scene import Point, PoseView, Scene, moved
 from pkm_exact.report_page.numerals import bound, distance, in_unit
 from pkm_exact.report_page.rows import QUATERNION, Box, Cell, Column, PoseRows, Row, box_of, enclosed, half_width
 from pkm_exact.roots.interval import decimal
@@ -98,19 +98,16 @@ def tolerance_scene(document: Mapping[str, Any]) -> Scene:
 def _view(entry: Mapping[str, Any], platform: Sequence[Point]) -> PoseView:
     box = box_of(entry)
     x, y, z = (float(interval.midpoint) for interval in box.position)
-    rotation = tuple(_point([float(interval.midpoint) for interval in row]) for row in box.rotation)
+    first, second, third = (_point([float(interval.midpoint) for interval in row]) for row in box.rotation)
+    rotation = (first, second, third)
     q0, q1, q2, q3 = (float(interval.midpoint) for interval in box.quaternion)
-    joints = [
-        _point([c + sum(map(float.__mul__, row, joint)) for c, row in zip((x, y, z), rotation, strict=True)])
-        for joint in platform
-    ]
     return PoseView(
         number=entry["pose"],
         position=(x, y, z),
         position_half_width=float(max(interval.width for interval in box.position) / 2),
-        rotation=(rotation[0], rotation[1], rotation[2]),
+        rotation=rotation,
         quaternion=(q0, q1, q2, q3),
-        platform=tuple(joints),
+        platform=tuple(moved((x, y, z), rotation, joint) for joint in platform),
         det_sign=None,
         condition=None,
         multiplicity=None,

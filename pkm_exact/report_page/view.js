@@ -48,7 +48,7 @@ function roundLength(value) {
 
 /** Centre and radius of a ball around the robot in all its poses. */
 function surroundings(scene) {
-  const points = scene.base.concat(...scene.poses.map((pose) => [...pose.platform, ...pose.elbows]));
+  const points = scene.base.concat(...scene.poses.map((pose) => [...pose.platform, ...pose.knees]));
   const ends = [0, 1, 2].map((k) => [Math.min(...points.map((p) => p[k])), Math.max(...points.map((p) => p[k]))]);
   const centre = ends.map(([low, high]) => low + (high - low) / 2);
   return { points, centre, ends, radius: Math.max(...points.map((p) => distance(p, centre))) || 1 };
@@ -196,7 +196,7 @@ class View {
 
   /** Bodies, legs and joints, those farther away first. */
   robot(at, pose, isGhost) {
-    const feet = pose.elbows.length ? pose.elbows : this.scene.base;
+    const feet = pose.knees.length ? pose.knees : this.scene.base;
     const items = [];
     const add = (node, ...points) => items.push([node, mean(points.map((p) => [at(p).depth, 0, 0]))[0]]);
     const body = (style, points) => {
@@ -206,7 +206,7 @@ class View {
     if (!isGhost) body("base", this.scene.base);
     body("platform", pose.platform);
     this.scene.base.forEach((joint, i) => {
-      if (pose.elbows.length && !isGhost) add(this.line(at, "leg crank", joint, feet[i]), joint, feet[i]);
+      if (pose.knees.length && !isGhost) add(this.line(at, "leg crank", joint, feet[i]), joint, feet[i]);
       add(this.line(at, `leg leg-${i + 1}`, feet[i], pose.platform[i]), feet[i], pose.platform[i]);
     });
     if (!isGhost) {
@@ -215,7 +215,7 @@ class View {
         add(shape("circle", { class: `joint ${style}`, cx: x.toFixed(2), cy: y.toFixed(2), r: 4 }), p);
       };
       this.scene.base.forEach((p) => joint("base", p));
-      pose.elbows.forEach((p) => joint("elbow", p));
+      pose.knees.forEach((p) => joint("knee", p));
       pose.platform.forEach((p) => joint("platform", p));
     }
     return items.sort((one, other) => one[1] - other[1]).map(([node]) => node);

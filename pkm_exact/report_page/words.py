@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pkm_exact.verdict import Claim, CompletenessRoute
+from pkm_exact.wording import counted
 
 
 @dataclass(frozen=True)
@@ -18,17 +19,6 @@ class Meaning:
     headline: str
     meaning: str
     proof: str
-
-
-def counted(number: int, noun: str) -> str:
-    """A number and its noun.
-
-    Examples
-    --------
-    >>> counted(1, "pose"), counted(0, "pose")
-    ('1 pose', '0 poses')
-    """
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def is_of_tolerances(document: Mapping[str, Any]) -> bool:

@@ -12,8 +12,9 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Final
 
-from flint import arb, arb_poly, ctx, fmpq, fmpz_poly
+from flint import arb, arb_poly, fmpq, fmpz_poly
 
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
 PRECISION: Final = 256
@@ -37,7 +38,7 @@ def roots_in_gaps(polynomial: fmpz_poly, intervals: Sequence[Interval]) -> list[
     >>> roots_in_gaps(fmpz_poly([-1, 3, 0, 1]), [place]), roots_in_gaps(fmpz_poly([6, -11, 6, -1]), [place])
     ([False, False], [False, True])
     """
-    with ctx.workprec(PRECISION):
+    with working_precision(PRECISION):
         # Rounded first: the arithmetic that follows is then one of short numbers.
         rounded = arb_poly([arb(coefficient) * 1 for coefficient in polynomial.coeffs()])
         degree = int(polynomial.degree())

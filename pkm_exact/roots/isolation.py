@@ -7,16 +7,16 @@ the intervals depend on the polynomial alone, not on a precision.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import cast
 
-from flint import acb, arb, ctx, fmpq, fmpz, fmpz_poly
+from flint import acb, arb, fmpq, fmpz, fmpz_poly
 
-from pkm_exact.contradiction import require
 from pkm_exact.errors import InternalContradictionError
+from pkm_exact.failures.contradiction import require
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
 COARSEST_EXPONENT = 32
@@ -44,7 +44,7 @@ class RealRoot:
 
 def real_root_enclosures(polynomial: fmpz_poly, precision: int) -> list[arb]:
     """One ball around each real root of a squarefree polynomial, increasing, with about ``precision`` accurate bits."""
-    with ctx.workprec(precision):
+    with working_precision(precision):
         pairs = cast("list[tuple[acb, int]]", polynomial.complex_roots())
         roots = [root.real for root, _ in pairs if root.imag == 0]
         above = sum(1 for root, _ in pairs if root.imag > 0)
@@ -112,14 +112,6 @@ def _midpoint(ball: arb) -> Fraction:
 def _is_isolating(polynomial: fmpz_poly, root: RealRoot) -> bool:
     values = [polynomial(fmpq(end.numerator, end.denominator)) for end in (root.lo, root.hi)]
     return values[0] == 0 if root.is_exact else values[0] * values[1] < 0
-
-
-def narrow(polynomial: fmpz_poly, roots: Sequence[RealRoot], precision: int) -> list[arb]:
-    """Balls around the given isolated roots, at a higher precision."""
-    enclosures = real_root_enclosures(polynomial, precision)
-    if len(enclosures) != len(roots):
-        raise InternalContradictionError("the number of real roots changed with the precision")
-    return enclosures
 
 
 def has_root(polynomial: fmpz_poly, interval: Interval) -> bool:

@@ -12,13 +12,13 @@ from pathlib import Path
 from typing import Final
 
 import pkm_exact
+from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.certify.build import certificate_bytes
 from pkm_exact.errors import InputError, InternalError, PkmExactError
-from pkm_exact.failure_report import internal_error
+from pkm_exact.failures.failure_report import internal_error
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.policy import Policy
-from pkm_exact.row_solver import RowSolver
 from pkm_exact.sweep.lengths import LengthRow, LengthsFile, problem_of
 from pkm_exact.sweep.record import error_line, solution_line
 

@@ -53,12 +53,14 @@ class Journal:
     """
 
     def __init__(self, output: Path, job: str, keep: Callable[[dict[str, object]], bool]) -> None:
-        self.output = output
+        self.output = output = Path(os.path.realpath(output))  # a link stays one, and leads to the finished file
         self.rows_path = output.with_name(f"{output.name}.partial")
         self.journal_path = output.with_name(f"{output.name}.journal")
         self.rows = 0
         self._digest = b""
         self._synced = monotonic()
+        if output.exists() and not output.is_file():
+            raise InputError(f"{output}: is not a regular file; give -o the path of one")
         try:
             self._journal = self._locked()
             try:

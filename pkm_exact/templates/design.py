@@ -13,16 +13,15 @@ from pkm_exact.geometry.inverse import Matrix, Metric, distance_squared, rotatio
 from pkm_exact.geometry.kinds import KINDS, Joints, Kind, knees
 from pkm_exact.geometry.planar import quarter_turn, turn_of, weight
 from pkm_exact.geometry.problem import Vector
+from pkm_exact.templates import MOST_DECIMALS
 from pkm_exact.templates.layout import joints_and_metric
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.chains import Chain
 
-MOST_DIGITS: Final = 12
-
-# Outward along the sides 1-2, 3-4 and 5-6 of the base, in the metric (1, 3, 1): unit vectors, 60 degrees apart.
 _CRANKS: Final = ((-2, 0), (2, 0), (1, -1), (-1, 1), (1, 1), (-1, -1))
+"""Outward along the sides 1-2, 3-4 and 5-6 of the base, in the metric (1, 3, 1): of length 2, 60 degrees apart."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +61,8 @@ class Design:
             raise InputError(f"--crank: does not fit the kind {self.kind}; {remedy}")
         if self.crank is not None and self.crank <= 0:
             raise InputError(f"--crank: {shown(self.crank)} is not positive; give a length")
-        if self.digits is not None and not 0 <= self.digits <= MOST_DIGITS:
-            raise InputError(f"--digits: {self.digits} is out of range; give 0 to {MOST_DIGITS}")
+        if self.digits is not None and not 0 <= self.digits <= MOST_DECIMALS:
+            raise InputError(f"--digits: {self.digits} is out of range; give 0 to {MOST_DECIMALS}")
         if self.digits is not None and has_cranks(self.kind) and not KINDS[self.kind].planar:
             raise InputError(
                 f"--digits: the cranks of a {self.kind} robot turn along sides 60 degrees apart, which rounded numbers "

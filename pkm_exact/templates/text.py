@@ -10,29 +10,12 @@ from typing import Final
 from pkm_exact.geometry.chains import Crank
 from pkm_exact.geometry.inverse import UNIT_METRIC
 from pkm_exact.geometry.kinds import KINDS, Joints
+from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.templates.design import Draft
 from pkm_exact.templates.layout import rounded_root
 
 _COLUMN: Final = 42  # where comments begin behind short lines
 _DIGITS: Final = 6
-_SECTIONS: Final = {
-    "6-UPS": "six legs of actuated length",
-    "6-RUS": "six rods of fixed length on cranks",
-    "6-PUS": "six rods of fixed length on slides",
-    "3-RPR": "planar: three legs of actuated length",
-    "3-RRR": "planar: three rods of fixed length on cranks",
-    "3-PRR": "planar: three rods of fixed length on slides",
-}
-"""What a kind is, in a few words."""
-
-
-def described(kind: str) -> str:
-    """What a kind is, in a few words.
-
-    >>> described("6-RUS")
-    'six rods of fixed length on cranks'
-    """
-    return _SECTIONS[kind]
 
 
 def toml_number(number: Fraction) -> str:
@@ -41,18 +24,7 @@ def toml_number(number: Fraction) -> str:
     >>> [toml_number(Fraction(text)) for text in ("3", "-5/4", "1/3")]
     ['3', '-1.25', '"1/3"']
     """
-    denominator, digits = number.denominator, 0
-    while denominator % 10 == 0:
-        denominator, digits = denominator // 10, digits + 1
-    for prime in (2, 5):
-        while denominator % prime == 0:
-            denominator, digits = denominator // prime, digits + 1
-    if denominator != 1:
-        return f'"{number}"'
-    if digits == 0:
-        return str(number)
-    whole = str(abs(number.numerator) * 10**digits // number.denominator).zfill(digits + 1)
-    return f"{'-' if number < 0 else ''}{whole[:-digits]}.{whole[-digits:]}"
+    return finite_decimal(number) or f'"{number}"'
 
 
 def model_text(draft: Draft, name: str, unit: str) -> str:
@@ -75,7 +47,7 @@ def _head(draft: Draft, name: str, unit: str) -> Iterator[str]:
     yield '# 0.1 is 1/10, and "1/3", in quotes, is a third.'
     yield _line("schema = 1", "version of this format")
     yield _line(f"name = {json.dumps(name, ensure_ascii=False)}", "shown above every result")
-    yield _line(f'kind = "{kind}"', described(kind))
+    yield _line(f'kind = "{kind}"', KINDS[kind].description)
     yield _line(f"unit = {json.dumps(unit, ensure_ascii=False)}", "of all lengths; only shown, nothing is converted")
     yield "# Where the numbers come from: a drawing, a paper, a calibration. Say it here once they are yours."
     yield f'source = "a first design, drawn by certify-poses new {_options(draft)}"'

@@ -16,24 +16,23 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.errors import InputError, PkmExactError
-from pkm_exact.facade import exact_length
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.interactive.facade import exact_length, exact_width
 from pkm_exact.policy import Policy
+from pkm_exact.poses.arrays import UNKNOWN_SIGN, rotations_of
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.poses.pose import Interval, Pose
-from pkm_exact.row_solver import RowSolver
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
 ERROR: Final = "error"
 """In place of the claim of a row that could not be solved."""
-UNKNOWN_SIGN: Final = 2
-"""In place of the sign of a determinant that was not decided."""
 
 Record: TypeAlias = np.void
 
@@ -90,14 +89,7 @@ class ManySolutions:
         PkmExactError
             If scipy is not installed.
         """
-        try:
-            from scipy.spatial.transform import Rotation
-        except ImportError:
-            raise PkmExactError(
-                'rotations: scipy is not installed; install it, for instance with pip install "pkm_exact[scipy]", or '
-                "use the fields rotation and quaternion"
-            ) from None
-        return Rotation.from_quat(self.poses["quaternion"][:, [1, 2, 3, 0]])
+        return rotations_of(self.poses["quaternion"], "rotations")
 
     def __str__(self) -> str:
         claims, counts = np.unique(self.rows["claim"], return_counts=True)
@@ -111,7 +103,7 @@ class ManySolutions:
         return f"ManySolutions({len(self.rows)} rows, {len(self.poses)} poses)"
 
     def _repr_html_(self) -> str:
-        from pkm_exact.display import many_html
+        from pkm_exact.interactive.display import many_html
 
         return many_html(self)
 
@@ -122,7 +114,7 @@ def solve_many(
     *,
     squared: bool = False,
     doubles_are_exact: bool = False,
-    width: Fraction = DEFAULT_WIDTH,
+    width: Fraction | int | str = DEFAULT_WIDTH,
     policy: Policy | None = None,
     progress: Callable[[int], None] | None = None,
 ) -> ManySolutions:
@@ -139,7 +131,7 @@ def solve_many(
     doubles_are_exact : bool
         Floating-point numbers are refused, unless this says that each is meant to be the rational number that it is
         in binary.
-    width : Fraction
+    width : Fraction or str
         Largest width of a box, in every coordinate (unit of length, or 1 for rotations).
     policy : Policy, optional
         Limits and random choices.
@@ -163,7 +155,7 @@ def solve_many(
     """
     if not isinstance(robot, Robot):
         robot = read_robot(Path(robot))
-    policy = policy or Policy()
+    policy, width = policy or Policy(), exact_width(width)
     problems = [
         _problem(robot, row, number, squared, doubles_are_exact)
         for number, row in enumerate(_table(robot, lengths, doubles_are_exact), 1)

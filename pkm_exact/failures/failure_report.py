@@ -12,14 +12,15 @@ import sys
 import tempfile
 import traceback
 from collections.abc import Sequence
+from contextlib import suppress
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, Final
 
 import pkm_exact
-from pkm_exact.contradiction import CIRCUMSTANCES
 from pkm_exact.errors import InternalContradictionError, InternalError, UnexpectedError
+from pkm_exact.failures.contradiction import CIRCUMSTANCES
 from pkm_exact.files import write_whole
 
 FORMAT: Final = "pkm_exact report"
@@ -143,8 +144,6 @@ def _versions() -> dict[str, str]:
         "system": f"{platform.system()} {platform.machine()}",
     }
     for library in _LIBRARIES:
-        try:
+        with suppress(PackageNotFoundError):
             found[library] = version(library)
-        except PackageNotFoundError:
-            continue
     return found

@@ -14,15 +14,16 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Final
 
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.roots.interval import decimal
 from pkm_exact.verdict import Claim
-from pkm_exact.wording import printable
+from pkm_exact.wording import counted, printable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from pkm_exact.batch.many import ManySolutions
     from pkm_exact.geometry.robot import Robot
-    from pkm_exact.many import ManySolutions
     from pkm_exact.numeric.tolerance_result import ToleranceBox, ToleranceResult
     from pkm_exact.poses.pose import Pose
     from pkm_exact.solution import Solution
@@ -53,13 +54,9 @@ def headline(solution: Solution) -> str:
         return meaning
     distinct, total = solution.distinct_solutions, solution.complex_solutions
     several = "" if distinct == total else f" ({distinct} distinct)"
-    count = f"{_plural(total, 'complex solution')}{several}, {_plural(len(solution.poses), 'real pose')}"
+    count = f"{counted(total, 'complex solution')}{several}, {counted(len(solution.poses), 'real pose')}"
     route = f" ({solution.completeness_route})" if solution.completeness_route else ""
     return f"{count}; {meaning}{route}"
-
-
-def _plural(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def pose_cells(number: int, pose: Pose, *, planar: bool) -> tuple[str, ...]:
@@ -196,13 +193,7 @@ def decimal_above(value: Fraction) -> str:
 
 def _number(value: Fraction) -> str:
     """A rational number as it is, cut off if it is long."""
-    text = str(value)
-    twos_and_fives = value.denominator
-    for prime in (2, 5):
-        while twos_and_fives % prime == 0:
-            twos_and_fives //= prime
-    if twos_and_fives == 1 and len(text) <= _LONGEST_TEXT:
-        text = f"{Decimal(value.numerator) / Decimal(value.denominator):f}"
+    text = finite_decimal(value) or str(value)
     return text if len(text) <= _LONGEST_TEXT else f"{text[:_LONGEST_TEXT]}…"
 
 

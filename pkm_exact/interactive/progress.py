@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 import threading
 import time
+from io import StringIO
 from types import TracebackType
 from typing import Final, TextIO
 
@@ -43,7 +44,7 @@ class Progress:
     """
 
     def __init__(self, *, verbose: bool, notebook: bool = False) -> None:
-        self._stream: TextIO = sys.stderr
+        self._stream: TextIO = sys.stderr or StringIO()  # there is none in a program without a console
         terminal = self._stream.isatty()
         self._visible = terminal or (notebook and "ipykernel" in sys.modules)
         self._erase = _ERASE if terminal else _BLANK

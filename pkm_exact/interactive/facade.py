@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Set
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -15,6 +15,7 @@ from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import NumberText, parse_positive
 from pkm_exact.geometry.robot import Configuration, Robot
+from pkm_exact.policy import SMALLEST_WIDTH
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from pkm_exact.solution import Solution
 
 METHODS: Final = ("exact", "krawczyk")
-SMALLEST_WIDTH: Final = Fraction(1, 2**4096)
 
 
 @dataclass(frozen=True)
@@ -99,6 +99,10 @@ def _lengths(robot: Robot, question: Question) -> list[Fraction]:
             f"{names}) or made by robot.lock(name, joint values)"
         )
     legs = KINDS[robot.kind].legs
+    if isinstance(lengths, bytes | bytearray | Set | Mapping):
+        raise InputError(
+            f"lengths: {type(lengths).__name__} is no list of numbers in the order of the legs; give a list of {legs}"
+        )
     try:
         values = list(lengths)
     except TypeError:
@@ -114,8 +118,8 @@ def _lengths(robot: Robot, question: Question) -> list[Fraction]:
 
 def exact_length(value: object, where: str, *, doubles_are_exact: bool = False) -> Fraction:
     """A positive number, exactly; a float only if it is meant to be the rational number that it is in binary."""
-    if not isinstance(value, str | int | float | Fraction) and hasattr(value, "item"):
-        value = value.item()  # a number of numpy's
+    if not isinstance(value, str | int | float | Fraction) and getattr(value, "shape", None) == ():
+        value = value.item()  # type: ignore[attr-defined]  # a number of numpy's
     if isinstance(value, float):
         if not isfinite(value):
             raise InputError(f"{where}: {value!r} is not a finite number; give one")
@@ -155,8 +159,9 @@ def _options(question: Question) -> dict[str, Any]:
 
 def exact_width(value: object) -> Fraction:
     """The width of boxes that a value denotes."""
-    if isinstance(value, float):
-        raise InputError(f'width: {value!r} is a binary float, not exact; write it as a string, "{value!r}"')
+    if isinstance(value, float) or hasattr(value, "dtype"):
+        written = str(value)
+        raise InputError(f'width: {written} is a binary float, not exact; write it as a string, "{written}"')
     width = exact_length(value, "width")
     if not SMALLEST_WIDTH <= width <= 1:
         raise InputError(f"width: {shown(value)} is out of range; give a number from 2^-4096 to 1")
@@ -166,7 +171,7 @@ def exact_width(value: object) -> Fraction:
 def _shown(progress: Callable[[str], None] | bool | None) -> Any:
     """A context with the callable for an engine."""
     if progress is True:
-        from pkm_exact.cli.progress import Progress
+        from pkm_exact.interactive.progress import Progress
 
         return Progress(verbose=False, notebook=True)
     return nullcontext(progress or None)
