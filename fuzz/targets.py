@@ -99,7 +99,7 @@ def _try_row(robot: Robot, row: LengthRow, names: tuple[str, ...]) -> None:
 
 FILES = ("r.toml", "c.json", "p.csv", "none.toml", ".", "", "o.json", "/dev/null", "-", "no/o.json")
 VOCABULARY = """
-solve check track legs export new selftest report plot completion --help --version -o --method exact krawczyk newton
+solve check track legs export new report plot completion --help --version -o --method exact krawczyk newton
 --configuration home --lengths 7,5,5 1e-3,1/3,0 --width 1e-9 1e-400 2 --format json csv table -v --start 0,0,0 1
 --position 1,2 --quaternion 1,0,0,0 --cayley 0,0,1 --matrix --to msolve singular latex --formulation SE3 AFD1:zxz
 --tolerance 0 -1 --pure --localised --recompute nan inf 1e999999999 -- =
@@ -130,13 +130,13 @@ def fuzz_command(data: bytes) -> None:
         (folder / "p.csv").write_text("7,5,5\n7.01,5,5\n", encoding="ascii")
         os.chdir(folder)
         try:
-            code, errors = _run(words)
+            code, said = _run(words)
         finally:
             os.chdir(home)
         _require_tidy(folder, words, code)
     if code not in set(ExitCode):
         raise Finding(f"{words}: exit code {code}")
-    if code in (ExitCode.BAD_INPUT, ExitCode.NO_ANSWER) and not errors.strip():
+    if code in (ExitCode.BAD_INPUT, ExitCode.NO_ANSWER) and not said.strip():
         raise Finding(f"{words}: exit code {code} without a word")
 
 
@@ -162,8 +162,11 @@ def _run(words: list[str]) -> tuple[int, str]:
             code = main(words)
         except SystemExit as end:
             raise Finding(f"{words}: left by exit {end.code}") from end
-        errors.flush()
-        return code, errors.buffer.getvalue().decode(errors="replace")  # type: ignore[attr-defined]
+        texts = []
+        for stream in (output, errors):
+            stream.flush()
+            texts.append(stream.buffer.getvalue().decode(errors="replace"))  # type: ignore[attr-defined]
+        return code, "".join(texts)
 
 
 def _require_tidy(folder: Path, words: list[str], code: int) -> None:
