@@ -74,7 +74,7 @@ def cluster_workers(job: SweepJob, address: str) -> Iterator[ClusterWorkers]:
 def _connected(distributed: Any, address: str) -> Any:
     try:
         return distributed.Client(address, timeout=SECONDS)
-    except (OSError, ValueError) as error:
+    except Exception as error:  # of any kind: after a client that failed, its loop may end in an assertion
         raise InputError(
             f"--scheduler {printable(address)}: cannot be reached within {SECONDS} seconds "
             f"({_reason(error)}); give the address that the scheduler prints, such as tcp://127.0.0.1:8786"
