@@ -35,10 +35,10 @@ check-style: $(VENV)/.installed-test
 	@$(BIN)/mypy
 
 test: check-style
-	@$(BIN)/python -m pytest -n $(JOBS)
+	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile
 
 test-slow: $(VENV)/.installed-test
-	@$(BIN)/python -m pytest -n $(JOBS) -m slow
+	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m slow
 
 # Changes every number and word of certificates of every kind; MUTATIONS=--complete takes some minutes.
 mutations: $(VENV)/.installed-test

@@ -8,40 +8,17 @@ from fractions import Fraction
 from functools import cache, partial
 from typing import Any
 
-from certificate_tools import CERTS, golden, without_proof
+from certificate_tools import boxed_certificate, golden, tolerant_certificate, without_proof
 
 from pkm_exact.certify.build import certificate
-from pkm_exact.certify.tolerance_build import tolerance_certificate
 from pkm_exact.engine import solve
-from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.geometry.tolerances import Tolerances
-from pkm_exact.numeric.tolerance import tolerance_boxes
-from pkm_exact.numeric_engine import solve_krawczyk
 
 Content = dict[str, Any]
 
 
-def _robot(name: str) -> Robot:
-    return read_robot(CERTS.parent / "models" / f"{name}.toml")
-
-
-def _boxed(name: str) -> Content:
-    robot = _robot(name)
-    configuration = robot.configuration()
-    return certificate(robot, configuration.name, solve_krawczyk(robot.problem(configuration)))
-
-
-def _tolerant(name: str, tolerance: str) -> Content:
-    robot = _robot(name)
-    configuration = robot.configuration()
-    problem = robot.problem(configuration)
-    result = tolerance_boxes(problem, Tolerances.uniform(tolerance), solve_krawczyk(problem))
-    return tolerance_certificate(robot, configuration.name, result)
-
-
 def _open(name: str, tolerance: str) -> Content:
-    content = _tolerant(name, tolerance)
+    content = tolerant_certificate(name, tolerance)
     assert content["unproved"]
     assert not content["complete"]
     return content
@@ -114,21 +91,21 @@ class Subject:
 
 SUBJECTS = {
     "general 6-6, representation": Subject(partial(golden, "mourrain-l"), complete=1500),
-    "general 6-6, boxes": Subject(partial(_boxed, "mourrain-l"), 4, 200),
+    "general 6-6, boxes": Subject(partial(boxed_certificate, "mourrain-l"), 4, 200),
     "general 6-6 of Rolland, representation": Subject(partial(golden, "rolland-6-6"), 0, 60),
-    "general 6-6 of Rolland, boxes": Subject(partial(_boxed, "rolland-6-6"), 0, 60),
+    "general 6-6 of Rolland, boxes": Subject(partial(boxed_certificate, "rolland-6-6"), 0, 60),
     "special robot, exact elimination": Subject(partial(golden, "similar-planar-s"), complete=1500),
     "special robot, 28 solutions": Subject(partial(golden, "ssm-exact"), 0, 200),
     "Gram metric, exact elimination": Subject(partial(golden, "robocrane-r"), 4, 200),
     "chain 6-RUS, representation": Subject(partial(golden, "hexa"), 0, 100),
-    "chain 6-RUS in a Gram metric, boxes": Subject(partial(_boxed, "hexa"), 2, 100),
+    "chain 6-RUS in a Gram metric, boxes": Subject(partial(boxed_certificate, "hexa"), 2, 100),
     "planar, representation": Subject(partial(golden, "3-rrr"), complete=1500),
     "planar, multiple solutions": Subject(partial(golden, "3-rpr-triple")),
-    "planar, boxes": Subject(partial(_boxed, "3-rpr-merlet-p")),
-    "tolerance, planar, complete": Subject(partial(_tolerant, "3-rpr-merlet-p", "1/100000")),
+    "planar, boxes": Subject(partial(boxed_certificate, "3-rpr-merlet-p")),
+    "tolerance, planar, complete": Subject(partial(tolerant_certificate, "3-rpr-merlet-p", "1/100000")),
     "tolerance-open, planar": Subject(partial(_open, "3-rrr", "1/1000"), complete=1500),
-    "tolerance, spatial, complete": Subject(partial(_tolerant, "mourrain-l", "1/1000000000000"), 4, 200),
-    "tolerance, Rolland, complete": Subject(partial(_tolerant, "rolland-6-6", "1/1000000000000000"), 0, 60),
+    "tolerance, spatial, complete": Subject(partial(tolerant_certificate, "mourrain-l", "1/1000000000000"), 4, 200),
+    "tolerance, Rolland, complete": Subject(partial(tolerant_certificate, "rolland-6-6", "1/1000000000000000"), 0, 60),
     "moving, congruent hexagons": Subject(_congruent),
     "moving, dependent legs": Subject(_similar),
     "moving, joints in a point": Subject(partial(_held, 0, 0)),

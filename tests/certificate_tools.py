@@ -1,15 +1,19 @@
-"""Golden certificates, and ways to change them."""
+"""Certificates of the shipped robots, each made once in a test process, and ways to change them."""
 
 import json
 import re
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from typing import Any
 
+from samples import boxed, model, tolerant
+
 from pkm_exact.certify import pure
-from pkm_exact.certify.build import canonical_bytes, sealed
+from pkm_exact.certify.build import canonical_bytes, certificate, sealed
 from pkm_exact.certify.check import Verdict, check_bytes
+from pkm_exact.certify.tolerance_build import tolerance_certificate
 
 CERTS = Path(__file__).parent.parent / "certs"
 NAMES = ("dietmaier", "mourrain-l", "robocrane-r", "rolland-6-6", "similar-planar-s")
@@ -25,6 +29,28 @@ def golden_bytes(name: str) -> bytes:
 def golden(name: str) -> dict[str, Any]:
     """A golden certificate, parsed."""
     return json.loads(golden_bytes(name))
+
+
+@cache
+def _boxed_bytes(name: str) -> bytes:
+    robot = model(name)
+    return canonical_bytes(certificate(robot, robot.configuration().name, boxed(name)))
+
+
+def boxed_certificate(name: str) -> dict[str, Any]:
+    """The certificate of the numeric engine for a shipped robot, parsed anew: it may be changed."""
+    return json.loads(_boxed_bytes(name))
+
+
+@cache
+def _tolerance_bytes(name: str, tolerance: str) -> bytes:
+    robot = model(name)
+    return canonical_bytes(tolerance_certificate(robot, robot.configuration().name, tolerant(name, tolerance)))
+
+
+def tolerant_certificate(name: str, tolerance: str) -> dict[str, Any]:
+    """The tolerance certificate of a shipped robot, parsed anew: it may be changed."""
+    return json.loads(_tolerance_bytes(name, tolerance))
 
 
 def without_proof(content: dict[str, Any]) -> dict[str, Any]:

@@ -1,4 +1,7 @@
-"""Robots, poses and exact interval arithmetic that several test modules share."""
+"""Robots, their solutions, poses and exact interval arithmetic that several test modules share.
+
+What is solved here is solved once in a test process: ask for ``solved("rolland-6-6")`` wherever its solution is needed.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +20,11 @@ from pkm_exact.engine import solve
 from pkm_exact.geometry.inverse import distance_squared, rotation_of
 from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
 from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.numeric.tolerance import tolerance_boxes
+from pkm_exact.numeric.tolerance_result import ToleranceResult
+from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.policy import Policy
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.solution import Solution
@@ -30,9 +38,15 @@ CODES = ("SE3", "AFD4", "AFP3", "AFD5")
 
 
 @cache
+def model(name: str) -> Robot:
+    """A shipped robot."""
+    return read_robot(next(path for path in MODELS if path.stem == name))
+
+
+@cache
 def shipped(name: str) -> ForwardProblem:
     """The first configuration of a shipped robot."""
-    robot = read_robot(next(path for path in MODELS if path.stem == name))
+    robot = model(name)
     return robot.problem(robot.configuration())
 
 
@@ -40,6 +54,18 @@ def shipped(name: str) -> ForwardProblem:
 def solved(name: str, code: str = "SE3") -> Solution:
     """The solution of a shipped robot, computed once in a test process."""
     return solve(shipped(name), formulation=code)
+
+
+@cache
+def boxed(name: str) -> Solution:
+    """The answer of the numeric engine for a shipped robot."""
+    return solve_krawczyk(shipped(name))
+
+
+@cache
+def tolerant(name: str, tolerance: str) -> ToleranceResult:
+    """The poses of a shipped robot, all of whose numbers are known up to this tolerance."""
+    return tolerance_boxes(shipped(name), Tolerances.uniform(tolerance), boxed(name))
 
 
 @dataclass(frozen=True)
