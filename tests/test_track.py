@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -25,6 +26,7 @@ from samples import MODELS
 from tolerance_tools import poses_near, robots_with
 
 from pkm_exact import InputError, read_robot
+from pkm_exact.cli import track as track_command
 from pkm_exact.cli.main import main
 from pkm_exact.cli.track_store import TrackStore
 from pkm_exact.geometry.path_reader import path_from_csv, read_path
@@ -37,6 +39,7 @@ from pkm_exact.numeric.tube import FloatPath, predict, prove, station
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Pose
 from pkm_exact.solution import Solution
+from pkm_exact.verdict import Claim
 
 Capture = pytest.CaptureFixture[str]
 FILES = {path.stem: path for path in MODELS}
@@ -372,6 +375,35 @@ def test_the_command_writes_csv_and_json(words: list[str], tmp_path: Path, capsy
         assert int(row["row"]) == entry["row"] == sample.row + 1
         assert row["time"] == entry["time"]
     assert not list(tmp_path.glob("*.partial"))
+
+
+@pytest.mark.parametrize("complete", [True, False])
+def test_the_command_says_whether_the_start_is_proved(
+    complete: bool, words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    """In a list that is not complete, another pose may stand in the box of the one that was asked for."""
+    solution = solved_at("3-rrr", home("3-rrr"))
+    assert solution.claim is Claim.COMPLETE
+    if not complete:
+        solution = replace(solution, claim=Claim.NOT_PROVEN_COMPLETE, completeness=None)
+    monkeypatch.setattr(track_command, "_solution", lambda *_: solution)
+    interrupted(words, tmp_path / "out.json", 2)
+    monkeypatch.setattr(track_command, "_solution", None)  # the store knows it
+    assert main([*words, str(tmp_path / "out.json")]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("start: ")
+    assert ("list, which is complete" in out) is complete
+    assert ("list is not proved complete" in out) is not complete
+    assert json.loads((tmp_path / "out.json").read_text())["start_proved"] is complete
+
+
+def test_the_sign_is_that_of_the_branch_and_not_of_the_list() -> None:
+    rows = walk("3-rrr", 1, Fraction(1, 50))
+    poses = solved_at("3-rrr", rows[0]).poses
+    assert poses[0].jacobian is not None
+    sign = poses[0].jacobian.det_sign
+    wrong = replace(poses[0], jacobian=replace(poses[0].jacobian, det_sign=-sign))
+    assert [sample.det_sign for sample in track_branch(robot("3-rrr"), rows, wrong)] == [sign, sign]
 
 
 def test_the_command_stops_before_a_singularity(tmp_path: Path, capsys: Capture) -> None:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from pkm_exact.interactive.progress import Progress
     from pkm_exact.numeric.trajectory import BranchPoint, TrackedSample
     from pkm_exact.poses.pose import Pose
+    from pkm_exact.solution import Solution
 
 _SUFFIXES: Final = (".csv", ".json")
 _SECONDS_PER_SYNC: Final = 2.0
@@ -77,7 +78,7 @@ def track(model: str, path: str, number: int, width: Fraction, output: str, verb
     arguments.require_other_file(target, path, "-o", "the file of the path")
     arguments.require_writable(target, "-o")
 
-    from pkm_exact.cli.track_report import written
+    from pkm_exact.cli.track_report import start_line, written
     from pkm_exact.cli.track_store import TrackStore
     from pkm_exact.interactive.progress import Progress
 
@@ -96,6 +97,7 @@ def track(model: str, path: str, number: int, width: Fraction, output: str, verb
         except OSError as error:
             raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
         store.remove()
+    click.echo(start_line(number, proved=store.records[0]["start_proved"]))
     steps = sum(record["steps"] for record in store.records)
     click.echo(
         f"{len(store.records)} of {len(joints.rows)} rows, {steps} certified steps: one branch, det J "
@@ -125,9 +127,10 @@ def _follow(
     start: Pose | BranchPoint
     poses: tuple[Pose, ...] = ()
     if store.records:
-        start = point_of(store.records[-1]["point"])
+        start, proved = point_of(store.records[-1]["point"]), store.records[0]["start_proved"]
     else:
-        poses = _poses(robot, joints, width, progress)
+        solution = _solution(robot, joints, width, progress)
+        poses, proved = solution.poses, solution.is_complete
         if number > len(poses):
             raise InputError(f"--start {number}: the first row has {len(poses)} poses; give a number up to that")
         start = poses[number - 1]
@@ -135,17 +138,17 @@ def _follow(
     samples = track_branch(robot, joints.rows, start, poses=poses, width=width, on_step=shown)
     try:
         for sample in _synced(samples, store):
-            store.add(record_of(sample))
+            store.add(record_of(sample, start_proved=proved))
     except TrackingStopped as stop:
         return stop_of(stop, joints)
     return None
 
 
-def _poses(robot: Robot, joints: JointPath, width: Fraction, progress: Progress) -> tuple[Pose, ...]:
+def _solution(robot: Robot, joints: JointPath, width: Fraction, progress: Progress) -> Solution:
     from pkm_exact.numeric.path_forms import problem_at
     from pkm_exact.numeric_engine import solve_krawczyk
 
-    return solve_krawczyk(problem_at(robot, joints.rows[0]), width=width, progress=progress).poses
+    return solve_krawczyk(problem_at(robot, joints.rows[0]), width=width, progress=progress)
 
 
 def _synced(samples: Iterator[TrackedSample], store: TrackStore) -> Iterator[TrackedSample]:

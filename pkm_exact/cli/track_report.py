@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 Record = dict[str, Any]
 
 
-def record_of(sample: TrackedSample) -> Record:
-    """A sample as a JSON object."""
+def record_of(sample: TrackedSample, *, start_proved: bool) -> Record:
+    """A sample as a JSON object, and whether the list of the start was complete (``start_line``)."""
     pose, point = sample.pose, sample.point
     return {
         "row": sample.row + 1,
@@ -31,6 +31,7 @@ def record_of(sample: TrackedSample) -> Record:
         "rotation": [[_ends(entry) for entry in row] for row in pose.rotation],
         "quaternion": [_ends(q) for q in pose.quaternion],
         "steps": sample.steps,
+        "start_proved": start_proved,
         "point": {
             "row": point.row,
             "chart": [list(pair) for pair in point.chart],
@@ -73,6 +74,20 @@ def stop_of(stop: TrackingStopped, joints: JointPath) -> Record:
     return {**content, "reason": reason}
 
 
+def start_line(number: int, *, proved: bool) -> str:
+    """What is proved of where the branch begins.
+
+    Its first box meets that of the pose in the list, and of no other pose there. In a complete list there is no pose
+    but those.
+    """
+    if proved:
+        return f"start: pose {number} of the first row's list, which is complete"
+    return (
+        f"start: a pose in the box of pose {number} of the first row's list; that list is not proved complete, so that "
+        "the pose there may be another one, which it does not have"
+    )
+
+
 def written(
     target: Path, robot: Robot, joints: JointPath, number: int, records: Sequence[Record], stopped: Record | None
 ) -> None:
@@ -85,6 +100,7 @@ def written(
     content = {
         "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
         "start_pose": number,
+        "start_proved": records[0]["start_proved"],
         "rows": len(joints.rows),
         "samples": [_sample(joints, record) for record in records],
         "stopped": stopped,

@@ -26,7 +26,8 @@ from pkm_exact.numeric.parametric import Linearisation, spread
 from pkm_exact.numeric.path_forms import JointRow, path_forms, problem_at
 from pkm_exact.numeric.pose_maps import pose_map
 from pkm_exact.numeric.tube import FloatPath, Prediction, Tube, floats, in_weights, predict, prove, station
-from pkm_exact.poses.boxes import DEFAULT_WIDTH, disjoint_cells, exponent_for_width, pose_in_cells
+from pkm_exact.poses.boxes import DEFAULT_WIDTH, Enclosures, disjoint_cells, exponent_for_width, pose_in_cells
+from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.pose import Pose
 from pkm_exact.precision import working_precision
 
@@ -175,10 +176,9 @@ def track_branch(
     return run.samples(start, poses)
 
 
-def _sign(start: Pose) -> int:
+def _require_regular(start: Pose) -> None:
     if start.jacobian is None or start.jacobian.det_sign == 0:
         raise InputError("start: the pose is singular, or not proved regular; no single branch leads on from it")
-    return start.jacobian.det_sign
 
 
 @dataclass(frozen=True)
@@ -194,9 +194,9 @@ class _Run:
         if isinstance(start, BranchPoint):
             point, near = start, self._again(frames, start)
         else:
-            sign = _sign(start)
+            _require_regular(start)
             near = self._start(frames, start, poses or [start])
-            point = self._branch_point(0, near, 0, sign)
+            point = self._branch_point(0, near, 0, self._sign(frames, near))
             yield TrackedSample(self._boxed(frames, 0, near), 0, point)
         for row in range(point.row, len(self.rows) - 1):
             tube, steps, halvings = self._followed(frames, row, near, point.halvings)
@@ -275,6 +275,17 @@ class _Run:
 
     def _boxed(self, frames: CentredFrames, row: int, near: Linearisation) -> Pose:
         """The box of the pose at a row, on the grid on which solutions are listed."""
+        _, cells = disjoint_cells(self._enclosures(frames, row, near), 1, self.width)
+        return pose_in_cells(cells[0], None)
+
+    def _sign(self, frames: CentredFrames, near: Linearisation) -> int:
+        """That of det J at the start of the branch itself, which a list may not have, if it is not complete."""
+        problem = problem_at(self.robot, self.rows[0])
+        (jacobian,) = pose_jacobians(self._enclosures(frames, 0, near), problem, [None])
+        return jacobian.det_sign
+
+    def _enclosures(self, frames: CentredFrames, row: int, near: Linearisation) -> Enclosures:
+        """Those of the one solution near the branch at a row, as narrow as asked."""
 
         def enclosures(precision: int, indices: Sequence[int]) -> Iterable[list[arb]]:
             exponent = max(self._exponent, 2 * precision)
@@ -284,8 +295,7 @@ class _Run:
                 values = pose_map(finer.robot, x).values[:16]
             return [values for _ in indices]
 
-        _, cells = disjoint_cells(enclosures, 1, self.width)
-        return pose_in_cells(cells[0], None)
+        return enclosures
 
     def _finer(self, frames: CentredFrames, row: int, near: Linearisation, exponent: int) -> Linearisation:
         robot = self._robot_at(row, frames)
