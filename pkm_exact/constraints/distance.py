@@ -1,0 +1,72 @@
+"""A leg of known length: the distance between a base point and a platform point.
+
+    |C + R B - A|^2 = l^2,  that is  |C|^2 + 2 B.u - 2 A.C - 2 A.(R B) + |A|^2 + |B|^2 - l^2 = 0
+
+The sphere is a hyperplane on rigid motions (Gallet, Nawratil and Schicho, J. Geometry 106, 2015, section 2).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from types import MappingProxyType
+from typing import ClassVar
+
+from pkm_exact.constraints.form import Form, Vector, form, outer, scaled
+from pkm_exact.constraints.protocol import Linear, Role
+
+
+@dataclass(frozen=True)
+class Distance(Linear):
+    """A leg of known length between base joint ``base`` and platform joint ``platform``.
+
+    Attributes
+    ----------
+    base : tuple of 3 Fraction
+        Joint centre A in the fixed frame.
+    platform : tuple of 3 Fraction
+        Joint centre B in the mobile frame.
+    length_squared : Fraction
+        Square of the distance between A and C + R B, in squared units of length.
+    name : str
+        Its label; may be empty.
+
+    Examples
+    --------
+    >>> half, zero = Fraction(1, 2), Fraction(0)
+    >>> [str(x) for x in Distance((half, zero, zero), (zero, zero, zero), Fraction(1)).forms((1, 1, 1))[0][::4]]
+    ['1', '-1', '0', '0', '-3/4']
+    """
+
+    base: Vector
+    platform: Vector
+    length_squared: Fraction
+    name: str = ""
+
+    type: ClassVar[str] = "distance"
+    title: ClassVar[str] = "distance of a platform point from a base point: |C + R B - A| = l"
+    fields: ClassVar[Mapping[str, Role]] = MappingProxyType(
+        {"base": Role.BASE_POINT, "platform": Role.PLATFORM_POINT, "length_squared": Role.POSITIVE}
+    )
+    value_field: ClassVar[str | None] = "length_squared"
+    codimension: ClassVar[int] = 1
+
+    def forms(self, metric: tuple[int, int, int]) -> tuple[Form, ...]:
+        """The hyperplane of the leg."""
+        squares = sum(
+            (g * (a * a + b * b) for g, a, b in zip(metric, self.base, self.platform, strict=True)), Fraction(0)
+        )
+        return (
+            form(
+                Fraction(1),
+                scaled(metric, self.platform, 2),
+                scaled(metric, self.base, -2),
+                outer(metric, self.base, self.platform, -2),
+                squares - self.length_squared,
+            ),
+        )
+
+    def mirrored(self) -> Distance:
+        """The same leg, seen from the platform."""
+        return Distance(self.platform, self.base, self.length_squared, self.name)

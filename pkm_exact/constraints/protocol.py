@@ -1,0 +1,81 @@
+"""The interface that every type of constraint offers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+from typing import ClassVar, Protocol, Self
+
+from pkm_exact.constraints.form import Form
+
+
+class Role(StrEnum):
+    """What a field of a constraint is, so that readers, checkers of input and pictures need not know its type."""
+
+    BASE_POINT = "base point"
+    BASE_DIRECTION = "base direction"
+    PLATFORM_POINT = "platform point"
+    PLATFORM_DIRECTION = "platform direction"
+    NUMBER = "number"
+    POSITIVE = "positive number"
+    COEFFICIENTS = "17 coefficients"
+
+
+@dataclass(frozen=True)
+class SquareForm:
+    """A quadric on rigid motions: it vanishes where linear = factor * root^2.
+
+    Attributes
+    ----------
+    linear, root : Form
+    factor : Fraction
+    """
+
+    linear: Form
+    root: Form
+    factor: Fraction
+
+
+class Constraint(Protocol):
+    """A condition on the pose of the platform: some linear forms, or a quadric, that vanish.
+
+    A class with these members, in a module of its own, and one row in ``constraints.registry`` make a type.
+    """
+
+    type: ClassVar[str]
+    """As model files and certificates name it."""
+    title: ClassVar[str]
+    """What it asks, in words, with its equation."""
+    fields: ClassVar[Mapping[str, Role]]
+    """The geometric fields and their roles, in the order of files."""
+    value_field: ClassVar[str | None]
+    """The field that an actuator sets; None if the type has none."""
+    codimension: ClassVar[int]
+    """How many freedoms it takes in general."""
+
+    @property
+    def name(self) -> str:
+        """How messages and tables call it."""
+        ...
+
+    def forms(self, metric: tuple[int, int, int]) -> tuple[Form, ...]:
+        """The linear forms that vanish at the poses that it admits."""
+        ...
+
+    def squares(self, metric: tuple[int, int, int]) -> tuple[SquareForm, ...]:
+        """The quadrics that vanish there; of all types but the cylinder none."""
+        ...
+
+    def mirrored(self) -> Self | Constraint | None:
+        """What it is when base and platform are exchanged; None if no type says that."""
+        ...
+
+
+class Linear:
+    """What constraints that are linear forms share."""
+
+    def squares(self, metric: tuple[int, int, int]) -> tuple[SquareForm, ...]:  # noqa: ARG002 - those of others use it
+        """None: the constraint is linear."""
+        return ()
