@@ -20,11 +20,11 @@ from tempfile import TemporaryDirectory
 from time import perf_counter
 
 from pkm_exact import Robot, read_robot, track_branch
-from pkm_exact.backends.msolve import find_msolve, msolve_command, msolve_input
+from pkm_exact.backends.msolve_program import find_msolve, msolve_command, msolve_input
 from pkm_exact.formulations.registry import formulation
 from pkm_exact.numeric.nearby import nearby_start
-from pkm_exact.numeric.newton import newton
-from pkm_exact.numeric.robot import StartPose, numeric_robot
+from pkm_exact.numeric.newton_iteration import newton
+from pkm_exact.numeric.numeric_robot import StartPose, numeric_robot
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Pose
 from pkm_exact.solution import Solution

@@ -16,7 +16,7 @@ from pathlib import Path
 from measure import Run
 
 from pkm_exact.algebra.system import PolynomialSystem
-from pkm_exact.backends.msolve import find_msolve, msolve_command, msolve_input, parse_msolve
+from pkm_exact.backends.msolve_program import find_msolve, msolve_command, msolve_input, parse_msolve
 from pkm_exact.export.targets import export
 from pkm_exact.formulations.registry import formulation
 from pkm_exact.geometry.problem import ForwardProblem

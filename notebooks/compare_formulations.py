@@ -18,9 +18,9 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 from pkm_exact import Policy, read_robot, solve
-from pkm_exact.algebra.elimination import Elimination
 from pkm_exact.algebra.equations import SystemEquations
 from pkm_exact.algebra.lifting import lift_by_newton
+from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.rur import modular_representation
 from pkm_exact.formulations.registry import formulation, formulation_codes
 

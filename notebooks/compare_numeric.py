@@ -24,8 +24,8 @@ import numpy as np
 from pkm_exact import Leg, read_robot, solve
 from pkm_exact.comparison.numeric import WIDTH, compare_numeric
 from pkm_exact.comparison.numeric_distance import Judge, Landing
-from pkm_exact.numeric.newton import newton
-from pkm_exact.numeric.robot import StartPose, numeric_robot
+from pkm_exact.numeric.newton_iteration import newton
+from pkm_exact.numeric.numeric_robot import StartPose, numeric_robot
 from pkm_exact.poses.jacobian import characteristic_length
 
 root = next(folder for folder in (Path.cwd(), *Path.cwd().parents) if (folder / "models").is_dir())

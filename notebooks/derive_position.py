@@ -17,7 +17,7 @@ from pathlib import Path
 import sympy as sp
 
 from pkm_exact import Policy, read_robot
-from pkm_exact.algebra.elimination import Elimination
+from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.formulations.registry import formulation
 
 root = next(folder for folder in (Path.cwd(), *Path.cwd().parents) if (folder / "models").is_dir())

@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 from flint import fmpq, fmpq_mat, nmod_mat
 
 from pkm_exact import Policy, Robot, read_robot, solve
-from pkm_exact.algebra.elimination import Elimination
+from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.primes import primes_below
 from pkm_exact.formulations.base import over_integers, rational_ring
 from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, leg_hyperplane, motion_quadrics

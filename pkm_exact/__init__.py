@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from pkm_exact.certify.certificate import check as check
     from pkm_exact.certify.check import check_bytes as check_bytes
     from pkm_exact.certify.checker.verdict import Verdict as Verdict
+    from pkm_exact.claim import Claim as Claim
+    from pkm_exact.claim import CompletenessRoute as CompletenessRoute
     from pkm_exact.engine import solve as solve
     from pkm_exact.errors import InputError as InputError
     from pkm_exact.errors import PkmExactError as PkmExactError
@@ -42,15 +44,13 @@ if TYPE_CHECKING:
     from pkm_exact.poses.pose import Pose as Pose
     from pkm_exact.recomputation import recompute as recompute
     from pkm_exact.solution import Solution as Solution
-    from pkm_exact.verdict import Claim as Claim
-    from pkm_exact.verdict import CompletenessRoute as CompletenessRoute
 
 __version__: Final = "0.1.0"
 
 _HOME: Final = {
     "Certificate": "certify.certificate",
-    "Claim": "verdict",
-    "CompletenessRoute": "verdict",
+    "Claim": "claim",
+    "CompletenessRoute": "claim",
     "Configuration": "geometry.robot",
     "ForwardProblem": "geometry.problem",
     "InputError": "errors",

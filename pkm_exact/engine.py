@@ -10,8 +10,9 @@ from itertools import islice
 
 from flint import fmpz_poly
 
-from pkm_exact.consistency import consistent
+from pkm_exact.claim import Claim
 from pkm_exact.failures.contradiction import attached
+from pkm_exact.final_checks import consistent
 from pkm_exact.formulations.registry import formulation_codes, formulation_for
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.notes import isolated_note, motion_note, open_question, singular_notes, turn_notes
@@ -20,7 +21,7 @@ from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width, in_order, p
 from pkm_exact.poses.completeness import CompletenessProof, prove_complete, prove_inconsistent
 from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.pose import Pose
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.search import PoseSearch, Start
 from pkm_exact.poses.self_motion import (
     Mobility,
@@ -34,7 +35,6 @@ from pkm_exact.poses.singularity import are_isolated, singularity
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Progress, Stages
-from pkm_exact.verdict import Claim
 
 SELF_MOTION_ATTEMPTS = 2
 """Lists of further legs tried on a robot that can only move; if its poses are all at infinity, none has a solution."""

@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.errors import PkmExactError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.pose import Pose
-from pkm_exact.verdict import Claim, CompletenessRoute
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from pkm_exact.numeric.certification import IsolatedSolutions
     from pkm_exact.poses.arrays import PoseArrays
     from pkm_exact.poses.completeness import CompletenessProof
-    from pkm_exact.poses.representation import PoseRepresentation
+    from pkm_exact.poses.pose_representation import PoseRepresentation
     from pkm_exact.poses.self_motion import SelfMotion, TranslationalMotion
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from pkm_exact.algebra.elimination import Elimination
+from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring
 from pkm_exact.engine import solve
 from pkm_exact.geometry.inverse import distance_squared, rotation_of

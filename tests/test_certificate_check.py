@@ -21,12 +21,12 @@ import pkm_exact
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import Status, Verdict, check_bytes
 from pkm_exact.certify.checker import document, elimination, multiplicity, realposes, solutions, verdict
-from pkm_exact.certify.checker.motion import CYCLIC, Leg, Motion, leg_form, leg_lines, motion
 from pkm_exact.certify.checker.section import section
+from pkm_exact.certify.checker.study_motion import CYCLIC, Leg, Motion, leg_form, leg_lines, motion
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.formulations.registry import formulation_codes
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.roots.isolation import isolate_real_roots
-from pkm_exact.verdict import Claim, CompletenessRoute
 
 PACKAGE = Path(pkm_exact.__file__).parent
 SOURCES = [PACKAGE / "certify" / "check.py", *sorted((PACKAGE / "certify" / "checker").glob("*.py"))]

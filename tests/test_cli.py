@@ -15,6 +15,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.cli.main import main
 from pkm_exact.cli.report import as_object, headline
 from pkm_exact.cli.table import decimal
@@ -22,7 +23,6 @@ from pkm_exact.errors import ReconstructionError
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.poses.pose import Interval
 from pkm_exact.solution import Solution
-from pkm_exact.verdict import Claim, CompletenessRoute
 
 ROOT = Path(__file__).parent.parent
 MODEL = str(ROOT / "models" / "mourrain-l.toml")

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from samples import shipped, solved
 
 from pkm_exact.certify.check import check_bytes
+from pkm_exact.claim import Claim
 from pkm_exact.cli.main import main
 from pkm_exact.comparison import numeric
 from pkm_exact.comparison.numeric import WIDTH, compare_numeric
@@ -27,7 +28,6 @@ from pkm_exact.geometry.reader import read_robot
 from pkm_exact.numeric.uncertified import UNCERTIFIED, Ending, NumericPose
 from pkm_exact.poses.jacobian import characteristic_length
 from pkm_exact.poses.pose import Interval, Pose
-from pkm_exact.verdict import Claim
 
 ROOT = Path(__file__).parent.parent
 MODELS = ROOT / "models"
@@ -416,7 +416,7 @@ def test_no_certificate_may_say_uncertified(tmp_path: Path) -> None:
 
 def test_an_uncertified_solution_cannot_become_a_certificate() -> None:
     from pkm_exact.certify.build import certificate
-    from pkm_exact.numeric.newton import solve_newton
+    from pkm_exact.numeric.newton_iteration import solve_newton
 
     with pytest.raises((AttributeError, TypeError, PkmExactError)):
         certificate(read_robot(ROLLAND), "home", solve_newton(shipped("rolland-6-6")))  # type: ignore[arg-type]

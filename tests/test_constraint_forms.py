@@ -5,13 +5,13 @@ from random import Random
 
 import pytest
 
+from pkm_exact.constraints.constraint import Constraint, Role
+from pkm_exact.constraints.constraint_types import CONSTRAINTS
 from pkm_exact.constraints.form import SIZE, Form, Vector, rational_wrench, value_at, wrench
-from pkm_exact.constraints.protocol import Constraint, Role
-from pkm_exact.constraints.registry import CONSTRAINTS
 from pkm_exact.geometry.inverse import Matrix, dot, rotation_of
 from pkm_exact.geometry.study import evaluate, motion_quadrics, translation_coordinates
 from pkm_exact.motions.motion import Motion
-from pkm_exact.motions.registry import MOTIONS
+from pkm_exact.motions.motion_groups import MOTIONS
 
 METRICS = ((1, 1, 1), (1, 3, 1), (2, 3, 5))
 Pose = tuple[Vector, Matrix]

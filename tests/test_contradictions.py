@@ -18,20 +18,20 @@ from hypothesis import strategies as st
 from samples import shipped, solved
 
 from pkm_exact import Policy, Tolerances, solve, solve_krawczyk, tolerance_boxes
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.cli.main import main
-from pkm_exact.consistency import consistent
 from pkm_exact.engine import _Run
 from pkm_exact.errors import InternalContradictionError, InternalError, PkmExactError, UnexpectedError
 from pkm_exact.failures.contradiction import require
 from pkm_exact.failures.failure_report import internal_error, reported
+from pkm_exact.final_checks import consistent
 from pkm_exact.numeric.certification import IsolatedSolutions
 from pkm_exact.numeric.fallback import solve_within
-from pkm_exact.poses.consistency import require_degree_zero
 from pkm_exact.poses.pose import Interval, Pose
+from pkm_exact.poses.pose_consistency import require_degree_zero
 from pkm_exact.poses.self_motion import Cause, Mobility, SelfMotion
 from pkm_exact.roots.counting import roots_in_gaps
 from pkm_exact.solution import Solution
-from pkm_exact.verdict import Claim, CompletenessRoute
 
 ROOT = Path(__file__).parent.parent
 MODEL = ROOT / "models" / "3-rpr-merlet-p.toml"
@@ -437,7 +437,7 @@ def test_a_contradiction_ends_with_a_report(folder: Path, capsys: Capture, monke
 COMMANDS = {
     "pkm_exact.engine.solve": ["solve", str(MODEL)],
     "pkm_exact.numeric_engine.solve_krawczyk": ["solve", str(MODEL), "--method", "krawczyk"],
-    "pkm_exact.numeric.newton.solve_newton": ["solve", str(MODEL), "--method", "newton"],
+    "pkm_exact.numeric.newton_iteration.solve_newton": ["solve", str(MODEL), "--method", "newton"],
     "pkm_exact.certify.build.certificate_bytes": ["solve", str(MODEL), "-o", "never.json"],
     "pkm_exact.certify.check.check_bytes": ["check", str(ROOT / "certs" / "3-rrr.json")],
     "pkm_exact.certify.pure.check_bytes": ["check", "--pure", str(ROOT / "certs" / "3-rrr.json")],

@@ -11,6 +11,7 @@ import pytest
 from flint import fmpq, fmpq_mat
 from samples import CODES, Placed, leg_length_squared, placed, random_vector, shipped, solved
 
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.engine import solve
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
@@ -18,7 +19,6 @@ from pkm_exact.geometry.inverse import rotation_of
 from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
 from pkm_exact.policy import Policy
 from pkm_exact.poses.pose import Interval, Pose
-from pkm_exact.verdict import Claim, CompletenessRoute
 
 # Complex solutions with multiplicity, distinct ones, real poses.
 COUNTS = {

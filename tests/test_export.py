@@ -11,7 +11,7 @@ import sympy
 from flint import fmpz_mpoly
 
 from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring
-from pkm_exact.backends.msolve import find_msolve, msolve_command, parse_msolve
+from pkm_exact.backends.msolve_program import find_msolve, msolve_command, parse_msolve
 from pkm_exact.cli.main import main
 from pkm_exact.errors import InputError
 from pkm_exact.export.targets import TARGETS, export

@@ -5,10 +5,10 @@ from fractions import Fraction
 import pytest
 from samples import MODELS, solved
 
+from pkm_exact.claim import Claim
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
 from pkm_exact.geometry.reader import read_robot
-from pkm_exact.verdict import Claim
 
 COUNTS = {
     "mssm": (16, 16),

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from pkm_exact.claim import Claim
 from pkm_exact.cli.main import main
 from pkm_exact.comparison import compare, worker
 from pkm_exact.comparison.agreement import same_poses
@@ -19,7 +20,6 @@ from pkm_exact.comparison.worker import Outcome, run_apart
 from pkm_exact.formulations.registry import formulation, formulation_codes
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.poses.pose import Interval, Pose
-from pkm_exact.verdict import Claim
 
 MODELS = Path(__file__).parent.parent / "models"
 GENERAL = str(MODELS / "mourrain-l.toml")

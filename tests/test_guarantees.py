@@ -3,10 +3,10 @@
 import re
 from pathlib import Path
 
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.cli.commands import COMMANDS
 from pkm_exact.cli.methods import METHODS
 from pkm_exact.numeric.uncertified import UNCERTIFIED
-from pkm_exact.verdict import Claim, CompletenessRoute
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "guarantees.md").read_text(encoding="utf-8")

@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from graphlib import TopologicalSorter
 from pathlib import Path
@@ -102,3 +103,8 @@ def test_folders_import_in_one_direction() -> None:
 def test_only_the_command_line_imports_the_command_line() -> None:
     importing = {module for module, tree in MODULES.items() if "cli" in map(_part, _imported(ast.walk(tree)))}
     assert {_part(module) for module in importing} == {"cli"}
+
+
+def test_no_two_modules_have_the_same_name() -> None:
+    names = [module.rpartition(".")[2] for module in MODULES if not module.endswith("__init__")]
+    assert sorted(name for name, count in Counter(names).items() if count > 1) == []

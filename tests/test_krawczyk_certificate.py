@@ -16,7 +16,7 @@ from pkm_exact import Robot, certificate, read_robot, solve
 from pkm_exact.certify.build import canonical_bytes
 from pkm_exact.certify.check import Status
 from pkm_exact.certify.checker.krawczyk import Box, Equations, _place, narrowed
-from pkm_exact.certify.checker.motion import Leg
+from pkm_exact.certify.checker.study_motion import Leg
 from pkm_exact.numeric_engine import solve_krawczyk
 
 MODELS = Path(__file__).parent.parent / "models"

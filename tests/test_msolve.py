@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 from samples import CODES, MODELS, REFERENCE, shipped, solved, system
 
-from pkm_exact.backends.msolve import MsolveError, find_msolve, msolve_input, parse_msolve, run_msolve
+from pkm_exact.backends.msolve_program import MsolveError, find_msolve, msolve_input, parse_msolve, run_msolve
 from pkm_exact.formulations.registry import formulation
 
 QUICK = ("dietmaier", "mourrain-l", "robocrane-r", "rolland-6-6", "similar-planar-s", "ssm-exact")
@@ -74,6 +74,6 @@ def test_other_output_is_refused(text: str) -> None:
 
 
 def test_a_missing_program_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pkm_exact.backends.msolve.find_msolve", lambda: None)
+    monkeypatch.setattr("pkm_exact.backends.msolve_program.find_msolve", lambda: None)
     with pytest.raises(MsolveError, match="not installed"):
         run_msolve(system("x y", "x", "y"), seconds=1)

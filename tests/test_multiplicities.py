@@ -12,9 +12,9 @@ from samples import placed
 
 from pkm_exact import Robot, certificate
 from pkm_exact.certify.check import Status
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem, Vector
-from pkm_exact.verdict import Claim, CompletenessRoute
 
 STRAIGHT = (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
 integers = st.integers(-5, 5)

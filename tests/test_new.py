@@ -16,6 +16,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from pkm_exact import solve
+from pkm_exact.claim import Claim
 from pkm_exact.cli import new as new_module
 from pkm_exact.cli.main import main
 from pkm_exact.cli.new import new
@@ -27,8 +28,7 @@ from pkm_exact.geometry.robot import Robot
 from pkm_exact.solution import Solution
 from pkm_exact.templates.design import Design, Draft, drawn, has_cranks
 from pkm_exact.templates.layout import rounded_root, sides_on_circle
-from pkm_exact.templates.text import model_text, toml_number
-from pkm_exact.verdict import Claim
+from pkm_exact.templates.model_text import model_text, toml_number
 
 Capture = pytest.CaptureFixture[str]
 SPATIAL = ["--base-sides", "400,200", "--platform-sides", "100,300", "--height", "500"]

@@ -15,16 +15,16 @@ from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 from samples import MODELS, random_placed, random_vector, shipped, solved
 
+from pkm_exact.claim import CompletenessRoute
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric import poses as numeric_poses
 from pkm_exact.numeric.certification import GRIDS, IsolatedSolutions, isolated_solutions, nearest_box, refined
-from pkm_exact.numeric.krawczyk import RADIUS, Box, ChartSystem, centre, certified
+from pkm_exact.numeric.krawczyk_operator import RADIUS, Box, ChartSystem, centre, certified
 from pkm_exact.numeric.poses import Approximations, approximations, box_enclosures, certified_solutions
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.solution import Solution
-from pkm_exact.verdict import CompletenessRoute
 
 GENERAL = "rolland-6-6"
 SLOW = {"hexa", "hexaglide", "linuxcnc-hexapod", "ssm-rounded"}

@@ -24,9 +24,15 @@ from pkm_exact.numeric.levenberg_marquardt import (
     levenberg_marquardt,
     solve_levenberg_marquardt,
 )
-from pkm_exact.numeric.newton import NewtonPolicy, NotConvergedError, newton, solve_newton, transposed_jacobian
+from pkm_exact.numeric.newton_iteration import (
+    NewtonPolicy,
+    NotConvergedError,
+    newton,
+    solve_newton,
+    transposed_jacobian,
+)
+from pkm_exact.numeric.numeric_robot import NumericRobot, StartPose, centred, numeric_robot, placed
 from pkm_exact.numeric.quaternions import rotation_matrix, turned
-from pkm_exact.numeric.robot import NumericRobot, StartPose, centred, numeric_robot, placed
 from pkm_exact.numeric.uncertified import Ending, NumericPose, UncertifiedSolution
 from pkm_exact.solution import Solution
 

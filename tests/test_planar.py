@@ -12,19 +12,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from samples import root, solved
 
+from pkm_exact.claim import Claim
 from pkm_exact.engine import solve
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, cosine_and_sine
 from pkm_exact.geometry.inverse import Metric, distance_squared, dot
-from pkm_exact.geometry.planar import quarter_turn, turn_of, weight
+from pkm_exact.geometry.planar_rotation import quarter_turn, turn_of, weight
 from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.working_modes import CrankMode, platform_point, working_modes
-from pkm_exact.poses.planar import angle_in_degrees, planar_coordinates
+from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordinates
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.solution import Solution
-from pkm_exact.verdict import Claim
 
 SHAPES = ("general", "collinear", "similar", "congruent", "coincident")
 METRICS = [(1, 1, 1), (1, 3, 1), (2, 5, 7)]

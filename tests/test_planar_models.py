@@ -17,7 +17,7 @@ from pkm_exact.geometry.inverse import dot
 from pkm_exact.geometry.problem import ForwardProblem, Vector
 from pkm_exact.geometry.reader import read_robot, robot_from_toml
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.poses.planar import angle_in_degrees, planar_coordinates
+from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordinates
 
 MODELS = Path(__file__).parent.parent / "models"
 P, RRR, PRR = (str(MODELS / f"{name}.toml") for name in ("3-rpr-merlet-p", "3-rrr", "3-prr"))

@@ -12,12 +12,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from samples import Placed, placed, random_vector, root
 
+from pkm_exact.claim import Claim
 from pkm_exact.engine import solve
 from pkm_exact.geometry.inverse import rotation_of
 from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
 from pkm_exact.geometry.working_modes import platform_point
 from pkm_exact.solution import Solution
-from pkm_exact.verdict import Claim
 
 SHAPES = ("general", "planar", "similar", "coincident", "symmetric")
 METRICS = [(1, 1, 1), (1, 3, 1)]

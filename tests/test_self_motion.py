@@ -14,15 +14,15 @@ from samples import placed, random_vector
 
 from pkm_exact import Robot, certificate
 from pkm_exact.certify.check import Status
+from pkm_exact.claim import Claim
 from pkm_exact.engine import solve
 from pkm_exact.geometry.chains import cosine_and_sine
 from pkm_exact.geometry.inverse import Metric, distance_squared
-from pkm_exact.geometry.planar import turn_of, weight
+from pkm_exact.geometry.planar_rotation import turn_of, weight
 from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
 from pkm_exact.geometry.working_modes import platform_point
 from pkm_exact.poses.self_motion import Cause, SelfMotion, TranslationalMotion, leg_rank, mobility
 from pkm_exact.solution import Solution
-from pkm_exact.verdict import Claim
 
 ORIGIN = (Fraction(0), Fraction(0), Fraction(0))
 METRICS = [(1, 1, 1), (1, 3, 1), (2, 5, 7)]

@@ -9,7 +9,7 @@ import pytest
 from pkm_exact.cli.main import main
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.support.installation import extras
-from pkm_exact.support.selftest import Check, run_checks
+from pkm_exact.support.self_test_cases import Check, run_checks
 
 Capture = pytest.CaptureFixture[str]
 

@@ -8,11 +8,11 @@ import pytest
 
 from pkm_exact.certify.build import canonical_bytes, certificate
 from pkm_exact.certify.check import check_bytes
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem, Leg
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.rotation import quaternion_norm, scaled_rotation
-from pkm_exact.verdict import Claim, CompletenessRoute
 
 MODELS = Path(__file__).parent.parent / "models"
 BASE = ((0, 0, 0), (3, 1, 0), (2, 4, 1), (-2, 3, 0), (-3, -1, 1), (1, -3, 0))

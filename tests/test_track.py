@@ -26,6 +26,7 @@ from samples import MODELS
 from tolerance_tools import poses_near, robots_with
 
 from pkm_exact import InputError, read_robot
+from pkm_exact.claim import Claim
 from pkm_exact.cli import track as track_command
 from pkm_exact.cli.main import main
 from pkm_exact.cli.track_store import TrackStore
@@ -39,7 +40,6 @@ from pkm_exact.numeric.tube import FloatPath, predict, prove, station
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Pose
 from pkm_exact.solution import Solution
-from pkm_exact.verdict import Claim
 
 Capture = pytest.CaptureFixture[str]
 FILES = {path.stem: path for path in MODELS}

@@ -14,7 +14,7 @@ from pkm_exact.certify.checker.document import Document, read
 from pkm_exact.certify.checker.krawczyk import check_isolated
 from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
 from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
-from pkm_exact.certify.checker.tolerance import check_tolerances
+from pkm_exact.certify.checker.tolerance_checks import check_tolerances
 from pkm_exact.certify.checker.tolerance_document import OPENING, read_tolerances
 from pkm_exact.certify.checker.verdict import Refusal, Status, Verdict
 

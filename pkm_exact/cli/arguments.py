@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from pkm_exact.cli.completion import configurations
 from pkm_exact.cli.main import PROBLEM
+from pkm_exact.cli.shell_completion import configurations
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import checked_code, formulation_codes
 from pkm_exact.policy import SMALLEST_WIDTH

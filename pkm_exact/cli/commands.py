@@ -6,15 +6,15 @@ from typing import Final
 
 import click
 
-from pkm_exact.cli.check import check
+from pkm_exact.cli.check_command import check
 from pkm_exact.cli.compare_commands import compare
-from pkm_exact.cli.completion import completion
 from pkm_exact.cli.formulation_commands import export, formulations
 from pkm_exact.cli.legs import legs
 from pkm_exact.cli.new import new
 from pkm_exact.cli.plot import plot
 from pkm_exact.cli.report_command import report
 from pkm_exact.cli.selftest import selftest
+from pkm_exact.cli.shell_completion import completion
 from pkm_exact.cli.solve import solve
 from pkm_exact.cli.sweep import sweep
 from pkm_exact.cli.track import track

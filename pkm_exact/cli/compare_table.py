@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from pkm_exact.cli.table import print_rows
 from pkm_exact.comparison.numeric_distance import Landing
 from pkm_exact.interactive.display import headline
-from pkm_exact.poses.planar import angle_in_degrees, planar_coordinates
+from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordinates
 
 if TYPE_CHECKING:
     from pkm_exact.comparison.numeric import EngineResult, NumericComparison

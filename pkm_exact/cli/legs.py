@@ -143,7 +143,7 @@ def _require_kind(option: str, robot: Robot, model: str) -> None:
 
 def _rotation(option: str, values: list[Fraction], metric: Metric) -> Matrix:
     from pkm_exact.geometry.inverse import rotation_of
-    from pkm_exact.geometry.planar import parse_half_tangent, parse_turn
+    from pkm_exact.geometry.planar_rotation import parse_half_tangent, parse_turn
 
     if option == "--matrix":
         matrix = (_vector(values[:3]), _vector(values[3:6]), _vector(values[6:]))

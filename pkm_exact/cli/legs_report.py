@@ -95,7 +95,7 @@ def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction) -
 
 
 def _planar(robot: Robot, position: Vector, rotation: Matrix) -> tuple[Fraction, Fraction, Fraction, Fraction]:
-    """A planar pose as x, y, c, s in the coordinates of the file (``geometry.planar``)."""
+    """A planar pose as x, y, c, s in the coordinates of the file (``geometry.planar_rotation``)."""
     return position[0], position[1], rotation[0][0], rotation[1][0] / robot.metric[0]
 
 

@@ -102,7 +102,7 @@ def _run(words: list[str]) -> int:
 
 
 def _answered() -> bool:
-    from pkm_exact.cli.completion import answered
+    from pkm_exact.cli.shell_completion import answered
 
     return answered()
 

@@ -18,7 +18,7 @@ from pkm_exact.wording import printable
 if TYPE_CHECKING:
     from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.geometry.robot import Robot
-    from pkm_exact.numeric.robot import StartPose
+    from pkm_exact.numeric.numeric_robot import StartPose
     from pkm_exact.numeric.uncertified import UncertifiedSolution
     from pkm_exact.solution import Solution
 
@@ -78,13 +78,13 @@ def solved_by_newton(problem: ForwardProblem, start: tuple[float, ...] | None) -
     NotConvergedError
         If the method does not converge.
     """
-    from pkm_exact.numeric.newton import solve_newton
+    from pkm_exact.numeric.newton_iteration import solve_newton
 
     return solve_newton(problem, None if start is None else _start_pose(start, planar=problem.planar))
 
 
 def _start_pose(values: tuple[float, ...], *, planar: bool) -> StartPose:
-    from pkm_exact.numeric.robot import StartPose
+    from pkm_exact.numeric.numeric_robot import StartPose
 
     if planar and len(values) == 3:
         x, y, angle = values

@@ -87,7 +87,7 @@ def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
     name = name or ("my robot" if output == STDOUT else Path(output).stem)
 
     from pkm_exact.templates.design import drawn
-    from pkm_exact.templates.text import model_text
+    from pkm_exact.templates.model_text import model_text
 
     draft = drawn(design)
     text = model_text(draft, name, unit)
@@ -243,10 +243,10 @@ def _checked_output(output: str | None, force: bool) -> str | None:
 
 def _proved_at_home(draft: Draft, text: str) -> str:
     """What is proved of the home configuration of the model; refused if its poses are not proved complete."""
+    from pkm_exact.claim import Claim
     from pkm_exact.engine import solve
     from pkm_exact.geometry.reader import robot_from_toml
     from pkm_exact.interactive.progress import Progress
-    from pkm_exact.verdict import Claim
 
     robot = robot_from_toml(text)
     with Progress(verbose=False) as progress:

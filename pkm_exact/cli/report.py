@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.modes import assembly_modes
 from pkm_exact.interactive.display import headline
-from pkm_exact.poses.planar import planar_coordinates
+from pkm_exact.poses.planar_coordinates import planar_coordinates
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.problem import ForwardProblem

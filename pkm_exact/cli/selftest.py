@@ -26,7 +26,7 @@ def selftest() -> int:
       certify-poses selftest
     """
     from pkm_exact.support.installation import extras, version_lines
-    from pkm_exact.support.selftest import run_checks
+    from pkm_exact.support.self_test_cases import run_checks
 
     for line in version_lines():
         click.echo(line)
@@ -51,7 +51,7 @@ def selftest() -> int:
 def _msolve() -> str | None:
     """Where the program is; only tests and benchmarks use it."""
     try:
-        from pkm_exact.backends.msolve import find_msolve
+        from pkm_exact.backends.msolve_program import find_msolve
     except ImportError:  # a broken installation, of which the checks say more
         return None
     return "found" if find_msolve() is not None else None

@@ -17,19 +17,19 @@ from time import perf_counter, process_time
 
 from flint import fmpz
 
-from pkm_exact.algebra.elimination import Elimination
+from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.system import PolynomialSystem
+from pkm_exact.claim import Claim
 from pkm_exact.comparison.row import ResultFigures, SystemFigures
 from pkm_exact.engine import solve
-from pkm_exact.export.text import polynomial_text
+from pkm_exact.export.polynomial_text import polynomial_text
 from pkm_exact.formulations.base import FormulatedProblem
 from pkm_exact.formulations.registry import formulation_for
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.pose import Pose
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.solution import Solution
-from pkm_exact.verdict import Claim
 
 INFINITE = (Claim.POSITIVE_DIMENSIONAL_DETECTED, Claim.POSITIVE_DIMENSIONAL_PROVED)
 

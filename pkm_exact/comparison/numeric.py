@@ -15,19 +15,19 @@ from functools import partial
 from time import perf_counter
 from typing import Any, Final
 
+from pkm_exact.claim import Claim
 from pkm_exact.comparison.numeric_distance import Judge, Judged, Landing
 from pkm_exact.comparison.numeric_engines import ENGINES
 from pkm_exact.engine import solve
 from pkm_exact.errors import PkmExactError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.levenberg_marquardt import DescentPolicy
-from pkm_exact.numeric.robot import numeric_robot
+from pkm_exact.numeric.numeric_robot import numeric_robot
 from pkm_exact.numeric.uncertified import NumericPose
 from pkm_exact.poses.jacobian import characteristic_length
 from pkm_exact.roots.interval import Interval
 from pkm_exact.solution import Solution
 from pkm_exact.stages import Amount, tell
-from pkm_exact.verdict import Claim
 
 WIDTH: Final = Fraction(1, 10**30)
 """Width of the certified boxes: far below what a double resolves."""

@@ -12,9 +12,9 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import PLANAR_SUPPORT
 from pkm_exact.numeric.home import home_pose, random_states
 from pkm_exact.numeric.levenberg_marquardt import DescentPolicy, levenberg_marquardt
-from pkm_exact.numeric.newton import newton, newton_from
+from pkm_exact.numeric.newton_iteration import newton, newton_from
+from pkm_exact.numeric.numeric_robot import NumericRobot
 from pkm_exact.numeric.poses import approximations
-from pkm_exact.numeric.robot import NumericRobot
 from pkm_exact.numeric.study_system import Complex, motion_values
 from pkm_exact.numeric.uncertified import NumericPose
 from pkm_exact.stages import Amount, Watch

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from typing import Any
 
-from pkm_exact.verdict import Claim
+from pkm_exact.claim import Claim
 
 
 class Status(StrEnum):

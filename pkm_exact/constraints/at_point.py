@@ -8,9 +8,9 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import ClassVar
 
+from pkm_exact.constraints.constraint import Linear, Role
 from pkm_exact.constraints.form import Form, Vector
 from pkm_exact.constraints.in_plane import InPlane
-from pkm_exact.constraints.protocol import Linear, Role
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,10 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import ClassVar
 
+from pkm_exact.constraints.constraint import Role, SquareForm
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Form, Vector
 from pkm_exact.constraints.in_plane import InPlane
-from pkm_exact.constraints.protocol import Role, SquareForm
 
 
 @dataclass(frozen=True)

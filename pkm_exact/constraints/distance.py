@@ -13,8 +13,8 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import ClassVar
 
+from pkm_exact.constraints.constraint import Linear, Role
 from pkm_exact.constraints.form import Form, Vector, form, outer, scaled
-from pkm_exact.constraints.protocol import Linear, Role
 
 
 @dataclass(frozen=True)

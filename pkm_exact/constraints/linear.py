@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar
 
+from pkm_exact.constraints.constraint import Linear, Role
 from pkm_exact.constraints.form import Form
-from pkm_exact.constraints.protocol import Linear, Role
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from pkm_exact.algebra.system import PolynomialSystem
-from pkm_exact.export.text import polynomial_text, wrapped
+from pkm_exact.export.polynomial_text import polynomial_text, wrapped
 
 _NAME = re.compile(r"([a-zA-Z]+)([0-9]*)")
 

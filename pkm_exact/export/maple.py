@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pkm_exact.algebra.system import PolynomialSystem
-from pkm_exact.export.text import polynomial_text, wrapped
+from pkm_exact.export.polynomial_text import polynomial_text, wrapped
 
 
 def write(system: PolynomialSystem, heading: str) -> str:

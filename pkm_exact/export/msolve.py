@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pkm_exact.algebra.system import PolynomialSystem
-from pkm_exact.backends.msolve import msolve_input
+from pkm_exact.backends.msolve_program import msolve_input
 
 
 def write(system: PolynomialSystem, _heading: str) -> str:

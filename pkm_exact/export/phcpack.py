@@ -10,7 +10,7 @@ from __future__ import annotations
 from flint import fmpz
 
 from pkm_exact.algebra.system import PolynomialSystem
-from pkm_exact.export.text import polynomial_text, wrapped
+from pkm_exact.export.polynomial_text import polynomial_text, wrapped
 
 LONGEST_INTEGER = 18
 """Digits that phc reads in an integer without an exponent."""

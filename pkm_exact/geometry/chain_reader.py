@@ -12,7 +12,7 @@ from pkm_exact.geometry.hexagons import HEXAGON_METRIC, semi_regular_hexagon
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.joints import parse_joints
 from pkm_exact.geometry.kinds import Joints, Kind
-from pkm_exact.geometry.planar import quarter_turn
+from pkm_exact.geometry.planar_rotation import quarter_turn
 from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.rational import parse_positive, parse_vector
 from pkm_exact.wording import shown

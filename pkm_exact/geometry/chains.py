@@ -132,7 +132,7 @@ Chain: TypeAlias = Crank | Slide
 def cosine_and_sine(half_tangent: Fraction, weight: int = 1) -> CosSin:
     """Cosine and sine of the angle whose half has the given tangent: (1 - w t^2, 2 t) / (1 + w t^2).
 
-    With a weight w other than 1, tangent and sine are those numbers times sqrt(w) (``geometry.planar``).
+    With a weight w other than 1, tangent and sine are those numbers times sqrt(w) (``geometry.planar_rotation``).
 
     Examples
     --------

@@ -10,7 +10,7 @@ from pkm_exact.geometry.chains import cosine_and_sine, parse_cosine_and_sine
 from pkm_exact.geometry.fields import known_keys, label, list_field, required
 from pkm_exact.geometry.inverse import Matrix, distance_squared, rotation_of
 from pkm_exact.geometry.kinds import KINDS
-from pkm_exact.geometry.planar import parse_half_tangent, parse_turn
+from pkm_exact.geometry.planar_rotation import parse_half_tangent, parse_turn
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational, parse_vector
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.wording import shown

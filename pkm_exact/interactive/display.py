@@ -13,10 +13,10 @@ from html import escape
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Final
 
+from pkm_exact.claim import Claim
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.roots.interval import decimal
-from pkm_exact.verdict import Claim
 from pkm_exact.wording import counted, printable
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def pose_cells(number: int, pose: Pose, *, planar: bool) -> tuple[str, ...]:
 
 
 def _planar(pose: Pose) -> tuple[str, ...]:
-    from pkm_exact.poses.planar import angle_in_degrees, planar_coordinates
+    from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordinates
 
     bounds = planar_coordinates(pose)
     angle = angle_in_degrees(bounds["cos"], bounds["sin"])

@@ -142,7 +142,7 @@ def _options(question: Question) -> dict[str, Any]:
     if method not in METHODS:
         remedy = f"use one of: {', '.join(METHODS)}"
         if method == "newton":
-            remedy += "; its poses are uncertified, see pkm_exact.numeric.newton.solve_newton"
+            remedy += "; its poses are uncertified, see pkm_exact.numeric.newton_iteration.solve_newton"
         raise InputError(f"method: {shown(method)} is unknown; {remedy}")
     if question.formulation is not None:
         if method != "exact":

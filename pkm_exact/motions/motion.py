@@ -37,7 +37,7 @@ class Motion:
 
     Examples
     --------
-    >>> from pkm_exact.motions.registry import MOTIONS
+    >>> from pkm_exact.motions.motion_groups import MOTIONS
     >>> MOTIONS["planar"].dimension, MOTIONS["planar"].degree, MOTIONS["planar"].has_study_condition
     (3, 6, False)
     """

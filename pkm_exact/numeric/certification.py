@@ -15,7 +15,7 @@ from fractions import Fraction
 import numpy as np
 from flint import acb, acb_mat, arb
 
-from pkm_exact.numeric.krawczyk import GUARD_BITS, RADIUS, Balls, Box, ChartSystem, certified, middle
+from pkm_exact.numeric.krawczyk_operator import GUARD_BITS, RADIUS, Balls, Box, ChartSystem, certified, middle
 from pkm_exact.numeric.study_system import Complex
 from pkm_exact.precision import working_precision
 from pkm_exact.stages import Amount, Watch

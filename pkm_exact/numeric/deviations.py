@@ -16,7 +16,8 @@ from typing import Final
 
 from flint import acb, arb, arb_mat, ctx
 
-from pkm_exact.numeric.parametric import (
+from pkm_exact.numeric.pose_maps import interval, pose_map
+from pkm_exact.numeric.tolerance_operator import (
     DataErrors,
     LegErrors,
     Linearisation,
@@ -25,7 +26,6 @@ from pkm_exact.numeric.parametric import (
     leg_errors,
     spread,
 )
-from pkm_exact.numeric.pose_maps import interval, pose_map
 from pkm_exact.roots.interval import Interval
 
 MARGIN: Final = 1 + 2**-16

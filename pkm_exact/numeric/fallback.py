@@ -15,7 +15,7 @@ from pkm_exact.errors import InternalError, PkmExactError
 from pkm_exact.failures.failure_report import internal_error
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.levenberg_marquardt import solve_levenberg_marquardt
-from pkm_exact.numeric.robot import numeric_robot
+from pkm_exact.numeric.numeric_robot import numeric_robot
 from pkm_exact.numeric.uncertified import UncertifiedSolution
 from pkm_exact.processes import end_with_parent, messages, process_apart
 from pkm_exact.solution import Solution

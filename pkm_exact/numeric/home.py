@@ -15,8 +15,8 @@ from typing import Final
 
 import numpy as np
 
+from pkm_exact.numeric.numeric_robot import NumericRobot, Real, StartPose, placed
 from pkm_exact.numeric.quaternions import rotation_matrix
-from pkm_exact.numeric.robot import NumericRobot, Real, StartPose, placed
 from pkm_exact.numeric.uncertified import Quaternion
 
 NOTHING: Final = 1e-9
@@ -61,7 +61,7 @@ def home_pose(robot: NumericRobot) -> StartPose:
     --------
     >>> from fractions import Fraction
     >>> from pkm_exact.geometry.problem import ForwardProblem, Leg
-    >>> from pkm_exact.numeric.robot import numeric_robot
+    >>> from pkm_exact.numeric.numeric_robot import numeric_robot
     >>> corners = [tuple(map(Fraction, joint)) for joint in ((0, 0, 0), (4, 0, 0), (2, 3, 0))] * 2
     >>> robot = numeric_robot(ForwardProblem(tuple(Leg(joint, joint, Fraction(25)) for joint in corners)))
     >>> [round(x, 9) for x in home_pose(robot).position], home_pose(robot).quaternion

@@ -1,12 +1,12 @@
 """Levenberg-Marquardt from many random start poses at once, and the distinct poses that it finds. Uncertified.
 
-Residual f and Jacobian J are those of ``numeric.newton``. A step solves (J^T J + d I)(v, w) = -J^T f; the damping d is
-divided by ten after a step that makes |f| smaller, and multiplied by ten, with the step taken back, after one that does
-not. So the iteration goes downhill from anywhere, and is Newton's method where it arrives. It stagnates in places where
-|f| is least without being zero.
+Residual f and Jacobian J are those of ``numeric.newton_iteration``. A step solves (J^T J + d I)(v, w) = -J^T f; the
+damping d is divided by ten after a step that makes |f| smaller, and multiplied by ten, with the step taken back, after
+one that does not. So the iteration goes downhill from anywhere, and is Newton's method where it arrives. It stagnates
+in places where |f| is least without being zero.
 
 References: D. W. Marquardt, "An algorithm for least-squares estimation of nonlinear parameters" (1963); on the group of
-motions the step moves to c + v and exp(w) R as in ``numeric.newton``.
+motions the step moves to c + v and exp(w) R as in ``numeric.newton_iteration``.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.home import random_states
-from pkm_exact.numeric.newton import moving_rows, transposed_jacobian
+from pkm_exact.numeric.newton_iteration import moving_rows, transposed_jacobian
+from pkm_exact.numeric.numeric_robot import NumericRobot, Real, numeric_pose, numeric_robot
 from pkm_exact.numeric.quaternions import rotation_matrix, turned
-from pkm_exact.numeric.robot import NumericRobot, Real, numeric_pose, numeric_robot
 from pkm_exact.numeric.uncertified import Ending, NumericPose, UncertifiedSolution
 
 METHOD: Final = "levenberg-marquardt"

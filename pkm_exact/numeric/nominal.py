@@ -10,10 +10,10 @@ from flint import acb, acb_mat, acb_poly, arb, ctx
 
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.numeric.centred import CentredRobot, Chart, centred_point
-from pkm_exact.numeric.parametric import Linearisation, holds_one, linearise, refined, rounded, spread
 from pkm_exact.numeric.pose_maps import interval_ball, pose_map
+from pkm_exact.numeric.tolerance_operator import Linearisation, holds_one, linearise, refined, rounded, spread
 from pkm_exact.poses.pose import Pose
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 from pkm_exact.solution import Solution

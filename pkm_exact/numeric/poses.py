@@ -14,7 +14,7 @@ from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import support
 from pkm_exact.numeric.certification import IsolatedSolutions, isolated_solutions
-from pkm_exact.numeric.krawczyk import (
+from pkm_exact.numeric.krawczyk_operator import (
     GUARD_BITS,
     RADIUS,
     Balls,

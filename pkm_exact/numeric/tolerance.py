@@ -41,7 +41,8 @@ from pkm_exact.numeric.nominal import (
     exact_integer,
     in_chart,
 )
-from pkm_exact.numeric.parametric import (
+from pkm_exact.numeric.pose_maps import interval_ball
+from pkm_exact.numeric.tolerance_operator import (
     Linearisation,
     data_errors,
     enclosing_radii,
@@ -49,7 +50,6 @@ from pkm_exact.numeric.parametric import (
     spread,
     up,
 )
-from pkm_exact.numeric.pose_maps import interval_ball
 from pkm_exact.numeric.tolerance_result import ProvedBox, ToleranceBox, ToleranceResult
 from pkm_exact.poses.pose import Pose
 from pkm_exact.precision import working_precision

@@ -22,9 +22,9 @@ from pkm_exact.errors import InputError, InternalContradictionError, PkmExactErr
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric.centred import CentredFrames, CentredRobot, Chart, centred_frames, centred_robot
 from pkm_exact.numeric.nominal import certified_point, certified_pose, core_radii, exact_integer, in_chart
-from pkm_exact.numeric.parametric import Linearisation, spread
 from pkm_exact.numeric.path_forms import JointRow, path_forms, problem_at
 from pkm_exact.numeric.pose_maps import pose_map
+from pkm_exact.numeric.tolerance_operator import Linearisation, spread
 from pkm_exact.numeric.tube import FloatPath, Prediction, Tube, floats, in_weights, predict, prove, station
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, Enclosures, disjoint_cells, exponent_for_width, pose_in_cells
 from pkm_exact.poses.jacobian import pose_jacobians

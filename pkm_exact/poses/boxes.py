@@ -16,7 +16,7 @@ from flint import arb, arb_poly, fmpz_poly
 from pkm_exact.errors import InputError, InternalContradictionError
 from pkm_exact.geometry.study import evaluate, motion_quadrics
 from pkm_exact.poses.pose import Interval, Pose
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.isolation import isolate_real_roots, real_root_enclosures
 from pkm_exact.wording import shown

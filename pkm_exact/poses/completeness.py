@@ -10,7 +10,7 @@ Exact elimination. Robots with symmetries have fewer finite solutions, the rest 
 the affine coordinates of the section yields members of the ideal of the poses, and the monomials that none of their
 leading monomials divide span its quotient algebra. If these are as many as the poses listed, there is no other. If
 they are more, some poses are multiple. A pose at which the Jacobian has corank c counts 2^c times at least
-(``poses.multiplicity``): if these numbers sum to the bound, again there is no other. Or else the trace form over Q
+(``poses.multiple_poses``): if these numbers sum to the bound, again there is no other. Or else the trace form over Q
 counts the distinct ones (``algebra.exact_quotient``), and there must be as many as listed.
 """
 
@@ -18,19 +18,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pkm_exact.algebra.elimination import Elimination
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
+from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.quotient import standard_monomials
+from pkm_exact.claim import CompletenessRoute
 from pkm_exact.failures.contradiction import require
 from pkm_exact.formulations.motion_variety import SE3
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
-from pkm_exact.poses.multiplicity import Multiplicities, exact_multiplicities, least_multiplicities, total_of
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.multiple_poses import Multiplicities, exact_multiplicities, least_multiplicities, total_of
+from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.singularity import are_isolated
 from pkm_exact.stages import Watch
-from pkm_exact.verdict import CompletenessRoute
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import islice
 
-from pkm_exact.algebra.elimination import Elimination, ModularImage
 from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.lifting import Acceptance, lift_by_newton, lift_by_primes
+from pkm_exact.algebra.modular_elimination import Elimination, ModularImage
 from pkm_exact.algebra.representation import UnivariateRepresentation, union
 from pkm_exact.algebra.rur import ModularRepresentation
 from pkm_exact.errors import InternalContradictionError
@@ -26,7 +26,7 @@ from pkm_exact.policy import Policy
 from pkm_exact.poses.expected_size import expected_bits
 from pkm_exact.poses.modular import ModularPoses, modular_poses
 from pkm_exact.poses.parameters import Parameters, choose_parameters
-from pkm_exact.poses.representation import PoseRepresentation, pose_representation
+from pkm_exact.poses.pose_representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.study_equations import StudyEquations, free_coordinates
 from pkm_exact.stages import Amount, Stages
 

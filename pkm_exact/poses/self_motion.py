@@ -28,10 +28,10 @@ from flint import fmpq, fmpq_mat
 from pkm_exact.formulations.base import rational
 from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, leg_hyperplane, planar_hyperplanes
 from pkm_exact.geometry.inverse import dot
-from pkm_exact.geometry.planar import turn_of
+from pkm_exact.geometry.planar_rotation import turn_of
 from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
 from pkm_exact.geometry.rotation import CYCLIC
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.pose_representation import PoseRepresentation
 
 
 class Cause(StrEnum):

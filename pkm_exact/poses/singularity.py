@@ -24,7 +24,7 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.geometry.study import evaluate, motion_quadrics
 from pkm_exact.policy import Policy
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.study_equations import StudyEquations
 
 Element = fmpq_poly

@@ -32,7 +32,7 @@ from pkm_exact.report_page.sections import (
     proof_section,
     robot_section,
 )
-from pkm_exact.report_page.tolerances import tolerance_rows, tolerance_scene
+from pkm_exact.report_page.tolerance_page import tolerance_rows, tolerance_scene
 from pkm_exact.report_page.words import Meaning, is_of_tolerances, limits_of, meaning_of
 
 if TYPE_CHECKING:

@@ -206,7 +206,7 @@ def _row(document: Mapping[str, Any], entry: Mapping[str, Any], view: PoseView, 
 
 
 def _angle(box: Box) -> Interval | None:
-    from pkm_exact.poses.planar import angle_in_degrees
+    from pkm_exact.poses.planar_coordinates import angle_in_degrees
 
     return angle_in_degrees(box.rotation[0][0], box.rotation[1][0])
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pkm_exact.verdict import Claim, CompletenessRoute
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.wording import counted
 
 

@@ -11,12 +11,12 @@ from itertools import islice
 from pathlib import Path
 from typing import Any, Final, Protocol
 
+from pkm_exact.claim import Claim
 from pkm_exact.errors import InputError
 from pkm_exact.files import remove_drafts, write_whole
 from pkm_exact.sweep.job import Answer, SweepJob, identity
 from pkm_exact.sweep.journal import Journal
 from pkm_exact.sweep.lengths import LengthRow, LengthsFile
-from pkm_exact.verdict import Claim
 
 AHEAD: Final = 4096
 """Most answers that are kept because an earlier row is not answered."""

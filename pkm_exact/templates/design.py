@@ -11,7 +11,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, JointValue, Slide, cosine_and_sine
 from pkm_exact.geometry.inverse import Matrix, Metric, distance_squared, rotation_of
 from pkm_exact.geometry.kinds import KINDS, Joints, Kind, knees
-from pkm_exact.geometry.planar import quarter_turn, turn_of, weight
+from pkm_exact.geometry.planar_rotation import quarter_turn, turn_of, weight
 from pkm_exact.geometry.problem import Vector
 from pkm_exact.templates import MOST_DECIMALS
 from pkm_exact.templates.layout import joints_and_metric
@@ -83,7 +83,7 @@ class Draft:
     position : vector
         Of the platform's frame in the home pose.
     half_tangent : Fraction
-        Of the platform's turn in the home pose of a planar robot (see ``geometry.planar``); 0 if it is level.
+        Of the platform's turn in the home pose of a planar robot (see ``geometry.planar_rotation``); 0 if it is level.
     chains : tuple of Crank or Slide
         Empty if the legs themselves are actuated. Their rods have no length of their own: ``lengths_squared`` has it.
     lengths_squared : tuple of Fraction

@@ -10,7 +10,6 @@ from flint import fmpq, fmpz_poly
 from pkm_exact.certify.checker.document import Document, ListedPose, Representation
 from pkm_exact.certify.checker.elimination import Row, eliminate
 from pkm_exact.certify.checker.krawczyk import Isolated
-from pkm_exact.certify.checker.motion import PLANAR_LEGS
 from pkm_exact.certify.checker.multiplicity import (
     are_simple,
     is_multiple,
@@ -18,6 +17,7 @@ from pkm_exact.certify.checker.multiplicity import (
     multiplicities,
 )
 from pkm_exact.certify.checker.selfmotion import check_self_motion
+from pkm_exact.certify.checker.study_motion import PLANAR_LEGS
 from pkm_exact.certify.checker.traceform import quotient_algebra
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, PLANAR_NUMBER, rejected
 

@@ -10,7 +10,6 @@ from flint import fmpz_poly
 
 from pkm_exact.certify.checker.elimination import Row
 from pkm_exact.certify.checker.krawczyk import Box, Isolated
-from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, Point
 from pkm_exact.certify.checker.spelling import (
     choice,
     count,
@@ -24,6 +23,7 @@ from pkm_exact.certify.checker.spelling import (
     read_sealed,
     text,
 )
+from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, Point
 from pkm_exact.certify.checker.verdict import (
     GREATEST_NUMBER,
     MAX_BOX_EXPONENT,

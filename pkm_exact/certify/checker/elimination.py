@@ -18,8 +18,8 @@ from typing import TypeAlias
 
 from flint import fmpq, fmpz_mat
 
-from pkm_exact.certify.checker.motion import Leg, Metric
 from pkm_exact.certify.checker.section import section
+from pkm_exact.certify.checker.study_motion import Leg, Metric
 from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_BITS, rejected, too_large
 
 Monomial: TypeAlias = tuple[int, ...]

@@ -19,7 +19,7 @@ from typing import Final, TypeAlias
 
 from flint import acb, acb_mat, arb, arb_mat, ctx, fmpz_mat
 
-from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
+from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import rejected
 
 REACH: Final = 4

@@ -16,9 +16,9 @@ from typing import Any, Final
 from flint import fmpq_poly, fmpz_poly, nmod_mat, nmod_poly
 
 from pkm_exact.certify.checker.document import Representation
-from pkm_exact.certify.checker.motion import Leg, Metric, combination, leg_lines, motion
 from pkm_exact.certify.checker.section import unknowns
 from pkm_exact.certify.checker.solutions import PRIMES, modulo, primitive_part, proved_coprime
+from pkm_exact.certify.checker.study_motion import Leg, Metric, combination, leg_lines, motion
 from pkm_exact.certify.checker.traceform import Algebra
 
 BASES: Final = (3, 5, 7)

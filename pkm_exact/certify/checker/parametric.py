@@ -16,7 +16,7 @@ from typing import TypeAlias
 
 from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
 
-from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, motion
+from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, motion
 
 Balls: TypeAlias = list[arb]
 

@@ -16,8 +16,8 @@ from flint import acb_poly, arb, ctx, fmpq, fmpz, fmpz_poly
 
 from pkm_exact.certify.checker.document import Ends, ListedPose, Representation
 from pkm_exact.certify.checker.krawczyk import Equations, Isolated, narrowed
-from pkm_exact.certify.checker.motion import Leg, Metric, motion
 from pkm_exact.certify.checker.solutions import primitive_part
+from pkm_exact.certify.checker.study_motion import Leg, Metric, motion
 from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_PRECISION, rejected, too_large
 
 Cell: TypeAlias = tuple[fmpz, fmpz]

@@ -12,7 +12,7 @@ from typing import Any, Final
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
 
-from pkm_exact.certify.checker.motion import CYCLIC, PLANAR_LEGS, Leg, Metric, leg_form
+from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Metric, leg_form
 
 ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
 """Coordinates; the legs are solved for those on the left first, and unknowns decrease in the monomial order."""

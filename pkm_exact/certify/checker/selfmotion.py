@@ -16,8 +16,8 @@ from math import lcm
 from flint import fmpq, fmpq_mat, fmpz_mat
 
 from pkm_exact.certify.checker.document import Document, Representation
-from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, Point, combination, leg_form, motion
 from pkm_exact.certify.checker.solutions import primitive_part, vanishes
+from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, Point, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import rejected
 
 

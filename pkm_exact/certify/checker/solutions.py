@@ -15,7 +15,7 @@ from typing import Final
 from flint import fmpz_poly, nmod_poly
 
 from pkm_exact.certify.checker.document import Representation
-from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
+from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
 
 PRIMES: Final = tuple((1 << 63) - offset for offset in (25, 165, 259, 301, 375, 387))

@@ -8,7 +8,6 @@ from fractions import Fraction
 from typing import Any, Final
 
 from pkm_exact.certify.checker.document import read_lengths_squared, read_point, read_robot
-from pkm_exact.certify.checker.motion import PLANAR_LEGS, Leg, Metric
 from pkm_exact.certify.checker.spelling import (
     count,
     entries,
@@ -19,6 +18,7 @@ from pkm_exact.certify.checker.spelling import (
     rational,
     read_sealed,
 )
+from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric
 from pkm_exact.certify.checker.verdict import malformed, too_large
 
 FORMAT: Final = "pkm_exact tolerance certificate"

@@ -41,7 +41,7 @@ class SquareForm:
 class Constraint(Protocol):
     """A condition on the pose of the platform: some linear forms, or a quadric, that vanish.
 
-    A class with these members, in a module of its own, and one row in ``constraints.registry`` make a type.
+    A class with these members, in a module of its own, and one row in ``constraints.constraint_types`` make a type.
     """
 
     type: ClassVar[str]

@@ -1,7 +1,7 @@
 """Newton-Raphson from a start pose, the usual way to solve forward kinematics: fast, and uncertified.
 
-The unknown is the pose (c, R), see ``numeric.robot``; the residual is f_i = |c + R B_i - A_i| - l_i. With n_i the unit
-vector of leg i, along a velocity v and an angular velocity w of the platform
+The unknown is the pose (c, R), see ``numeric.numeric_robot``; the residual is f_i = |c + R B_i - A_i| - l_i. With n_i
+the unit vector of leg i, along a velocity v and an angular velocity w of the platform
 
     df_i = n_i . v + ((R B_i) x n_i) . w,
 
@@ -21,8 +21,8 @@ import numpy as np
 from pkm_exact.errors import PkmExactError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.home import home_pose
+from pkm_exact.numeric.numeric_robot import NumericRobot, Real, StartPose, centred, numeric_pose, numeric_robot
 from pkm_exact.numeric.quaternions import rotation_matrix, turned
-from pkm_exact.numeric.robot import NumericRobot, Real, StartPose, centred, numeric_pose, numeric_robot
 from pkm_exact.numeric.uncertified import Ending, NumericPose, Quaternion, UncertifiedSolution
 
 

@@ -3,7 +3,7 @@
 What an engine has proved, it has proved; this looks at the result as a whole, along other ways, and cheaply. The counts
 must fit each other and the degree of the variety of motions, solutions that are not real come in pairs, the
 representation must vanish on the robot modulo a prime, boxes must lie apart and on the robot
-(``poses.consistency``), and what is claimed must come with what proves it.
+(``poses.pose_consistency``), and what is claimed must come with what proves it.
 """
 
 from __future__ import annotations
@@ -13,22 +13,22 @@ from fractions import Fraction
 from flint import fmpq, fmpz_poly, nmod_mat, nmod_poly
 
 from pkm_exact.algebra.primes import primes_below
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import evaluate, pose_quadrics
-from pkm_exact.numeric.consistency import require_sound_boxes
+from pkm_exact.numeric.box_consistency import require_sound_boxes
 from pkm_exact.poses.completeness import CompletenessProof
-from pkm_exact.poses.consistency import (
+from pkm_exact.poses.pose_consistency import (
     require_apart,
     require_consistent_jacobians,
     require_degree_zero,
     require_on_robot,
 )
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.self_motion import SelfMotion
 from pkm_exact.roots.counting import roots_in_gaps
 from pkm_exact.solution import Solution
-from pkm_exact.verdict import Claim, CompletenessRoute
 
 _PROVED = (Claim.COMPLETE, Claim.INCONSISTENT)
 

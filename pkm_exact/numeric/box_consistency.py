@@ -10,7 +10,7 @@ from flint import acb, acb_mat, arb, fmpz_mat
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, pose_quadrics
-from pkm_exact.numeric.krawczyk import GUARD_BITS, RADIUS, Box
+from pkm_exact.numeric.krawczyk_operator import GUARD_BITS, RADIUS, Box
 from pkm_exact.precision import working_precision
 
 if TYPE_CHECKING:

@@ -32,7 +32,7 @@ from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, SE3
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import evaluate, motion_quadrics
 from pkm_exact.policy import Policy
-from pkm_exact.poses.representation import PoseRepresentation
+from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.singularity import are_isolated, singularity
 
 Multiplicities: TypeAlias = tuple[tuple[fmpz_poly, int], ...]
