@@ -18,6 +18,7 @@ from pkm_exact.certify.build import sealed
 from pkm_exact.certify.checker import document, tolerance_document, verdict
 
 POSES, TOLERANCES = "certificate-1.schema.json", "tolerance-certificate-1.schema.json"
+SECOND = "certificate-2.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
 
@@ -33,7 +34,7 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(_schema(name))
 
 
-@pytest.mark.parametrize("name", [POSES, TOLERANCES])
+@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES])
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
 
@@ -110,9 +111,9 @@ def test_schemas_refuse_what_does_not_go_together(name: str, path: Any, value: A
 # The page
 
 
-def _tables(start: str, end: str) -> list[list[str]]:
+def _tables(start: str, end: str, name: str = "certificates.md") -> list[list[str]]:
     """The keys in the tables between two headings of the page."""
-    page = (CERTS.parent / "docs" / "certificates.md").read_text()
+    page = (CERTS.parent / "docs" / name).read_text()
     part = page.partition(f"\n## {start}\n")[2].partition(f"\n{end}\n")[0]
     tables = part.split("| key | value |\n|---|---|\n")[1:]
     return [re.findall(r"^\| `(\w+)` \|", table.partition("\n\n")[0], flags=re.MULTILINE) for table in tables]
@@ -131,6 +132,21 @@ def test_the_page_defines_every_key_in_its_order() -> None:
     parts = [root["properties"][key] for key in ("tolerances", "frames")]
     expected = [_keys(root), *map(_keys, parts), _keys(root["$defs"]["poseBox"])]
     assert _tables("Tolerance certificates", "## References") == expected
+
+
+def test_the_page_of_version_2_defines_every_key_in_its_order() -> None:
+    root = _schema(SECOND)
+    definitions = root["$defs"]
+    assert _tables("Format", "### Forms", "certificates-2.md") == [_keys(root), _keys(root["properties"]["robot"])]
+    parts = [definitions[key] for key in ("infinity", "selfMotion")]
+    assert _tables("Checks", "## What the digest binds", "certificates-2.md") == [_keys(part) for part in parts]
+    page = (CERTS.parent / "docs" / "certificates-2.md").read_text()
+    listed = re.findall(r'^\| `"([a-z-]+)"` \| (.*) \| .* \|$', page, flags=re.MULTILINE)
+    data = {name: re.findall(r"`(\w+)`", fields) for name, fields in listed}
+    choices = [choice["properties"] for choice in definitions["constraint"]["anyOf"]]
+    assert data == {keys["type"]["const"]: list(keys)[2:-1] for keys in choices}
+    words = definitions["selfMotion"]["properties"]["cause"]["enum"] + root["properties"]["completeness_route"]["enum"]
+    assert all(f'"{word}"' in page for word in words if word)
 
 
 def test_words_and_limits_are_the_same_everywhere() -> None:
