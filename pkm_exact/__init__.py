@@ -7,7 +7,7 @@ Everything below is loaded when it is first used, so that importing the package 
 
 >>> from pkm_exact import Robot
 >>> Robot.__module__
-'pkm_exact.geometry.robot'
+'pkm_exact.interactive.robots'
 """
 
 from __future__ import annotations
@@ -26,24 +26,24 @@ if TYPE_CHECKING:
     from pkm_exact.certify.checker.verdict import Verdict as Verdict
     from pkm_exact.claim import Claim as Claim
     from pkm_exact.claim import CompletenessRoute as CompletenessRoute
-    from pkm_exact.engine import solve as solve
     from pkm_exact.errors import InputError as InputError
     from pkm_exact.errors import PkmExactError as PkmExactError
     from pkm_exact.geometry.problem import ForwardProblem as ForwardProblem
     from pkm_exact.geometry.problem import Leg as Leg
-    from pkm_exact.geometry.reader import read_robot as read_robot
     from pkm_exact.geometry.robot import Configuration as Configuration
-    from pkm_exact.geometry.robot import Robot as Robot
     from pkm_exact.geometry.tolerances import Tolerances as Tolerances
-    from pkm_exact.numeric.tolerance import tolerance_boxes as tolerance_boxes
-    from pkm_exact.numeric.tolerance_result import ToleranceResult as ToleranceResult
+    from pkm_exact.interactive.answers import Solution as Solution
+    from pkm_exact.interactive.answers import ToleranceResult as ToleranceResult
+    from pkm_exact.interactive.questions import solve as solve
+    from pkm_exact.interactive.questions import solve_krawczyk as solve_krawczyk
+    from pkm_exact.interactive.questions import tolerance_boxes as tolerance_boxes
+    from pkm_exact.interactive.robots import Robot as Robot
+    from pkm_exact.interactive.robots import read_robot as read_robot
     from pkm_exact.numeric.trajectory import track_branch as track_branch
-    from pkm_exact.numeric_engine import solve_krawczyk as solve_krawczyk
     from pkm_exact.policy import Policy as Policy
     from pkm_exact.poses.pose import Interval as Interval
     from pkm_exact.poses.pose import Pose as Pose
     from pkm_exact.recomputation import recompute as recompute
-    from pkm_exact.solution import Solution as Solution
 
 __version__: Final = "0.1.0"
 
@@ -60,20 +60,20 @@ _HOME: Final = {
     "PkmExactError": "errors",
     "Policy": "policy",
     "Pose": "poses.pose",
-    "Robot": "geometry.robot",
-    "Solution": "solution",
-    "ToleranceResult": "numeric.tolerance_result",
+    "Robot": "interactive.robots",
+    "Solution": "interactive.answers",
+    "ToleranceResult": "interactive.answers",
     "Tolerances": "geometry.tolerances",
     "Verdict": "certify.checker.verdict",
     "certificate": "certify.build",
     "check": "certify.certificate",
     "check_bytes": "certify.check",
-    "read_robot": "geometry.reader",
+    "read_robot": "interactive.robots",
     "recompute": "recomputation",
-    "solve": "engine",
-    "solve_krawczyk": "numeric_engine",
+    "solve": "interactive.questions",
+    "solve_krawczyk": "interactive.questions",
     "solve_many": "batch.many",
-    "tolerance_boxes": "numeric.tolerance",
+    "tolerance_boxes": "interactive.questions",
     "track_branch": "numeric.trajectory",
     "write_certificate": "certify.build",
 }

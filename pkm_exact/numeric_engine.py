@@ -16,13 +16,13 @@ from pkm_exact.engine import solve
 from pkm_exact.failures.contradiction import attached, require
 from pkm_exact.final_checks import consistent
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.numeric.certification import IsolatedSolutions
 from pkm_exact.numeric.krawczyk_operator import ChartSystem
 from pkm_exact.numeric.poses import approximations, certified_solutions, real_poses
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width
 from pkm_exact.poses.completeness import CompletenessProof
+from pkm_exact.poses.isolated_solutions import IsolatedSolutions
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Stages
 

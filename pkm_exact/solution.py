@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from pkm_exact.claim import Claim, CompletenessRoute
-from pkm_exact.errors import PkmExactError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.pose import Pose
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from pandas import DataFrame
     from scipy.spatial.transform import Rotation
 
-    from pkm_exact.certify.certificate import Certificate
-    from pkm_exact.geometry.robot import Robot
-    from pkm_exact.numeric.certification import IsolatedSolutions
     from pkm_exact.poses.arrays import PoseArrays
     from pkm_exact.poses.completeness import CompletenessProof
+    from pkm_exact.poses.isolated_solutions import IsolatedSolutions
     from pkm_exact.poses.pose_representation import PoseRepresentation
     from pkm_exact.poses.self_motion import SelfMotion, TranslationalMotion
 
@@ -90,10 +85,6 @@ class Solution:
         Boxes around solutions, each with exactly one, if the method is Krawczyk's: the real ones in the order of the
         poses. Beside a self-motion, those of isolated poses.
     statistics : Statistics
-    robot : Robot or None
-        Whose problem it is, if ``Robot.solve`` was asked.
-    configuration : str or None
-        The name of its configuration; None if the lengths were given.
 
     Examples
     --------
@@ -121,8 +112,6 @@ class Solution:
     self_motion: SelfMotion | TranslationalMotion | None = None
     isolated: IsolatedSolutions | None = None
     statistics: Statistics = field(default_factory=Statistics, repr=False, compare=False)
-    robot: Robot | None = field(default=None, repr=False, compare=False)
-    configuration: str | None = field(default=None, repr=False, compare=False)
 
     @property
     def is_complete(self) -> bool:
@@ -190,52 +179,3 @@ class Solution:
         from pkm_exact.poses.arrays import frame_of
 
         return frame_of(self.to_numpy())
-
-    def certificate(self) -> Certificate:
-        """What was found, in a form that a program checks which shares nothing with the solver.
-
-        Raises
-        ------
-        PkmExactError
-            If the solution does not know its robot.
-        """
-        from pkm_exact.certify.build import canonical_bytes, certificate
-        from pkm_exact.certify.certificate import Certificate
-
-        return Certificate(canonical_bytes(certificate(self._known_robot("certificate"), self.configuration, self)))
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the certificate to a file, which appears whole or not at all.
-
-        Raises
-        ------
-        PkmExactError
-            If the solution does not know its robot, or the file cannot be written.
-        """
-        self.certificate().save(path)
-
-    def plot(self) -> Figure:
-        """A picture of all real poses side by side, a matplotlib figure.
-
-        Raises
-        ------
-        PkmExactError
-            If matplotlib is not installed, or the solution does not know its robot.
-        """
-        from pkm_exact.interactive.display import solution_figure
-
-        self._known_robot("plot")
-        return solution_figure(self)
-
-    def _known_robot(self, what: str) -> Robot:
-        if self.robot is None:
-            raise PkmExactError(
-                f"{what}: this solution knows its problem but not its robot; get it by robot.solve(..), or use "
-                "pkm_exact.certificate(robot, name of the configuration or None, solution)"
-            )
-        return self.robot
-
-    def _repr_html_(self) -> str:
-        from pkm_exact.interactive.display import solution_html
-
-        return solution_html(self)

@@ -25,8 +25,8 @@ from pkm_exact.errors import InternalContradictionError, InternalError, PkmExact
 from pkm_exact.failures.contradiction import require
 from pkm_exact.failures.failure_report import internal_error, reported
 from pkm_exact.final_checks import consistent
-from pkm_exact.numeric.certification import IsolatedSolutions
 from pkm_exact.numeric.fallback import solve_within
+from pkm_exact.poses.isolated_solutions import IsolatedSolutions
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.poses.pose_consistency import require_degree_zero
 from pkm_exact.poses.self_motion import Cause, Mobility, SelfMotion

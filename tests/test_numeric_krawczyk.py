@@ -19,10 +19,11 @@ from pkm_exact.claim import CompletenessRoute
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric import poses as numeric_poses
-from pkm_exact.numeric.certification import GRIDS, IsolatedSolutions, isolated_solutions, nearest_box, refined
-from pkm_exact.numeric.krawczyk_operator import RADIUS, Box, ChartSystem, centre, certified
+from pkm_exact.numeric.certification import GRIDS, isolated_solutions, nearest_box, refined
+from pkm_exact.numeric.krawczyk_operator import ChartSystem, centre, certified
 from pkm_exact.numeric.poses import Approximations, approximations, box_enclosures, certified_solutions
 from pkm_exact.numeric_engine import solve_krawczyk
+from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.solution import Solution
 

@@ -105,7 +105,7 @@ class ManySolutions:
     def _repr_html_(self) -> str:
         from pkm_exact.interactive.display import many_html
 
-        return many_html(self)
+        return many_html(str(self), list(self.rows))
 
 
 def solve_many(

@@ -20,7 +20,7 @@ from pkm_exact.geometry.kinds import KINDS
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
-    from pkm_exact.numeric.certification import IsolatedSolutions
+    from pkm_exact.poses.isolated_solutions import IsolatedSolutions
     from pkm_exact.poses.pose import Pose
     from pkm_exact.roots.interval import Interval
     from pkm_exact.solution import Solution

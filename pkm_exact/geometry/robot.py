@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from fractions import Fraction
-from pathlib import Path
-from typing import TYPE_CHECKING, Final, Literal
+from typing import Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Chain, Crank, JointValue, parse_cosine_and_sine
@@ -19,10 +17,6 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.wording import printable, shown
-
-if TYPE_CHECKING:
-    from pkm_exact.policy import Policy
-    from pkm_exact.solution import Solution
 
 _LISTED: Final = 20
 
@@ -121,86 +115,6 @@ class Robot:
         more = ", ..." if len(self.configurations) > _LISTED else ""
         found = f"configurations: {names}{more}" if names else "no configurations"
         return f"{printable(self.name)} ({self.kind}, lengths in {printable(self.unit)}), {found}"
-
-    def _repr_html_(self) -> str:
-        from pkm_exact.interactive.display import robot_html
-
-        return robot_html(self)
-
-    @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Robot:
-        """The robot in a model file; the same as ``read_robot``.
-
-        Raises
-        ------
-        InputError
-            If the file cannot be read or is not a model; the message says where and what to do.
-
-        Examples
-        --------
-        >>> print(Robot.load("models/3-rpr-merlet-p.toml"))
-        Merlet 3-RPR (3-RPR, lengths in 1), configurations: home
-        """
-        from pkm_exact.geometry.reader import read_robot
-
-        return read_robot(Path(path))
-
-    def solve(
-        self,
-        lengths: Sequence[object] | None = None,
-        *,
-        configuration: Configuration | str | None = None,
-        method: Literal["exact", "krawczyk"] = "exact",
-        formulation: str | None = None,
-        width: Fraction | int | str | None = None,
-        squared: bool = False,
-        doubles_are_exact: bool = False,
-        policy: Policy | None = None,
-        progress: Callable[[str], None] | bool | None = None,
-    ) -> Solution:
-        """All real poses for a configuration, or for given leg lengths, each in a box, and what is proved of the list.
-
-        Parameters
-        ----------
-        lengths : sequence of int, Fraction, Decimal or str, optional
-            One per leg, exact: 1250, "1250.5", "2501/2", Fraction(2501, 2).
-        configuration : str or Configuration, optional
-            Instead of lengths; the first of the robot if neither is given.
-        method : {"exact", "krawczyk"}
-            Elimination over the rationals, or path tracking and proof by Krawczyk's operator.
-        formulation : str, optional
-            For the method exact: code of the system of equations that is solved, by default SE3.
-        width : Fraction, int or str, optional
-            Greatest width of a box, exact: "1e-12". By default 10^-9.
-        squared : bool
-            Whether the lengths given are squared ones.
-        doubles_are_exact : bool
-            Floats are refused, unless this says that each is meant to be the rational number that it is in binary.
-        policy : Policy, optional
-            Limits and random choices.
-        progress : callable or bool, optional
-            Gets a line when a stage starts; True shows progress on a terminal or in a notebook.
-
-        Raises
-        ------
-        InputError
-            If the arguments do not fit the robot; the message says what would.
-        PkmExactError
-            If there is no answer.
-
-        Examples
-        --------
-        >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
-        >>> print(robot.solve())
-        6 complex solutions, 2 real poses; complete
-        >>> print(robot.solve(["7.1", "26/5", 5], method="krawczyk", width="1e-12"))
-        6 complex solutions, 2 real poses; complete
-        """
-        # The one place where the geometry reaches up to the engines, and only when it is asked to.
-        from pkm_exact.interactive.facade import Question, answer
-
-        question = Question(lengths, configuration, method, formulation, width, squared, doubles_are_exact)
-        return answer(self, question, policy, progress)
 
     def configuration(self, name: str | None = None) -> Configuration:
         """The configuration called ``name``, or the first one if ``name`` is None."""

@@ -6,7 +6,7 @@ All text that comes from a file is escaped. Pictures are embedded where matplotl
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from html import escape
@@ -22,7 +22,6 @@ from pkm_exact.wording import counted, printable
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from pkm_exact.batch.many import ManySolutions
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.numeric.tolerance_result import ToleranceBox, ToleranceResult
     from pkm_exact.poses.pose import Pose
@@ -84,12 +83,12 @@ def _jacobian(pose: Pose) -> tuple[str, str]:
     return "+" if pose.jacobian.det_sign > 0 else "-", f"{Decimal(condition.numerator) / condition.denominator:.4g}"
 
 
-def solution_html(solution: Solution) -> str:
+def solution_html(solution: Solution, robot: Robot | None, configuration: str | None) -> str:
     """Who was solved, what is claimed, the poses in a table, and a picture of them if one can be drawn."""
-    robot, planar = solution.robot, solution.problem.planar
+    planar = solution.problem.planar
     parts = [_paragraph(headline(solution))]
     if robot is not None:
-        locked = "given leg lengths" if solution.configuration is None else f"configuration {solution.configuration}"
+        locked = "given leg lengths" if configuration is None else f"configuration {configuration}"
         parts.insert(0, f"<p><b>{_text(robot.name)}</b> ({_text(robot.kind)}), {_text(locked)}</p>")
     if solution.poses:
         rotation = "angle theta [degrees]" if planar else "unit quaternion, scalar first"
@@ -97,12 +96,12 @@ def solution_html(solution: Solution) -> str:
         rows = [pose_cells(number, pose, planar=planar) for number, pose in enumerate(solution.poses, 1)]
         parts.append(_table(PLANAR_HEADER if planar else HEADER, rows))
         parts.append(_paragraph(f"position [{unit}], {rotation}; right to one unit of the last digit"))
-        parts.append(_picture(solution))
+        parts.append(_picture(solution, robot, configuration))
     parts += [_paragraph(f"note: {note}") for note in solution.notes]
     return _block(parts)
 
 
-def solution_figure(solution: Solution) -> Figure:
+def solution_figure(solution: Solution, robot: Robot, configuration: str | None) -> Figure:
     """All real poses side by side.
 
     Raises
@@ -113,21 +112,21 @@ def solution_figure(solution: Solution) -> Figure:
     from pkm_exact.poses.arrays import required
 
     required("matplotlib", "plot", 'pip install "pkm_exact[plots]"')
-    from pkm_exact.pictures.scene import scene_of
+    from pkm_exact.pictures.scene import scene_of_solution
     from pkm_exact.pictures.views import poses_figure
 
-    return poses_figure(scene_of(solution.certificate().content, solution.robot))
+    return poses_figure(scene_of_solution(robot, configuration, solution))
 
 
-def _picture(solution: Solution) -> str:
+def _picture(solution: Solution, robot: Robot | None, configuration: str | None) -> str:
     """The picture as part of the HTML; nothing without matplotlib, or where coordinates are too large to be drawn."""
-    if solution.robot is None or find_spec("matplotlib") is None:
+    if robot is None or find_spec("matplotlib") is None:
         return ""
     from pkm_exact.errors import InputError
     from pkm_exact.pictures.output import figure_bytes
 
     try:
-        data = figure_bytes(solution_figure(solution), "png", dpi=_DOTS_PER_INCH)
+        data = figure_bytes(solution_figure(solution, robot, configuration), "png", dpi=_DOTS_PER_INCH)
     except InputError as error:
         return _paragraph(f"no picture: {error}")
     return f'<img alt="the real poses side by side" src="data:image/png;base64,{b64encode(data).decode("ascii")}"/>'
@@ -151,14 +150,14 @@ def robot_html(robot: Robot) -> str:
     return _block([*parts, _paragraph(f"unit of length: {robot.unit}; configurations: {names}{more}")])
 
 
-def many_html(many: ManySolutions) -> str:
+def many_html(summary: str, records: Sequence[Mapping[str, object]]) -> str:
     """The sum of all rows, and the first of them."""
     rows = [
         (str(number), str(row["claim"]).replace("-", " "), str(row["method"]), str(row["count"]), str(row["note"]))
-        for number, row in enumerate(many.rows[:_ROWS], 1)
+        for number, row in enumerate(records[:_ROWS], 1)
     ]
-    left = len(many.rows) - len(rows)
-    parts = [_paragraph(str(many)), _table(("row", "claim", "method", "real poses", "note"), rows)]
+    left = len(records) - len(rows)
+    parts = [_paragraph(summary), _table(("row", "claim", "method", "real poses", "note"), rows)]
     return _block([*parts, _paragraph(f"and {left} more") if left else ""])
 
 

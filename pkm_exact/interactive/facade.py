@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Set
-from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Set
+from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
@@ -17,10 +16,6 @@ from pkm_exact.geometry.rational import NumberText, parse_positive
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.policy import SMALLEST_WIDTH
 from pkm_exact.wording import shown
-
-if TYPE_CHECKING:
-    from pkm_exact.policy import Policy
-    from pkm_exact.solution import Solution
 
 METHODS: Final = ("exact", "krawczyk")
 
@@ -38,33 +33,12 @@ class Question:
     doubles_are_exact: bool = False
 
 
-def answer(
-    robot: Robot, question: Question, policy: Policy | None, progress: Callable[[str], None] | bool | None
-) -> Solution:
-    """The solution, which knows its robot.
-
-    Raises
-    ------
-    InputError
-        If the question does not fit the robot.
-    PkmExactError
-        If there is no answer.
-    """
-    name, problem = posed(robot, question)
-    options = _options(question) | {"policy": policy}
-    if question.method == "krawczyk":
-        from pkm_exact.numeric_engine import solve_krawczyk as engine
-    else:
-        from pkm_exact.engine import solve as engine  # type: ignore[assignment]
-    with _shown(progress) as show:
-        return replace(engine(problem, progress=show, **options), robot=robot, configuration=name)
-
-
 def posed(robot: Robot, question: Question) -> tuple[str | None, ForwardProblem]:
     """The name of the configuration, None if lengths are given, and the forward kinematics problem.
 
     Examples
     --------
+    >>> from pkm_exact import Robot
     >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
     >>> posed(robot, Question(["12.5", 15, 12]))[1].legs[0].length_squared
     Fraction(625, 4)
@@ -135,10 +109,10 @@ def exact_length(value: object, where: str, *, doubles_are_exact: bool = False) 
     return parse_positive(value, where)
 
 
-def _options(question: Question) -> dict[str, Any]:
+def options(question: Question) -> dict[str, Any]:
     """The keyword arguments of the engine."""
     method = question.method
-    options: dict[str, Any] = {}
+    found: dict[str, Any] = {}
     if method not in METHODS:
         remedy = f"use one of: {', '.join(METHODS)}"
         if method == "newton":
@@ -151,10 +125,10 @@ def _options(question: Question) -> dict[str, Any]:
             raise InputError(
                 f"formulation: {shown(question.formulation)} is no code; use one of: {', '.join(formulation_codes())}"
             )
-        options["formulation"] = question.formulation
+        found["formulation"] = question.formulation
     if question.width is not None:
-        options["width"] = exact_width(question.width)
-    return options
+        found["width"] = exact_width(question.width)
+    return found
 
 
 def exact_width(value: object) -> Fraction:
@@ -166,12 +140,3 @@ def exact_width(value: object) -> Fraction:
     if not SMALLEST_WIDTH <= width <= 1:
         raise InputError(f"width: {shown(value)} is out of range; give a number from 2^-4096 to 1")
     return width
-
-
-def _shown(progress: Callable[[str], None] | bool | None) -> Any:
-    """A context with the callable for an engine."""
-    if progress is True:
-        from pkm_exact.interactive.progress import Progress
-
-        return Progress(verbose=False, notebook=True)
-    return nullcontext(progress or None)

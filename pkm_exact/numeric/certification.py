@@ -9,14 +9,14 @@ holds no real solution, and the conjugate box holds another one. What is neither
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 from flint import acb, acb_mat, arb
 
-from pkm_exact.numeric.krawczyk_operator import GUARD_BITS, RADIUS, Balls, Box, ChartSystem, certified, middle
+from pkm_exact.numeric.krawczyk_operator import GUARD_BITS, Balls, ChartSystem, certified, middle
 from pkm_exact.numeric.study_system import Complex
+from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
 from pkm_exact.precision import working_precision
 from pkm_exact.stages import Amount, Watch
 
@@ -32,30 +32,6 @@ CLEARLY_COMPLEX = 1e-6
 """Imaginary parts, relative to the point, from which a point is not taken for its own conjugate."""
 SAME = 1e-10
 """Points this close to each other, relative to their size, are taken for the same."""
-
-
-@dataclass(frozen=True)
-class IsolatedSolutions:
-    """Boxes in a chart, pairwise disjoint, each with exactly one solution.
-
-    Attributes
-    ----------
-    chart : tuple of 4 int
-        w in w.e = 1.
-    real : tuple of Box
-        Real boxes.
-    pairs : tuple of Box
-        Complex boxes disjoint from their conjugates: each stands for itself and its conjugate.
-    """
-
-    chart: tuple[int, ...]
-    real: tuple[Box, ...]
-    pairs: tuple[Box, ...]
-
-    @property
-    def count(self) -> int:
-        """Number of distinct solutions."""
-        return len(self.real) + 2 * len(self.pairs)
 
 
 def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None = None) -> IsolatedSolutions:

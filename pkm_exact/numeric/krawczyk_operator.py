@@ -16,7 +16,6 @@ high accuracy" (1983).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -24,56 +23,14 @@ from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
 
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, pose_quadrics, support
+from pkm_exact.poses.isolated_solutions import RADIUS, Box
 from pkm_exact.precision import working_precision
 
 Balls: TypeAlias = Any
 """An ``arb_mat`` or an ``acb_mat``, which have the same methods: real points are kept real, which takes less time."""
 
-RADIUS = 4
-"""Half the width of a box, in units of its grid."""
 GUARD_BITS = 64
 """A box on the grid 2^-k is tested with 2 k + 64 bits: enough unless the matrix is too ill-conditioned for it."""
-
-
-@dataclass(frozen=True)
-class Box:
-    """A box around a solution (e, f), in the chart of the list it belongs to.
-
-    Attributes
-    ----------
-    exponents : tuple of 2 int
-        The grids of e and f: their coordinates are integers times 2^-exponent, and differ from the centre by at most
-        ``RADIUS`` times that, real and imaginary parts each.
-    centre : tuple of 8 pairs of int
-        Real and imaginary parts.
-    """
-
-    exponents: tuple[int, int]
-    centre: tuple[tuple[int, int], ...]
-
-    @property
-    def is_real(self) -> bool:
-        """Whether the box holds real points only: its centre is real."""
-        return all(imaginary == 0 for _, imaginary in self.centre)
-
-    def exponent(self, index: int) -> int:
-        """The exponent of coordinate number 0 to 7."""
-        return self.exponents[index // 4]
-
-    def is_disjoint(self, other: Box) -> bool:
-        """Whether the two boxes have no point in common."""
-        return any(self._are_apart(other, index) for index in range(8))
-
-    def conjugate(self) -> Box:
-        """The box of the complex conjugate points."""
-        return Box(self.exponents, tuple((real, -imaginary) for real, imaginary in self.centre))
-
-    def _are_apart(self, other: Box, index: int) -> bool:
-        mine, theirs = self.exponent(index), other.exponent(index)
-        finest = max(mine, theirs)
-        reach = (RADIUS << (finest - mine)) + (RADIUS << (finest - theirs))
-        pairs = zip(self.centre[index], other.centre[index], strict=True)
-        return any(abs((a << (finest - mine)) - (b << (finest - theirs))) > reach for a, b in pairs)
 
 
 class ChartSystem:

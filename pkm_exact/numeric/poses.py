@@ -13,12 +13,10 @@ from flint import arb
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import support
-from pkm_exact.numeric.certification import IsolatedSolutions, isolated_solutions
+from pkm_exact.numeric.certification import isolated_solutions
 from pkm_exact.numeric.krawczyk_operator import (
     GUARD_BITS,
-    RADIUS,
     Balls,
-    Box,
     ChartSystem,
     ball,
     centre,
@@ -29,6 +27,7 @@ from pkm_exact.numeric.start import StartSection, generic_start, start_quadrics
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates
 from pkm_exact.numeric.tracker import polished, track
 from pkm_exact.poses.boxes import Enclosures, disjoint_cells, in_order, ordinary_coordinates, pose_in_cells
+from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
 from pkm_exact.poses.jacobian import LEAST_PRECISION, pose_jacobians
 from pkm_exact.poses.pose import Pose
 from pkm_exact.precision import working_precision

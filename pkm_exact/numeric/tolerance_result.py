@@ -101,11 +101,6 @@ class ToleranceResult:
     def __repr__(self) -> str:
         return f"<ToleranceResult: {self}>"
 
-    def _repr_html_(self) -> str:
-        from pkm_exact.interactive.display import tolerance_html
-
-        return tolerance_html(self)
-
     def __str__(self) -> str:
         count, proved = len(self.boxes), sum(box.is_proved for box in self.boxes)
         if not self.is_complete:

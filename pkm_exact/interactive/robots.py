@@ -1,0 +1,126 @@
+"""The robot as users have it in hand: the data of a model file, and the questions that can be asked about it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from contextlib import nullcontext
+from dataclasses import dataclass, fields, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Literal
+
+import pkm_exact.geometry.reader as reader
+import pkm_exact.geometry.robot as robots
+from pkm_exact.interactive.facade import Question, options, posed
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.robot import Configuration
+    from pkm_exact.interactive.answers import Solution
+    from pkm_exact.policy import Policy
+
+
+@dataclass(frozen=True, repr=False)
+class Robot(robots.Robot):
+    __doc__ = robots.Robot.__doc__
+
+    def _repr_html_(self) -> str:
+        from pkm_exact.interactive.display import robot_html
+
+        return robot_html(self)
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Robot:
+        """The robot in a model file; the same as ``read_robot``.
+
+        Raises
+        ------
+        InputError
+            If the file cannot be read or is not a model; the message says where and what to do.
+
+        Examples
+        --------
+        >>> print(Robot.load("models/3-rpr-merlet-p.toml"))
+        Merlet 3-RPR (3-RPR, lengths in 1), configurations: home
+        """
+        return read_robot(path)
+
+    def solve(
+        self,
+        lengths: Sequence[object] | None = None,
+        *,
+        configuration: Configuration | str | None = None,
+        method: Literal["exact", "krawczyk"] = "exact",
+        formulation: str | None = None,
+        width: Fraction | int | str | None = None,
+        squared: bool = False,
+        doubles_are_exact: bool = False,
+        policy: Policy | None = None,
+        progress: Callable[[str], None] | bool | None = None,
+    ) -> Solution:
+        """All real poses for a configuration, or for given leg lengths, each in a box, and what is proved of the list.
+
+        Parameters
+        ----------
+        lengths : sequence of int, Fraction, Decimal or str, optional
+            One per leg, exact: 1250, "1250.5", "2501/2", Fraction(2501, 2).
+        configuration : str or Configuration, optional
+            Instead of lengths; the first of the robot if neither is given.
+        method : {"exact", "krawczyk"}
+            Elimination over the rationals, or path tracking and proof by Krawczyk's operator.
+        formulation : str, optional
+            For the method exact: code of the system of equations that is solved, by default SE3.
+        width : Fraction, int or str, optional
+            Greatest width of a box, exact: "1e-12". By default 10^-9.
+        squared : bool
+            Whether the lengths given are squared ones.
+        doubles_are_exact : bool
+            Floats are refused, unless this says that each is meant to be the rational number that it is in binary.
+        policy : Policy, optional
+            Limits and random choices.
+        progress : callable or bool, optional
+            Gets a line when a stage starts; True shows progress on a terminal or in a notebook.
+
+        Raises
+        ------
+        InputError
+            If the arguments do not fit the robot; the message says what would.
+        PkmExactError
+            If there is no answer.
+
+        Examples
+        --------
+        >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
+        >>> print(robot.solve())
+        6 complex solutions, 2 real poses; complete
+        >>> print(robot.solve(["7.1", "26/5", 5], method="krawczyk", width="1e-12"))
+        6 complex solutions, 2 real poses; complete
+        """
+        from pkm_exact.interactive.questions import solve, solve_krawczyk
+
+        question = Question(lengths, configuration, method, formulation, width, squared, doubles_are_exact)
+        name, problem = posed(self, question)
+        chosen = options(question) | {"policy": policy}
+        with _shown(progress) as show:
+            engine: Callable[..., Solution] = solve_krawczyk if method == "krawczyk" else solve
+            return replace(engine(problem, progress=show, **chosen), robot=self, configuration=name)
+
+
+def read_robot(path: str | os.PathLike[str]) -> Robot:
+    """The robot that a model file describes.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or does not describe a robot; the message is one sentence that starts with the path.
+    """
+    found = reader.read_robot(path)
+    return Robot(**{entry.name: getattr(found, entry.name) for entry in fields(found)})
+
+
+def _shown(progress: Callable[[str], None] | bool | None) -> Any:
+    """A context with the callable for an engine."""
+    if progress is True:
+        from pkm_exact.interactive.progress import Progress
+
+        return Progress(verbose=False, notebook=True)
+    return nullcontext(progress or None)
