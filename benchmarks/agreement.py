@@ -19,8 +19,10 @@ from random import Random
 from time import perf_counter
 
 from pkm_exact import read_robot, solve
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.inverse import distance_squared, rotation_of
-from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric.nearby import nearby_start
 from pkm_exact.numeric.start import StartSection
@@ -77,7 +79,7 @@ def _random_robot(number: int) -> Case:
     place, axis = _vector(random), _vector(random)
     turn = rotation_of((Fraction(random.randint(0, 1000), 100), *axis))
     pairs = [(_vector(random), _vector(random)) for _ in range(6)]
-    legs = [Leg(a, b, distance_squared(a, b, place, turn)) for a, b in pairs]
+    legs = [Distance(a, b, distance_squared(a, b, place, turn)) for a, b in pairs]
     return Case(ForwardProblem(tuple(legs)))
 
 

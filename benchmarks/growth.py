@@ -111,7 +111,7 @@ def batches(
 def _write_lengths(model: Path, target: Path, size: int) -> None:
     """Lengths that differ from those of the model by up to a hundredth of them."""
     robot = read_robot(model)
-    legs = robot.problem(robot.configuration()).legs
+    legs = robot.problem(robot.configuration()).distances
     home = [Fraction(round(float(leg.length_squared) ** 0.5 * 1000), 1000) for leg in legs]
     random = Random(1)
     with target.open("w", encoding="utf-8", newline="") as stream:

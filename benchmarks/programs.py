@@ -152,13 +152,13 @@ def msolve_on(code: str, problem: ForwardProblem, folder: Path, threads: int = 1
 
 def _msolve(threads: int) -> Callable[[Path, ForwardProblem, Path], Command | None]:
     def command(_model: Path, problem: ForwardProblem, folder: Path) -> Command | None:
-        return msolve_on(PLANAR if problem.planar else SPATIAL, problem, folder, threads)
+        return msolve_on(PLANAR if problem.motion.is_planar else SPATIAL, problem, folder, threads)
 
     return command
 
 
 def _system(problem: ForwardProblem) -> PolynomialSystem:
-    return formulation(PLANAR if problem.planar else SPATIAL).formulate(problem).system
+    return formulation(PLANAR if problem.motion.is_planar else SPATIAL).formulate(problem).system
 
 
 def _giac(program: str | None) -> Callable[[Path, ForwardProblem, Path], Command]:

@@ -93,7 +93,7 @@ def _try_row(robot: Robot, row: LengthRow, names: tuple[str, ...]) -> None:
     except InputError as error:
         _require_sentence(str(error))
         return
-    if any(leg.length_squared <= 0 for leg in problem.legs):
+    if any(leg.length_squared <= 0 for leg in problem.distances):
         raise Finding(f"lengths that are none: {row}")
 
 

@@ -21,9 +21,10 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pkm_exact import Leg, read_robot, solve
+from pkm_exact import read_robot, solve
 from pkm_exact.comparison.numeric import WIDTH, compare_numeric
 from pkm_exact.comparison.numeric_distance import Judge, Landing
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.numeric.newton_iteration import newton
 from pkm_exact.numeric.numeric_robot import StartPose, numeric_robot
 from pkm_exact.poses.jacobian import characteristic_length
@@ -139,8 +140,8 @@ assert max(error / condition for error, condition in zip(errors, conditions, str
 def beside_double(change):
     """The singular 3-RPR, the square of its first leg's length changed."""
     problem = locked("3-rpr-double-q")
-    first, *others = problem.legs
-    return replace(problem, legs=(Leg(first.base, first.platform, first.length_squared + change), *others))
+    first, *others = problem.distances
+    return replace(problem, constraints=(Distance(first.base, first.platform, first.length_squared + change), *others))
 
 
 exponents = range(2, 17, 2)

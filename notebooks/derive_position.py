@@ -29,9 +29,9 @@ def exact(value):
     return sp.Rational(value.numerator, value.denominator)
 
 
-A = [sp.Matrix([exact(value) for value in leg.base]) for leg in problem.legs]
-B = [sp.Matrix([exact(value) for value in leg.platform]) for leg in problem.legs]
-squared_length = [exact(leg.length_squared) for leg in problem.legs]
+A = [sp.Matrix([exact(value) for value in leg.base]) for leg in problem.distances]
+B = [sp.Matrix([exact(value) for value in leg.platform]) for leg in problem.distances]
+squared_length = [exact(leg.length_squared) for leg in problem.distances]
 
 
 # %%

@@ -306,7 +306,7 @@ print("distinct complex poses:", symmetric.distinct_solutions, "  argument:", sy
 def describe(name, problem):
     forms, count, system = section(problem)
     weights = [fmpq(g) for g in problem.metric]
-    rank = fmpq_mat([leg_hyperplane(leg, weights) for leg in problem.legs]).rank()
+    rank = fmpq_mat([leg_hyperplane(leg, weights) for leg in problem.distances]).rank()
     coranks = [macaulay_corank(forms, count, degree) for degree in DEGREES[:2]]
     finite = Elimination(system, policy).image().dimension
     print(f"{name}: rank of the hyperplanes {rank}, coranks {coranks}, finite solutions {finite}")

@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     from pkm_exact.certify.checker.verdict import Verdict as Verdict
     from pkm_exact.claim import Claim as Claim
     from pkm_exact.claim import CompletenessRoute as CompletenessRoute
+    from pkm_exact.constraints.distance import Distance as Distance
     from pkm_exact.errors import InputError as InputError
     from pkm_exact.errors import PkmExactError as PkmExactError
     from pkm_exact.geometry.problem import ForwardProblem as ForwardProblem
-    from pkm_exact.geometry.problem import Leg as Leg
     from pkm_exact.geometry.robot import Configuration as Configuration
     from pkm_exact.geometry.tolerances import Tolerances as Tolerances
     from pkm_exact.interactive.answers import Solution as Solution
@@ -55,7 +55,7 @@ _HOME: Final = {
     "ForwardProblem": "geometry.problem",
     "InputError": "errors",
     "Interval": "poses.pose",
-    "Leg": "geometry.problem",
+    "Distance": "constraints.distance",
     "ManySolutions": "batch.many",
     "PkmExactError": "errors",
     "Policy": "policy",

@@ -180,7 +180,7 @@ class _Run:
 
     def _witnessed(self, bound: Mobility) -> SelfMotion | None:
         """A pose, found by joining legs until finitely many are left, or None if there seems to be none."""
-        legs = len(self.problem.legs)
+        legs = len(self.problem.distances)
         for count in range(bound.dimension, 7):
             for extended in islice(extended_problems(self.problem, count, self.policy.seed), SELF_MOTION_ATTEMPTS):
                 search = PoseSearch(extended, formulation_codes()[0], self.policy, Stages())
@@ -188,7 +188,7 @@ class _Run:
                 if start.poses is None:
                     break
                 if start.poses.count > 0:
-                    return SelfMotion(bound, extended.legs[legs:], search.representation(start))
+                    return SelfMotion(bound, extended.distances[legs:], search.representation(start))
             else:
                 return None
         return None
@@ -219,7 +219,7 @@ class _Run:
             for pose, place, jacobian in zip(poses, places, jacobians, strict=True)
         }
         ordered = in_order(known)
-        return ordered, singular_notes([known[pose] for pose in ordered], len(self.problem.legs))
+        return ordered, singular_notes([known[pose] for pose in ordered], len(self.problem.distances))
 
     def _result(self, claim: Claim, exponent: int, note: str, proof: CompletenessProof | None = None) -> Solution:
         """A solution without a representation of poses."""

@@ -70,7 +70,7 @@ def _require_proof_of_claim(solution: Solution) -> None:
     counts = {"total": proof.total, "complex": solution.complex_solutions, "distinct": solution.distinct_solutions}
     require(proof.total == solution.complex_solutions, "the proof is one of another number of solutions", **counts)
     if proof.route == CompletenessRoute.REFINED_BEZOUT:
-        degree = solution.problem.motion_degree
+        degree = solution.problem.solution_bound
         require(solution.distinct_solutions == proof.total == degree, "fewer solutions than the degree", **counts)
     _require_multiplicities(proof, solution)
 
@@ -90,7 +90,7 @@ def _require_counts(solution: Solution) -> None:
     facts = {"real": real, "distinct": distinct, "complex": count}
     require(real <= distinct <= count, "the numbers of solutions are out of order", **facts)
     require((distinct - real) % 2 == 0, "solutions that are not real come in pairs", **facts)
-    limit = solution.problem.motion_degree
+    limit = solution.problem.solution_bound
     require(distinct <= limit, "more solutions than the variety of motions allows", limit=limit, **facts)
     if solution.claim == Claim.COMPLETE:
         multiplicities = [pose.multiplicity for pose in solution.poses]
@@ -134,7 +134,7 @@ def _image(polynomial: fmpz_poly, prime: int) -> nmod_poly:
 def _require_mobility(motion: SelfMotion, problem: ForwardProblem) -> None:
     """The rank of the legs modulo a prime, as quadrics, is at most the one over Q that is said."""
     prime = next(primes_below(61))
-    quadrics = pose_quadrics(problem)[0 if problem.planar else 1 :]
+    quadrics = pose_quadrics(problem)[0 if problem.motion.is_planar else 1 :]
     places = sorted({place for quadric in quadrics for place in quadric})
     rows = [quadric.get(place, 0) % prime for quadric in quadrics for place in places]
     rank = nmod_mat(len(quadrics), len(places), rows, prime).rank()
@@ -147,7 +147,7 @@ def _require_poses(solution: Solution) -> None:
     """Boxes apart, on the robot and in the intervals of their parameters; Jacobians; signs."""
     problem, poses, representation = solution.problem, solution.poses, solution.representation
     require_apart(poses)
-    require_consistent_jacobians(poses, len(problem.legs))
+    require_consistent_jacobians(poses, len(problem.distances))
     if solution.claim == Claim.COMPLETE:
         require_degree_zero(poses)
     if representation is not None:

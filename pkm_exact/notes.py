@@ -38,7 +38,7 @@ _CAUSES = {
 def motion_note(motion: SelfMotion | TranslationalMotion, problem: ForwardProblem) -> str:
     """Names a self-motion."""
     if isinstance(motion, TranslationalMotion):
-        path = "a circle" if problem.planar else "a sphere"
+        path = "a circle" if problem.motion.is_planar else "a sphere"
         return (
             f"self-motion: base and platform are congruent and the legs equal, so that the platform moves on {path} "
             "without turning"

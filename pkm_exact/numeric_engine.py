@@ -81,7 +81,7 @@ def _by_numbers(
     problem: ForwardProblem, width: Fraction, policy: Policy, stages: Stages, start: StartSection | None
 ) -> Solution | None:
     """The answer of the numeric engine, or None if it cannot certify all solutions."""
-    degree = problem.motion_degree
+    degree = problem.solution_bound
     starts = [(None, policy.seed * attempt) for attempt in range(ATTEMPTS)]
     for section, seed in starts if start is None else [(start, 0), *starts]:
         stages.enter("path tracking")
@@ -116,7 +116,7 @@ def solve_exactly_instead(
     exact = solve(problem, width=width, policy=policy, progress=progress)
     # How many solutions were certified depends on rounding, and so on the machine: it is not for a certificate.
     note = (
-        f"{FALLBACK_NOTE} certify all of the {problem.motion_degree} solutions that would prove its list "
+        f"{FALLBACK_NOTE} certify all of the {problem.solution_bound} solutions that would prove its list "
         "complete; the exact engine answered instead"
     )
     return replace(exact, notes=(*exact.notes, note))

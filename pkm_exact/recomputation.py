@@ -31,7 +31,8 @@ from pkm_exact.stages import Progress
 from pkm_exact.wording import counted, shown
 
 if TYPE_CHECKING:
-    from pkm_exact.geometry.problem import ForwardProblem, Vector
+    from pkm_exact.constraints.form import Vector
+    from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.solution import Solution
 
 Place: TypeAlias = tuple[str | int, ...]

@@ -16,9 +16,11 @@ from typing import Any
 
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
 from pkm_exact.geometry.inverse import distance_squared, rotation_of
-from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.tolerances import Tolerances
@@ -88,7 +90,7 @@ def placed(
     q0, q1, q2, q3 = quaternion
     rotation = rotation_of((q0, q1, q2, q3), metric)
     legs = tuple(
-        Leg(a, b, distance_squared(a, b, position, rotation, metric)) for a, b in zip(base, platform, strict=True)
+        Distance(a, b, distance_squared(a, b, position, rotation, metric)) for a, b in zip(base, platform, strict=True)
     )
     return Placed(ForwardProblem(legs, metric), position, rotation)
 
@@ -199,7 +201,7 @@ def exact(value: Fraction | int) -> Interval:
     return Interval(Fraction(value), Fraction(value))
 
 
-def leg_length_squared(leg: Leg, metric: Sequence[int], pose: Pose) -> Interval:
+def leg_length_squared(leg: Distance, metric: Sequence[int], pose: Pose) -> Interval:
     """The squared length of a leg over a whole box of poses, in ordinary coordinates."""
     scales = [root(g) for g in metric]
     base = [multiply(scale, exact(value)) for scale, value in zip(scales, leg.base, strict=True)]

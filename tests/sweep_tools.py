@@ -29,7 +29,7 @@ class Deadly(Quick):
     folder: str = ""
 
     def solution(self, problem: ForwardProblem) -> Solution:
-        first = problem.legs[0].length_squared
+        first = problem.distances[0].length_squared
         once = Path(self.folder) / "once"
         if first == 13**2 or (first == 11**2 and not once.exists()):
             if first == 11**2:

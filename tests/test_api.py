@@ -105,7 +105,7 @@ EQUAL: list[Any] = [
 def test_lengths_are_exact_in_whatever_form(planar: Robot, lengths: Any) -> None:
     name, problem = posed(planar, Question(lengths))
     assert name is None
-    assert [leg.length_squared for leg in problem.legs] == [49, Fraction(121, 4), Fraction(256, 9)]
+    assert [leg.length_squared for leg in problem.distances] == [49, Fraction(121, 4), Fraction(256, 9)]
 
 
 def test_squared_lengths(planar: Robot, two: Solution) -> None:
@@ -115,7 +115,7 @@ def test_squared_lengths(planar: Robot, two: Solution) -> None:
 def test_doubles_if_they_are_meant(planar: Robot) -> None:
     for lengths in ([7.1, 5, 5], np.array([7.1, 5, 5]), [np.float64(7.1), 5, 5], [np.float32(7.1), 5, 5]):
         problem = posed(planar, Question(lengths, doubles_are_exact=True))[1]
-        assert problem.legs[0].length_squared == Fraction(float(lengths[0])) ** 2
+        assert problem.distances[0].length_squared == Fraction(float(lengths[0])) ** 2
 
 
 def test_a_configuration_made_for_the_occasion() -> None:
@@ -317,7 +317,7 @@ def test_a_transform_puts_the_joints_on_legs_of_the_right_length(rolland: Robot,
     feet = np.array([[float(x) for x in joint] for joint in rolland.base_joints])
     placed = np.einsum("nij,kj->nki", sixteen.to_numpy().transform, joints)[..., :3]
     lengths = np.linalg.norm(placed - feet, axis=2)
-    wanted = [sqrt(leg.length_squared) for leg in sixteen.problem.legs]
+    wanted = [sqrt(leg.length_squared) for leg in sixteen.problem.distances]
     assert np.allclose(lengths, wanted, rtol=0, atol=1e-6)
 
 

@@ -34,7 +34,7 @@ def test_a_certificate_says_what_was_found(small: Any) -> None:
     assert content["robot"]["base"][0] == ["-2", "-2/3", "-3"]
     assert content["configuration"]["name"] == "home"
     assert [Fraction(x) for x in content["configuration"]["lengths_squared"]] == [
-        leg.length_squared for leg in solution.problem.legs
+        leg.length_squared for leg in solution.problem.distances
     ]
     assert content["claim"] == "complete"
     assert content["completeness_route"] == "exact-elimination"

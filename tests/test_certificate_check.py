@@ -22,8 +22,9 @@ from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import Status, Verdict, check_bytes
 from pkm_exact.certify.checker import document, elimination, multiplicity, realposes, solutions, verdict
 from pkm_exact.certify.checker.section import section
-from pkm_exact.certify.checker.study_motion import CYCLIC, Leg, Motion, leg_form, leg_lines, motion
+from pkm_exact.certify.checker.study_motion import CYCLIC, Motion, leg_form, leg_lines, motion
 from pkm_exact.claim import Claim, CompletenessRoute
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.formulations.registry import formulation_codes
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.roots.isolation import isolate_real_roots
@@ -183,7 +184,7 @@ def test_a_leg_form_measures_the_leg(
     placed = motion(e, _translation(e, c, g), g)
     tip = [x + _dot((1, 1, 1), row, b) / placed.norm for x, row in zip(c, placed.rotation, strict=True)]
     leg = [x - y for x, y in zip(tip, a, strict=True)]
-    form = leg_form(Leg(a, b, length_squared), g)
+    form = leg_form(Distance(a, b, length_squared), g)
     value = sum(x * y for x, y in zip(form, placed.coordinates(), strict=True))
     assert form[-1] > 0
     assert value == form[-1] * placed.norm * (_dot(g, leg, leg) - length_squared)
@@ -199,7 +200,7 @@ def test_leg_lines_are_the_derivatives_of_the_lengths() -> None:
         ratios = set()
         for _ in range(3):
             legs = [
-                Leg(
+                Distance(
                     tuple(Fraction(random.randrange(-9, 10)) for _ in range(3)),  # type: ignore[arg-type]
                     tuple(Fraction(random.randrange(-9, 10)) for _ in range(3)),  # type: ignore[arg-type]
                     Fraction(1),
@@ -212,7 +213,9 @@ def test_leg_lines_are_the_derivatives_of_the_lengths() -> None:
         assert ratios.pop() != 0
 
 
-def _derivatives(leg: Leg, e: Sequence[Fraction], c: Sequence[Fraction], g: tuple[int, int, int]) -> list[Fraction]:
+def _derivatives(
+    leg: Distance, e: Sequence[Fraction], c: Sequence[Fraction], g: tuple[int, int, int]
+) -> list[Fraction]:
     """Exact derivatives of |C + R B - A|^2 by C and by the infinitesimal rotations R (1 + s W), W^T G + G W = 0."""
     placed = motion(e, _translation(e, c, g), g)
     rotation = [[x / placed.norm for x in row] for row in placed.rotation]
@@ -262,7 +265,7 @@ def test_the_section_consists_of_poses() -> None:
             assert sum(value * _power(free, monomial) for monomial, value in quadric.items()) == 0
 
 
-def _legs_at(placed: Motion, g: tuple[int, int, int], random: Random) -> list[Leg]:
+def _legs_at(placed: Motion, g: tuple[int, int, int], random: Random) -> list[Distance]:
     """Random legs with the lengths that they have at a pose."""
     legs = []
     for _ in range(6):
@@ -271,7 +274,7 @@ def _legs_at(placed: Motion, g: tuple[int, int, int], random: Random) -> list[Le
             (x + _dot((1, 1, 1), row, b)) / placed.norm for x, row in zip(placed.position, placed.rotation, strict=True)
         ]
         leg = [x - y for x, y in zip(tip, a, strict=True)]
-        legs.append(Leg((a[0], a[1], a[2]), (b[0], b[1], b[2]), _dot(g, leg, leg)))
+        legs.append(Distance((a[0], a[1], a[2]), (b[0], b[1], b[2]), _dot(g, leg, leg)))
     return legs
 
 

@@ -21,9 +21,10 @@ from pkm_exact.cli.main import main
 from pkm_exact.comparison import numeric
 from pkm_exact.comparison.numeric import WIDTH, compare_numeric
 from pkm_exact.comparison.numeric_distance import Judge, Landing
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.engine import solve
 from pkm_exact.errors import PkmExactError
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.numeric.uncertified import UNCERTIFIED, Ending, NumericPose
 from pkm_exact.poses.jacobian import characteristic_length
@@ -86,7 +87,7 @@ def test_distances_contain_the_exact_ones(seed: int) -> None:
     change = [[a - b for a, b in zip(left, right, strict=True)] for left, right in zip(point, box, strict=True)]
     square = max(
         sum((row[3] + sum(entry * x for entry, x in zip(row, leg.platform, strict=False))) ** 2 for row in change)
-        for leg in problem.legs
+        for leg in problem.distances
     )
     (distance,) = Judge(problem, [certified], Fraction(1)).distances(pose)
     assert distance.lo**2 <= square <= distance.hi**2
@@ -98,7 +99,7 @@ def test_the_metric_enters_the_distance() -> None:
     turned = ((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     pose = replace(numeric_pose(0.0), rotation=turned)
     (distance,) = Judge(problem, [certified_pose(Fraction(0))], Fraction(1)).distances(pose)
-    furthest = max(leg.platform[0] ** 2 + 3 * leg.platform[1] ** 2 for leg in problem.legs)
+    furthest = max(leg.platform[0] ** 2 + 3 * leg.platform[1] ** 2 for leg in problem.distances)
     assert distance.lo**2 <= 2 * furthest <= distance.hi**2
 
 
@@ -172,8 +173,8 @@ def test_one_start_misses_most() -> None:
 def near_double(step: Fraction) -> ForwardProblem:
     """A planar robot at a singularity, one squared length changed."""
     problem = shipped("3-rpr-double-q")
-    first, *others = problem.legs
-    return replace(problem, legs=(Leg(first.base, first.platform, first.length_squared + step), *others))
+    first, *others = problem.distances
+    return replace(problem, constraints=(Distance(first.base, first.platform, first.length_squared + step), *others))
 
 
 def test_no_pose_is_there_but_iterations_converge() -> None:

@@ -428,7 +428,7 @@ def test_a_contradiction_ends_with_a_report(folder: Path, capsys: Capture, monke
     assert (report["kind"], report["sentence"]) == ("contradiction", "sign and rank of a Jacobian disagree")
     assert report["facts"] | {"sign": "?"} == {"pose": "0", "rank": "1", "sign": "?", "multiplicity": "1"}
     assert report["options"]["formulation"] == "SE3"
-    assert report["problem"]["lengths_squared"] == [str(leg.length_squared) for leg in shipped(P).legs]
+    assert report["problem"]["lengths_squared"] == [str(leg.length_squared) for leg in shipped(P).distances]
     assert report["command"] == ["solve", MODEL.name, "-o", "never.json"]
     assert report["versions"]["python-flint"]
     assert any(frame.startswith("pkm_exact/engine.py:") for frame in report["frames"])

@@ -12,11 +12,13 @@ from flint import fmpq, fmpq_mat
 from samples import CODES, Placed, leg_length_squared, placed, random_vector, shipped, solved
 
 from pkm_exact.claim import Claim, CompletenessRoute
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
 from pkm_exact.geometry.inverse import rotation_of
-from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.pose import Interval, Pose
 
@@ -64,7 +66,7 @@ def test_known_counts(name: str) -> None:
 def test_every_box_allows_the_given_lengths(name: str) -> None:
     problem = shipped(name)
     for pose in solved(name).poses:
-        for leg in problem.legs:
+        for leg in problem.distances:
             length = leg_length_squared(leg, problem.metric, pose)
             assert length.contains(leg.length_squared)
 
@@ -138,7 +140,7 @@ def test_published_poses_of_the_linapod() -> None:
         x, y = map(Fraction, slides[i].split())
         b1, b2, b3 = map(Fraction, joints[i].split())
         slide, bar = (Fraction("1.221"), Fraction("1.25")) if i < 3 else (Fraction("1.933"), Fraction("1.70"))
-        legs.append(Leg((x, y, slide), (b1, b2, b3), bar * bar))
+        legs.append(Distance((x, y, slide), (b1, b2, b3), bar * bar))
     solution = solve(ForwardProblem(tuple(legs)))
     assert (solution.complex_solutions, len(solution.poses)) == (40, 2)
     assert solution.claim is Claim.COMPLETE
@@ -192,9 +194,9 @@ def test_a_width_is_kept() -> None:
 @pytest.mark.parametrize("name", SMALL)
 def test_the_order_of_the_legs_does_not_matter(name: str) -> None:
     problem = shipped(name)
-    legs = list(problem.legs)
+    legs = list(problem.distances)
     Random(9).shuffle(legs)
-    other = solve(replace(problem, legs=tuple(legs)))
+    other = solve(replace(problem, constraints=tuple(legs)))
     assert other.complex_solutions == solved(name).complex_solutions
     assert {(pose.position, pose.rotation) for pose in other.poses} == {
         (pose.position, pose.rotation) for pose in solved(name).poses
@@ -204,8 +206,8 @@ def test_the_order_of_the_legs_does_not_matter(name: str) -> None:
 @pytest.mark.parametrize("name", SMALL)
 def test_base_and_platform_may_change_places(name: str) -> None:
     problem = shipped(name)
-    legs = tuple(Leg(leg.platform, leg.base, leg.length_squared) for leg in problem.legs)
-    other = solve(replace(problem, legs=legs))
+    legs = tuple(Distance(leg.platform, leg.base, leg.length_squared) for leg in problem.distances)
+    other = solve(replace(problem, constraints=legs))
     assert other.complex_solutions == solved(name).complex_solutions
     assert other.distinct_solutions == solved(name).distinct_solutions
     # The rotations are transposed; the positions are -R^T C.
@@ -219,11 +221,11 @@ def test_a_scaled_and_moved_robot_has_the_scaled_poses() -> None:
     problem, scale = shipped("mourrain-l"), Fraction(3, 2)
     shift = (Fraction(1), Fraction(-2), Fraction(1, 3))
     legs = []
-    for leg in problem.legs:
+    for leg in problem.distances:
         a1, a2, a3 = (scale * a + c for a, c in zip(leg.base, shift, strict=True))
         b1, b2, b3 = (scale * b for b in leg.platform)
-        legs.append(Leg((a1, a2, a3), (b1, b2, b3), scale**2 * leg.length_squared))
-    other = solve(replace(problem, legs=tuple(legs)))
+        legs.append(Distance((a1, a2, a3), (b1, b2, b3), scale**2 * leg.length_squared))
+    other = solve(replace(problem, constraints=tuple(legs)))
     for pose in solved("mourrain-l").poses:
         moved = [Interval(scale * box.lo + c, scale * box.hi + c) for box, c in zip(pose.position, shift, strict=True)]
         assert sum(all(a.overlaps(b) for a, b in zip(moved, new.position, strict=True)) for new in other.poses) == 1
@@ -305,15 +307,15 @@ def test_equal_hexagons_with_equal_legs_move() -> None:
 
 @pytest.mark.parametrize("code", CODES)
 def test_legs_that_contradict_each_other_have_no_pose(code: str) -> None:
-    legs = list(shipped("mourrain-l").legs)
-    legs[1] = Leg(legs[0].base, legs[0].platform, legs[0].length_squared + 1)
+    legs = list(shipped("mourrain-l").distances)
+    legs[1] = Distance(legs[0].base, legs[0].platform, legs[0].length_squared + 1)
     solution = solve(ForwardProblem(tuple(legs)), formulation=code)
     assert solution.poses == ()
     assert solution.claim is not Claim.COMPLETE
 
 
 def test_legs_too_short_to_reach_have_complex_poses_only() -> None:
-    legs = tuple(replace(leg, length_squared=Fraction(1, 100)) for leg in shipped("mourrain-l").legs)
+    legs = tuple(replace(leg, length_squared=Fraction(1, 100)) for leg in shipped("mourrain-l").distances)
     solution = solve(ForwardProblem(legs))
     assert (solution.complex_solutions, len(solution.poses)) == (40, 0)
     assert solution.claim is Claim.COMPLETE
@@ -335,6 +337,6 @@ def test_an_unknown_formulation_is_refused() -> None:
 
 def test_an_unknown_formulation_is_refused_even_where_none_is_needed() -> None:
     origin = (Fraction(0),) * 3
-    problem = ForwardProblem(tuple(Leg(origin, origin, Fraction(1)) for _ in range(6)))
+    problem = ForwardProblem(tuple(Distance(origin, origin, Fraction(1)) for _ in range(6)))
     with pytest.raises(InputError, match="is unknown"):
         solve(problem, formulation="AFD9")

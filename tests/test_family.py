@@ -6,8 +6,10 @@ import pytest
 from samples import MODELS, solved
 
 from pkm_exact.claim import Claim
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
-from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 
 COUNTS = {
@@ -68,7 +70,7 @@ def test_three_pairs_of_parallel_chords_send_four_solutions_to_infinity(height: 
     base = [(*BASE[0][:2], height), (*BASE[1][:2], height), *BASE[2:]]
     base[3] = (base[3][0], base[3][1] + shift, 0)
     squares = (101, 107, 111, 121, 99, 133)
-    legs = tuple(Leg(_vector(a), _vector(b), Fraction(n)) for a, b, n in zip(base, PLATFORM, squares, strict=True))
+    legs = tuple(Distance(_vector(a), _vector(b), Fraction(n)) for a, b, n in zip(base, PLATFORM, squares, strict=True))
     solution = solve(ForwardProblem(legs))
     assert (solution.claim, solution.complex_solutions) == (Claim.COMPLETE, count)
 

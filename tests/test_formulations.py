@@ -56,7 +56,7 @@ def _matrix_values(robot: Placed, metric: Metric) -> Values:
 
 def _point_values(robot: Placed, metric: Metric) -> Values:
     values = {}
-    for number, leg in enumerate(robot.problem.legs, 1):
+    for number, leg in enumerate(robot.problem.distances, 1):
         for i, axis in enumerate("xyz"):
             turned = sum((a * b for a, b in zip(robot.rotation[i], leg.platform, strict=True)), Fraction(0))
             values[f"{axis}{number}"] = robot.position[i] + turned

@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.hexagons import HEXAGON_METRIC, semi_regular_hexagon
 from pkm_exact.geometry.inverse import distance_squared, dot, rotation_of
-from pkm_exact.geometry.problem import Vector
 
 lengths = st.fractions(min_value=0, max_value=9, max_denominator=11)
 ORIGIN: Vector = (Fraction(0), Fraction(0), Fraction(0))

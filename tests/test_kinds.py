@@ -34,8 +34,8 @@ def test_knees_lie_on_the_cranks_circles() -> None:
             x, y, z = (k - a for k, a in zip(knee, foot, strict=True))
             assert dot((x, y, z), (x, y, z), robot.metric) == 300**2
     problem = robot.problem(robot.configuration("level"))
-    assert problem.legs[0].base == (-105 - 180, Fraction(-2068, 6), -179 + 240)
-    assert {leg.length_squared for leg in problem.legs} == {810000}
+    assert problem.distances[0].base == (-105 - 180, Fraction(-2068, 6), -179 + 240)
+    assert {leg.length_squared for leg in problem.distances} == {810000}
 
 
 def test_half_tangents_and_cos_sin_mean_the_same() -> None:
@@ -46,7 +46,7 @@ def test_half_tangents_and_cos_sin_mean_the_same() -> None:
 
 def test_slides_move_along_their_directions() -> None:
     robot = read_robot(MODELS / "linapod-n.toml")
-    legs = robot.problem(robot.configuration()).legs
+    legs = robot.problem(robot.configuration()).distances
     assert legs[4].base == (Fraction("-0.755"), Fraction("-0.465"), Fraction("1.933"))
     assert legs[4].length_squared == Fraction("2.89")
 

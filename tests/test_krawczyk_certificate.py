@@ -16,7 +16,7 @@ from pkm_exact import Robot, certificate, read_robot, solve
 from pkm_exact.certify.build import canonical_bytes
 from pkm_exact.certify.check import Status
 from pkm_exact.certify.checker.krawczyk import Box, Equations, _place, narrowed
-from pkm_exact.certify.checker.study_motion import Leg
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.numeric_engine import solve_krawczyk
 
 MODELS = Path(__file__).parent.parent / "models"
@@ -141,7 +141,7 @@ def test_the_image_contains_the_solution_and_shrinks() -> None:
     content = _certificate("mourrain-l")
     robot, lengths = content["robot"], content["configuration"]["lengths_squared"]
     legs = [
-        Leg(tuple(map(Fraction, a)), tuple(map(Fraction, b)), Fraction(s))  # type: ignore[arg-type]
+        Distance(tuple(map(Fraction, a)), tuple(map(Fraction, b)), Fraction(s))  # type: ignore[arg-type]
         for a, b, s in zip(robot["base"], robot["platform"], lengths, strict=True)
     ]
     equations = Equations(legs, (1, 1, 1), content["krawczyk"]["chart"])

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pkm_exact.cli.main import main
+from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import Crank, Slide, cosine_and_sine
 from pkm_exact.geometry.inverse import dot
-from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.reader import read_robot, robot_from_toml
 from pkm_exact.geometry.surds import Surd, quadratic_roots
 from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, SlideMode, working_modes

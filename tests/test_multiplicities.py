@@ -13,8 +13,9 @@ from samples import placed
 from pkm_exact import Robot, certificate
 from pkm_exact.certify.check import Status
 from pkm_exact.claim import Claim, CompletenessRoute
+from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
-from pkm_exact.geometry.problem import ForwardProblem, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 
 STRAIGHT = (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
 integers = st.integers(-5, 5)
@@ -48,7 +49,7 @@ def _mirrored(b: int, height: int, top: int) -> Robot | None:
 
 
 def _problem_at_home(robot: Robot) -> ForwardProblem:
-    legs = placed(robot.base_joints, robot.platform_joints, _vectors((0, 0, 0))[0], STRAIGHT).problem.legs
+    legs = placed(robot.base_joints, robot.platform_joints, _vectors((0, 0, 0))[0], STRAIGHT).problem.distances
     return robot.problem([leg.length_squared for leg in legs])
 
 
@@ -93,7 +94,7 @@ def test_two_poses_that_are_mirror_images_have_half_of_all_each() -> None:
     """All legs meet in the centre of similarity, and lines through a point have rank 3."""
     robot = _similar()
     position = (Fraction(1, 2), Fraction(1, 3), Fraction(5))
-    legs = placed(robot.base_joints, robot.platform_joints, position, STRAIGHT).problem.legs
+    legs = placed(robot.base_joints, robot.platform_joints, position, STRAIGHT).problem.distances
     solution = solve(robot.problem([leg.length_squared for leg in legs]))
     assert (solution.claim, solution.complex_solutions, solution.distinct_solutions) == (Claim.COMPLETE, 16, 2)
     assert [pose.multiplicity for pose in solution.poses] == [8, 8]

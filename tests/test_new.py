@@ -38,7 +38,7 @@ SIDES = st.integers(0, 12).map(lambda k: Fraction(50 * k))
 
 def _options(kind: str) -> list[str]:
     crank = ["--crank", "150"] if has_cranks(kind) else []
-    return ["--kind", kind, *(PLANAR if KINDS[kind].planar else SPATIAL), *crank]
+    return ["--kind", kind, *(PLANAR if KINDS[kind].motion.is_planar else SPATIAL), *crank]
 
 
 def _design(kind: str, digits: int | None = None) -> Design:
@@ -104,7 +104,7 @@ def test_every_line_is_explained(kind: str) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_stands_in_comments_holds_too(kind: str, digits: int | None) -> None:
     """The joints written out are those of the hexagon, and the further configuration can be read."""
-    if digits is not None and has_cranks(kind) and not KINDS[kind].planar:
+    if digits is not None and has_cranks(kind) and not KINDS[kind].motion.is_planar:
         return
     text = model_text(drawn(_design(kind, digits)), "r", "mm")
     pieces = re.sub(r"^hexagon = .*\n", "", text, flags=re.M)

@@ -90,7 +90,7 @@ def random_robot(seed: int) -> ForwardProblem:
 @pytest.mark.parametrize("name", [GENERAL, "3-rpr-merlet-p"])
 def test_true_boxes_are_accepted(name: str) -> None:
     system, isolated = boxes_of(name)
-    assert isolated.count == system.problem.motion_degree
+    assert isolated.count == system.problem.solution_bound
     boxes = [*isolated.real, *isolated.pairs]
     assert all(certified(system, boxes))
     assert all(certified(system, [box.conjugate() for box in boxes]))
@@ -136,7 +136,7 @@ def test_no_box_is_accepted_at_a_multiple_pose(name: str) -> None:
     multiple = [pose for pose in exact.poses if pose.multiplicity != 1]
     assert multiple
     system, isolated = boxes_of(name)
-    assert isolated.count < system.problem.motion_degree
+    assert isolated.count < system.problem.solution_bound
     for pose in multiple:
         e = np.array([[float(value.midpoint) for value in pose.quaternion]], dtype=complex)
         system = ChartSystem(system.problem, (1, 0, 0, 0) if abs(e[0, 0]) > 0.1 else (0, 0, 0, 1))
@@ -240,7 +240,7 @@ def test_shipped_robots_have_the_poses_of_the_exact_engine(name: str) -> None:
     if numeric.method == "krawczyk":
         assert numeric.completeness_route is CompletenessRoute.REFINED_BEZOUT
         assert numeric.isolated is not None
-        assert numeric.isolated.count == numeric.complex_solutions == shipped(name).motion_degree
+        assert numeric.isolated.count == numeric.complex_solutions == shipped(name).solution_bound
     else:
         assert any("the exact engine answered" in note for note in numeric.notes)
     assert (numeric.method == "exact") >= (name in FEWER)

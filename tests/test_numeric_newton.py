@@ -1,6 +1,7 @@
 """The uncertified iterations: where they end, that the numbers they start from are right, and that they say why."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from math import sqrt
@@ -13,9 +14,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from samples import METRICS, MODELS, Placed, random_placed, shipped, solved
 
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.engine import solve
 from pkm_exact.errors import InputError, PkmExactError, ReconstructionError
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.fallback import solve_within
 from pkm_exact.numeric.home import distance_squared, home_pose, random_states
 from pkm_exact.numeric.levenberg_marquardt import (
@@ -63,16 +65,16 @@ def near(robot: NumericRobot, position: np.ndarray, rotation: np.ndarray, step: 
 def moved(problem: ForwardProblem, factor: Fraction, shift: Fraction) -> ForwardProblem:
     """The robot scaled, then its base moved along all axes."""
     legs = []
-    for leg in problem.legs:
+    for leg in problem.distances:
         x, y, z = (factor * value + shift for value in leg.base)
         b1, b2, b3 = (factor * value for value in leg.platform)
-        legs.append(Leg((x, y, z), (b1, b2, b3), leg.length_squared * factor**2))
-    return ForwardProblem(tuple(legs), problem.metric, problem.planar)
+        legs.append(Distance((x, y, z), (b1, b2, b3), leg.length_squared * factor**2))
+    return ForwardProblem(tuple(legs), problem.metric, problem.motion)
 
 
 def with_lengths(problem: ForwardProblem, squares: list[Fraction]) -> ForwardProblem:
-    legs = tuple(Leg(leg.base, leg.platform, square) for leg, square in zip(problem.legs, squares, strict=True))
-    return ForwardProblem(legs, problem.metric, problem.planar)
+    legs = (replace(leg, length_squared=square) for leg, square in zip(problem.distances, squares, strict=True))
+    return ForwardProblem(tuple(legs), problem.metric, problem.motion)
 
 
 @settings(max_examples=40)
@@ -187,11 +189,11 @@ def test_residuals_are_what_they_say(name: str) -> None:
     for pose in levenberg_marquardt(numeric_robot(problem), DescentPolicy(starts=10)):
         scales = np.sqrt(np.array(problem.metric, dtype=float))
         errors = []
-        for leg in problem.legs:
+        for leg in problem.distances:
             base, joint = (scales * [float(x) for x in end] for end in (leg.base, leg.platform))
             line = np.array(pose.position) + np.array(pose.rotation) @ joint - base
             errors.append(abs(np.linalg.norm(line) - sqrt(leg.length_squared)))
-        size = sqrt(max(leg.length_squared for leg in problem.legs))
+        size = sqrt(max(leg.length_squared for leg in problem.distances))
         assert max(errors) == pytest.approx(pose.residual, abs=1e-13 * size)
         if pose.converged:
             assert pose.residual <= 1e-12 * size
@@ -208,7 +210,7 @@ def test_starts_satisfy_the_mean_of_the_legs_if_they_can(name: str) -> None:
     assert means[possible] == pytest.approx(np.mean(robot.lengths**2))
     assert (c[~possible] == 0).all()
     assert (quaternions**2).sum(axis=0) == pytest.approx(1)
-    if robot.planar:
+    if robot.motion.is_planar:
         assert not np.any(c[:, 2])
         assert not np.any(quaternions[1:3])
     fewer = random_states(robot, 7, 5)
@@ -225,7 +227,7 @@ def test_the_home_pose_of_a_sensible_robot_is_near_one(name: str) -> None:
     lines = rotation_matrix(q) @ robot.platform + c[:, None] - robot.base
     assert (lines**2).sum(axis=0).mean() == pytest.approx(np.mean(robot.lengths**2))
     assert newton(robot, home).converged
-    if not robot.planar:
+    if not robot.motion.is_planar:
         assert c[2] > 0
     back = placed(robot, c, q)[0]
     assert np.array(back) == pytest.approx(np.array(home.position), abs=1e-12 * robot.unit)

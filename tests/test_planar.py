@@ -13,15 +13,18 @@ from hypothesis import strategies as st
 from samples import root, solved
 
 from pkm_exact.claim import Claim
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, cosine_and_sine
 from pkm_exact.geometry.inverse import Metric, distance_squared, dot
 from pkm_exact.geometry.planar_rotation import quarter_turn, turn_of, weight
-from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.working_modes import CrankMode, platform_point, working_modes
+from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordinates
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.solution import Solution
@@ -111,9 +114,9 @@ def _placed(shape: str, seed: int, metric: Metric) -> tuple[ForwardProblem, Vect
         position = _point(random)
         rotation = turn_of(turn, metric)
         pairs = zip(base, platform, strict=True)
-        legs = tuple(Leg(a, b, distance_squared(a, b, position, rotation, metric)) for a, b in pairs)
+        legs = tuple(Distance(a, b, distance_squared(a, b, position, rotation, metric)) for a, b in pairs)
         if all(leg.length_squared for leg in legs) and len({(leg.base, leg.platform) for leg in legs}) == 3:
-            return ForwardProblem(legs, metric, planar=True), position, turn
+            return ForwardProblem(legs, metric, motion=PLANAR), position, turn
 
 
 def _is_among(solution: Solution, position: Vector, turn: tuple[Fraction, Fraction]) -> bool:
@@ -150,7 +153,7 @@ def _moved(joint: Vector, turn: tuple[Fraction, Fraction], shift: Vector, metric
 
 def _relatives(problem: ForwardProblem, random: Random) -> dict[str, ForwardProblem]:
     """The same robot in other frames and units, with legs renumbered, and with base and platform swapped."""
-    metric, legs = problem.metric, problem.legs
+    metric, legs = problem.metric, problem.distances
     turn = cosine_and_sine(Fraction(random.randint(-5, 5), 3), weight(metric))
     shift = _point(random)
     k = Fraction(random.randint(1, 9), 4)
@@ -158,10 +161,10 @@ def _relatives(problem: ForwardProblem, random: Random) -> dict[str, ForwardProb
         "base": [replace(leg, base=_moved(leg.base, turn, shift, metric)) for leg in legs],
         "platform": [replace(leg, platform=_moved(leg.platform, turn, shift, metric)) for leg in legs],
         "order": random.sample(legs, 3),
-        "swap": [Leg(leg.platform, leg.base, leg.length_squared) for leg in legs],
-        "scale": [Leg(_times(k, leg.base), _times(k, leg.platform), k * k * leg.length_squared) for leg in legs],
+        "swap": [Distance(leg.platform, leg.base, leg.length_squared) for leg in legs],
+        "scale": [Distance(_times(k, leg.base), _times(k, leg.platform), k * k * leg.length_squared) for leg in legs],
     }
-    return {name: replace(problem, legs=tuple(rows)) for name, rows in changed.items()}
+    return {name: replace(problem, constraints=tuple(rows)) for name, rows in changed.items()}
 
 
 def _times(k: Fraction, joint: Vector) -> Vector:
@@ -188,8 +191,8 @@ def _facts(solution: Solution) -> tuple[Claim, int, int, list[int | None]]:
 def test_poses_move_with_the_base() -> None:
     problem = solved("3-rpr-merlet-p").problem
     turn, shift = (Fraction(3, 5), Fraction(4, 5)), (Fraction(7), Fraction(-2), Fraction(0))
-    legs = tuple(replace(leg, base=_moved(leg.base, turn, shift, (1, 1, 1))) for leg in problem.legs)
-    solution = solve(replace(problem, legs=legs))
+    legs = tuple(replace(leg, base=_moved(leg.base, turn, shift, (1, 1, 1))) for leg in problem.distances)
+    solution = solve(replace(problem, constraints=legs))
     position = _moved((Fraction(5), Fraction(5), Fraction(0)), turn, shift, (1, 1, 1))
     assert _is_among(solution, position, turn)
 

@@ -8,13 +8,14 @@ from pathlib import Path
 import pytest
 
 from pkm_exact.cli.main import main
+from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
 from pkm_exact.errors import InputError
 from pkm_exact.export.targets import TARGETS
 from pkm_exact.formulations.registry import formulation_codes
 from pkm_exact.geometry.chains import Crank, Slide
 from pkm_exact.geometry.inverse import dot
-from pkm_exact.geometry.problem import ForwardProblem, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot, robot_from_toml
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordinates
@@ -41,7 +42,7 @@ RRR_TEXT, PRR_TEXT = Path(RRR).read_text(), Path(PRR).read_text()
 def test_lengths_come_from_a_planar_pose() -> None:
     robot = robot_from_toml(RPR_TEXT)
     problem = robot.problem(robot.configuration("posed"))
-    assert problem.planar
+    assert problem.motion.is_planar
     assert problem == robot.problem(robot.configuration("same"))
     known = tuple(map(Fraction, ("5", "9/2", "4/5", "3/5")))
     boxes = [planar_coordinates(pose).values() for pose in solve(problem).poses]
@@ -66,7 +67,7 @@ def test_an_equilateral_robot_in_the_metric() -> None:
 
 
 def _edges(problem: ForwardProblem) -> list[Vector]:
-    a, b, c = (leg.base for leg in problem.legs)
+    a, b, c = (leg.base for leg in problem.distances)
     pairs = ((a, b), (b, c), (c, a))
     return [(q[0] - p[0], q[1] - p[1], q[2] - p[2]) for p, q in pairs]
 

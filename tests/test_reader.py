@@ -62,9 +62,9 @@ def test_lengths_come_from_a_pose_in_the_metric() -> None:
 def test_a_problem_has_six_legs_in_order() -> None:
     robot = robot_from_toml(MODEL)
     problem = robot.problem(robot.configuration("squares").lengths_squared)
-    assert [leg.length_squared for leg in problem.legs] == [1, 2, 3, 4, 5, Fraction(1, 4)]
-    assert problem.legs[2].base == (4, 0, 0)
-    assert problem.legs[2].platform == (2, 0, 0)
+    assert [leg.length_squared for leg in problem.distances] == [1, 2, 3, 4, 5, Fraction(1, 4)]
+    assert problem.distances[2].base == (4, 0, 0)
+    assert problem.distances[2].platform == (2, 0, 0)
     assert problem.metric == (1, 3, 1)
 
 
@@ -178,7 +178,7 @@ def test_a_robot_may_have_no_configuration() -> None:
     robot = robot_from_toml(MODEL[: MODEL.index("[[configurations]]")])
     with pytest.raises(InputError, match="has none; give the six leg lengths"):
         robot.configuration()
-    assert len(robot.problem([1] * 6).legs) == 6
+    assert len(robot.problem([1] * 6).distances) == 6
 
 
 def test_merged_joints_are_legal() -> None:

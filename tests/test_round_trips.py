@@ -13,9 +13,11 @@ from hypothesis import strategies as st
 from samples import Placed, placed, random_vector, root
 
 from pkm_exact.claim import Claim
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
 from pkm_exact.geometry.inverse import rotation_of
-from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.working_modes import platform_point
 from pkm_exact.solution import Solution
 
@@ -56,7 +58,7 @@ def _robot(shape: str, seed: int, metric: tuple[int, int, int]) -> Placed:
     while True:
         base, platform = _joints(shape, random)
         robot = placed(base, platform, random_vector(random), quaternion, metric)
-        if all(leg.length_squared for leg in robot.problem.legs):
+        if all(leg.length_squared for leg in robot.problem.distances):
             return robot
 
 
@@ -108,7 +110,7 @@ def _moved(joint: Vector, quaternion: Sequence[int], shift: Vector) -> Vector:
 
 def _relatives(problem: ForwardProblem, random: Random) -> dict[str, ForwardProblem]:
     """The same robot seen from other frames, in other units, with legs renumbered, and upside down."""
-    legs, factor = problem.legs, Fraction(random.randint(2, 9), 7)
+    legs, factor = problem.distances, Fraction(random.randint(2, 9), 7)
     shift, order = random_vector(random), random.sample(range(6), 6)
 
     def scaled(joint: Vector) -> Vector:
@@ -117,16 +119,16 @@ def _relatives(problem: ForwardProblem, random: Random) -> dict[str, ForwardProb
 
     return {
         "base moved": ForwardProblem(
-            tuple(Leg(_moved(leg.base, (2, 1, 0, -1), shift), leg.platform, leg.length_squared) for leg in legs)
+            tuple(Distance(_moved(leg.base, (2, 1, 0, -1), shift), leg.platform, leg.length_squared) for leg in legs)
         ),
         "platform moved": ForwardProblem(
-            tuple(Leg(leg.base, _moved(leg.platform, (1, 3, -1, 2), shift), leg.length_squared) for leg in legs)
+            tuple(Distance(leg.base, _moved(leg.platform, (1, 3, -1, 2), shift), leg.length_squared) for leg in legs)
         ),
         "scaled": ForwardProblem(
-            tuple(Leg(scaled(leg.base), scaled(leg.platform), factor**2 * leg.length_squared) for leg in legs)
+            tuple(Distance(scaled(leg.base), scaled(leg.platform), factor**2 * leg.length_squared) for leg in legs)
         ),
         "permuted": ForwardProblem(tuple(legs[i] for i in order)),
-        "swapped": ForwardProblem(tuple(Leg(leg.platform, leg.base, leg.length_squared) for leg in legs)),
+        "swapped": ForwardProblem(tuple(Distance(leg.platform, leg.base, leg.length_squared) for leg in legs)),
     }
 
 

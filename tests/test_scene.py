@@ -102,7 +102,7 @@ def test_signs_and_condition_numbers_are_those_of_the_legs(name: str) -> None:
             unit = np.subtract(pose.platform[b], scene.feet(pose)[a])
             unit = unit / np.linalg.norm(unit)
             turns = np.cross(arm, unit) / size
-            rows.append([*unit[:2], turns[2]] if scene.planar else [*unit, *turns])
+            rows.append([*unit[:2], turns[2]] if scene.motion.is_planar else [*unit, *turns])
         assert pose.condition == pytest.approx(np.linalg.cond(rows), rel=1e-4)
         assert pose.det_sign == np.sign(np.linalg.det(rows))
 

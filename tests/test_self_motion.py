@@ -15,12 +15,15 @@ from samples import placed, random_vector
 from pkm_exact import Robot, certificate
 from pkm_exact.certify.check import Status
 from pkm_exact.claim import Claim
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
 from pkm_exact.geometry.chains import cosine_and_sine
 from pkm_exact.geometry.inverse import Metric, distance_squared
 from pkm_exact.geometry.planar_rotation import turn_of, weight
-from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.working_modes import platform_point
+from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.poses.self_motion import Cause, SelfMotion, TranslationalMotion, leg_rank, mobility
 from pkm_exact.solution import Solution
 
@@ -62,21 +65,21 @@ def _planar(random: Random, shape: str, metric: Metric) -> ForwardProblem:
     rotation = turn_of(cosine_and_sine(Fraction(random.randint(-9, 9), 4), weight(metric)), metric)
     if shape == "congruent":
         base = [platform_point(joint, _flat(random, 0), rotation) for joint in platform]
-        return ForwardProblem(tuple(map(Leg, base, platform, [Fraction(7, 3)] * 3)), metric, planar=True)
+        return ForwardProblem(tuple(map(Distance, base, platform, [Fraction(7, 3)] * 3)), metric, motion=PLANAR)
     position = _flat(random)
     squares = [distance_squared(a, b, position, rotation, metric) for a, b in zip(base, platform, strict=True)]
-    return ForwardProblem(tuple(map(Leg, base, platform, squares)), metric, planar=True)
+    return ForwardProblem(tuple(map(Distance, base, platform, squares)), metric, motion=PLANAR)
 
 
 def _is_sound(problem: ForwardProblem) -> bool:
     """Whether a robot may have these legs: lengths that are not 0, and no two legs between the same points."""
-    pairs = {(leg.base, leg.platform) for leg in problem.legs}
-    return len(pairs) == len(problem.legs) and all(leg.length_squared for leg in problem.legs)
+    pairs = {(leg.base, leg.platform) for leg in problem.distances}
+    return len(pairs) == len(problem.distances) and all(leg.length_squared for leg in problem.distances)
 
 
 def _certificate(problem: ForwardProblem, solution: Solution) -> dict[str, Any]:
-    base, platform = zip(*((leg.base, leg.platform) for leg in problem.legs), strict=True)
-    kind = "3-RPR" if problem.planar else "6-UPS"
+    base, platform = zip(*((leg.base, leg.platform) for leg in problem.distances), strict=True)
+    kind = "3-RPR" if problem.motion.is_planar else "6-UPS"
     return certificate(Robot("moving", kind, "m", "made up", base, platform, problem.metric), None, solution)
 
 
@@ -88,7 +91,7 @@ def _is_accepted(problem: ForwardProblem, solution: Solution, line: str) -> dict
     return content
 
 
-SPATIAL = {
+IN_SPACE = {
     "platform line": (1, (Cause.PLATFORM_LINE,), "dimension 1"),
     "base line": (1, (Cause.BASE_LINE,), "dimension 1"),
     "platform line, base line": (3, (Cause.PLATFORM_LINE, Cause.BASE_LINE, Cause.DEPENDENT_LEGS), "rank 3"),
@@ -97,11 +100,11 @@ SPATIAL = {
 }
 
 
-@pytest.mark.parametrize("shape", SPATIAL)
+@pytest.mark.parametrize("shape", IN_SPACE)
 @settings(max_examples=3)
 @given(seed=seeds, metric=st.sampled_from(METRICS))
 def test_collinear_and_coincident_joints_move(shape: str, seed: int, metric: Metric) -> None:
-    dimension, causes, line = SPATIAL[shape]
+    dimension, causes, line = IN_SPACE[shape]
     problem = _spatial(Random(seed), shape, metric)
     solution = solve(problem)
     assert solution.claim is Claim.POSITIVE_DIMENSIONAL_PROVED
@@ -114,10 +117,10 @@ def test_collinear_and_coincident_joints_move(shape: str, seed: int, metric: Met
         _is_accepted(problem, solution, line)
 
 
-PLANAR = {"platform point": "dimension 1", "platform point, base line": "dimension 1", "congruent": "circle"}
+IN_THE_PLANE = {"platform point": "dimension 1", "platform point, base line": "dimension 1", "congruent": "circle"}
 
 
-@pytest.mark.parametrize("shape", PLANAR)
+@pytest.mark.parametrize("shape", IN_THE_PLANE)
 @settings(max_examples=10)
 @given(seed=seeds, metric=st.sampled_from(METRICS))
 def test_planar_robots_move(shape: str, seed: int, metric: Metric) -> None:
@@ -126,7 +129,7 @@ def test_planar_robots_move(shape: str, seed: int, metric: Metric) -> None:
     assert solution.claim is Claim.POSITIVE_DIMENSIONAL_PROVED
     assert isinstance(solution.self_motion, TranslationalMotion) == (shape == "congruent")
     if _is_sound(problem):
-        _is_accepted(problem, solution, PLANAR[shape])
+        _is_accepted(problem, solution, IN_THE_PLANE[shape])
 
 
 @pytest.mark.parametrize("shape", ["platform line", "base line", "platform point"])
@@ -135,8 +138,8 @@ def test_planar_robots_move(shape: str, seed: int, metric: Metric) -> None:
 def test_lengths_that_contradict_each_other_are_still_inconsistent(shape: str, seed: int) -> None:
     """Six lengths are one too many for five freedoms of a line; a wrong one leaves no pose, and that is proved."""
     problem = _spatial(Random(seed), shape, (1, 1, 1))
-    first = replace(problem.legs[0], length_squared=problem.legs[0].length_squared + 1)
-    problem = replace(problem, legs=(first, *problem.legs[1:]))
+    first = replace(problem.distances[0], length_squared=problem.distances[0].length_squared + 1)
+    problem = replace(problem, constraints=(first, *problem.distances[1:]))
     solution = solve(problem)
     assert solution.claim is Claim.INCONSISTENT
     if _is_sound(problem):
@@ -150,8 +153,8 @@ def test_a_planar_rank_counts_planar_motions_only() -> None:
     assert leg_rank(_planar(random, "platform point, base line", (1, 3, 1))) == 2
     assert mobility(_planar(random, "general", (2, 5, 7))) is None
     line = [(x, y, Fraction(0)) for x, y, _ in _line(random, STEPS[:3])]
-    legs = tuple(Leg(a, b, Fraction(9)) for a, b in zip(line, line[::-1], strict=True))
-    assert mobility(ForwardProblem(legs, planar=True)) is None, "in the plane nothing turns about a line"
+    legs = tuple(Distance(a, b, Fraction(9)) for a, b in zip(line, line[::-1], strict=True))
+    assert mobility(ForwardProblem(legs, motion=PLANAR)) is None, "in the plane nothing turns about a line"
 
 
 @pytest.mark.parametrize("factor", [Fraction(1, 2), Fraction(3, 2)])
@@ -169,7 +172,7 @@ def test_similar_hexagons_on_a_conic_are_named(factor: Fraction) -> None:
     off = [(base[0][0] + 1, *base[0][1:]), *base[1:]]
     twin = [(factor * x, -factor * y, Fraction(1)) for x, y, _ in off]
     squares = [Fraction(9)] * 6
-    assert mobility(ForwardProblem(tuple(map(Leg, off, twin, squares)))) is None
+    assert mobility(ForwardProblem(tuple(map(Distance, off, twin, squares)))) is None
 
 
 def _rejected(content: dict[str, Any], reason: str) -> None:
@@ -203,7 +206,7 @@ def test_a_platform_line_is_no_self_motion_of_a_planar_robot() -> None:
     base = [_flat(random) for _ in range(3)]
     straight = turn_of((Fraction(1), Fraction(0)), (1, 1, 1))
     squares = [distance_squared(a, b, ORIGIN, straight) for a, b in zip(base, platform, strict=True)]
-    problem = ForwardProblem(tuple(map(Leg, base, platform, squares)), planar=True)
+    problem = ForwardProblem(tuple(map(Distance, base, platform, squares)), motion=PLANAR)
     solution = solve(problem)
     assert (solution.claim, solution.complex_solutions) == (Claim.COMPLETE, 6)
     none: dict[str, Any] = {"poses": [], "real_poses": 0, "complex_solutions": 0, "distinct_solutions": 0}

@@ -9,10 +9,12 @@ import pytest
 from pkm_exact.certify.build import canonical_bytes, certificate
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.claim import Claim, CompletenessRoute
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.engine import solve
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.rotation import quaternion_norm, scaled_rotation
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 
 MODELS = Path(__file__).parent.parent / "models"
 BASE = ((0, 0, 0), (3, 1, 0), (2, 4, 1), (-2, 3, 0), (-3, -1, 1), (1, -3, 0))
@@ -32,7 +34,7 @@ def robot_at(quaternion: tuple[int, ...], position: tuple[int, int, int]) -> For
             for c, row in zip(position, rotation, strict=True)
         ]
         square = sum(((x - y) ** 2 for x, y in zip(tip, a, strict=True)), Fraction(0))
-        legs.append(Leg(tuple(map(Fraction, a)), tuple(map(Fraction, b)), square))
+        legs.append(Distance(tuple(map(Fraction, a)), tuple(map(Fraction, b)), square))
     return ForwardProblem(tuple(legs))
 
 
@@ -90,8 +92,8 @@ def _at_home(base: Sequence[Sequence[Fraction | int]], platform: Sequence[Sequen
     legs = []
     for a, b in zip(base, platform, strict=True):
         foot, tip = ((Fraction(x), Fraction(y), Fraction(z)) for x, y, z in (a, b))
-        legs.append(Leg(foot, tip, sum(((x - y) ** 2 for x, y in zip(foot, tip, strict=True)), Fraction(0))))
-    return ForwardProblem(tuple(legs), planar=len(legs) == 3)
+        legs.append(Distance(foot, tip, sum(((x - y) ** 2 for x, y in zip(foot, tip, strict=True)), Fraction(0))))
+    return ForwardProblem(tuple(legs), motion=PLANAR if len(legs) == 3 else SPATIAL)
 
 
 def _between(start: Sequence[int], end: Sequence[int], part: Fraction) -> list[Fraction]:
@@ -139,8 +141,9 @@ def test_a_singular_pose_says_what_is_special(name: str) -> None:
     jacobian = solution.poses[place - 1].jacobian
     assert jacobian is not None
     assert jacobian.rank == rank
-    gained = len(problem.legs) - rank
-    words = f"pose {place} is singular, rank {rank} of {len(problem.legs)}: the legs lose control of {gained} degree"
+    gained = len(problem.distances) - rank
+    legs = len(problem.distances)
+    words = f"pose {place} is singular, rank {rank} of {legs}: the legs lose control of {gained} degree"
     (note,) = solution.notes
     assert note.startswith(words)
     assert note.endswith(f"which the platform gains{special}")

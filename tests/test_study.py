@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from samples import METRICS
 
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.geometry.inverse import distance_squared, rotation_of
-from pkm_exact.geometry.problem import Leg
 from pkm_exact.geometry.rotation import quaternion_norm, quaternion_products, scaled_rotation
 from pkm_exact.geometry.study import (
     STUDY_CONDITION,
@@ -81,8 +81,8 @@ def test_a_leg_vanishes_at_its_length_and_nowhere_else(
 ) -> None:
     products = _products(_study(quaternion, position, metric))
     length = distance_squared(base, platform, position, rotation_of(quaternion, metric), metric)
-    assert evaluate(leg_quadric(Leg(base, platform, length), metric), products) == 0
-    wrong = Leg(base, platform, length + other)
+    assert evaluate(leg_quadric(Distance(base, platform, length), metric), products) == 0
+    wrong = Distance(base, platform, length + other)
     norm = quaternion_norm(_products(quaternion), metric)
     assert evaluate(leg_quadric(wrong, metric), products) == -other * norm * leg_form(wrong, metric)[0]
 

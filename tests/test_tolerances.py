@@ -134,10 +134,10 @@ def _extreme_errors(problem: ForwardProblem, pose: Any) -> tuple[Any, Any, Any]:
     scales = np.sqrt(np.array(problem.metric, dtype=float))
     c = np.array([float(x.midpoint) for x in pose.position])
     rotation = np.array([[float(x.midpoint) for x in row] for row in pose.rotation])
-    legs = len(problem.legs)
+    legs = len(problem.distances)
     signs = np.array(list(product((1, -1), repeat=legs)), dtype=float)
     base, platform = np.zeros((len(signs), legs, 3)), np.zeros((len(signs), legs, 3))
-    for k, leg in enumerate(problem.legs):
+    for k, leg in enumerate(problem.distances):
         a, b = (np.array([float(x) for x in joint]) * scales for joint in (leg.base, leg.platform))
         line = c + rotation @ b - a
         base[:, k], platform[:, k] = -np.sign(line) * signs[:, k, None], np.sign(rotation.T @ line) * signs[:, k, None]
@@ -195,7 +195,7 @@ def test_a_singular_pose_has_no_box() -> None:
 
 def test_the_dominant_datum_moves_the_pose_most() -> None:
     result, solution = analysed("3-prr", "0.0001"), numeric("3-prr")
-    problem, legs = result.problem, len(result.problem.legs)
+    problem, legs = result.problem, len(result.problem.distances)
     for box, pose in zip(result.boxes, solution.poses, strict=True):
         moves: dict[str, float] = {}
         for k in range(legs):

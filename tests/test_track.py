@@ -234,7 +234,7 @@ def test_a_singular_start_is_refused() -> None:
     solution = solved("3-rpr-double-q")
     singular = next(pose for pose in solution.poses if pose.multiplicity != 1)
     problem = shipped("3-rpr-double-q")
-    rows = [tuple(Fraction(float(leg.length_squared) ** 0.5) for leg in problem.legs)] * 2
+    rows = [tuple(Fraction(float(leg.length_squared) ** 0.5) for leg in problem.distances)] * 2
     with pytest.raises(InputError, match="singular"):
         list(track_branch(robot("3-rpr-double-q"), rows, singular))
 

@@ -11,7 +11,10 @@ import numpy as np
 import pytest
 from samples import random_placed, shipped
 
-from pkm_exact.geometry.problem import MOTION_DEGREES, ForwardProblem, Leg
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.motions.motion import Motion
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.numeric.nearby import nearby_start
 from pkm_exact.numeric.poses import approximations
 from pkm_exact.numeric.start import StartSection, find_start, generic_start
@@ -28,9 +31,9 @@ GENERAL = ["rolland-6-6", "dietmaier", "6-6p", "3-rpr-merlet-p", "3-rrr"]
 """Robots with as many solutions as robots of their kind can have."""
 
 
-def residuals(start: StartSection, *, planar: bool) -> Any:
+def residuals(start: StartSection, motion: Motion) -> Any:
     """The largest value of the equations at every solution, of norm 1."""
-    quadrics = section_quadrics(start.legs, planar=planar)
+    quadrics = section_quadrics(start.legs, motion)
     points = start.solutions / np.linalg.norm(start.solutions, axis=1, keepdims=True)
     return np.abs(np.einsum("kij,pi,pj->pk", quadrics, points, points)).max(axis=1)
 
@@ -43,27 +46,27 @@ def different(points: Any) -> int:
 
 def with_lengths(problem: ForwardProblem, factors: Sequence[Fraction]) -> ForwardProblem:
     legs = [
-        Leg(leg.base, leg.platform, leg.length_squared * factor)
-        for leg, factor in zip(problem.legs, factors, strict=True)
+        Distance(leg.base, leg.platform, leg.length_squared * factor)
+        for leg, factor in zip(problem.distances, factors, strict=True)
     ]
-    return ForwardProblem(tuple(legs), problem.metric, problem.planar)
+    return ForwardProblem(tuple(legs), problem.metric, problem.motion)
 
 
 def random_factors(problem: ForwardProblem, seed: int) -> list[Fraction]:
     random = Random(seed)
-    return [1 + Fraction(random.randint(-50, 50), 1000) for _ in problem.legs]
+    return [1 + Fraction(random.randint(-50, 50), 1000) for _ in problem.distances]
 
 
-@pytest.mark.parametrize("planar", [False, True])
-def test_shipped_starts_have_as_many_solutions_as_the_degree(planar: bool) -> None:
-    start = generic_start(planar=planar)
-    assert residuals(start, planar=planar).max() < 1e-13
-    assert different(start.solutions) == len(start.solutions) == MOTION_DEGREES[planar]
+@pytest.mark.parametrize("motion", [SPATIAL, PLANAR])
+def test_shipped_starts_have_as_many_solutions_as_the_degree(motion: Motion) -> None:
+    start = generic_start(motion)
+    assert residuals(start, motion).max() < 1e-13
+    assert different(start.solutions) == len(start.solutions) == motion.degree
 
 
 def test_monodromy_finds_a_planar_start_again() -> None:
-    start = find_start(3, planar=True)
-    assert residuals(start, planar=True).max() < 1e-13
+    start = find_start(3, PLANAR)
+    assert residuals(start, PLANAR).max() < 1e-13
     assert different(start.solutions) == 6
 
 
@@ -72,7 +75,7 @@ def test_monodromy_finds_a_planar_start_again() -> None:
 def test_all_solutions_of_known_robots_are_found(name: str, seed: int) -> None:
     problem = shipped(name)
     found = approximations(problem, seed=seed)
-    assert different(found.points) == problem.motion_degree
+    assert different(found.points) == problem.solution_bound
 
 
 @pytest.mark.parametrize("name", GENERAL)
@@ -95,14 +98,14 @@ def test_a_start_near_the_robot_finds_the_same_solutions(name: str) -> None:
     problem = shipped(name)
     start = nearby_start(problem)
     assert start is not None
-    assert residuals(start, planar=problem.planar).max() < 1e-9
+    assert residuals(start, problem.motion).max() < 1e-9
     for seed in range(3):
         other = with_lengths(problem, random_factors(problem, seed))
         found = [approximations(other, section) for section in (start, None)]
         one, two = (rational_coordinates(part.points, part.section) for part in found)
         one, two = (points / np.linalg.norm(points, axis=1, keepdims=True) for points in (one, two))
         likeness = np.abs(one.conj() @ two.T)
-        assert len(one) == len(two) == problem.motion_degree
+        assert len(one) == len(two) == problem.solution_bound
         assert (likeness.max(axis=0) > 1 - 1e-9).all()
         assert (likeness.max(axis=1) > 1 - 1e-9).all()
 
@@ -144,10 +147,10 @@ def test_a_single_quadric_is_solved() -> None:
 
 
 def test_polishing_brings_points_back() -> None:
-    start = generic_start(planar=False)
+    start = generic_start(SPATIAL)
     random = np.random.default_rng(1)
     moved = start.solutions + 1e-5 * random.standard_normal(start.solutions.shape)
-    points, change = polished(moved, section_quadrics(start.legs, planar=False))
+    points, change = polished(moved, section_quadrics(start.legs, SPATIAL))
     assert change.max() < 1e-10
     assert np.abs((points.conj() * start.solutions).sum(axis=1) / np.linalg.norm(start.solutions, axis=1)).min() > (
         1 - 1e-12

@@ -8,8 +8,10 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.motions.motion import Motion
 from pkm_exact.poses.pose import Pose
 
 Real = NDArray[np.float64]
@@ -22,17 +24,17 @@ class Robots:
     base: Real
     platform: Real
     lengths: Real
-    planar: bool
+    motion: Motion
 
 
 def errors_of(problem: ForwardProblem, count: int, seed: int) -> tuple[Real, Real, Real]:
     """Errors relative to the tolerances; every other robot at a corner, where errors are largest."""
     random = np.random.default_rng(seed)
-    legs = len(problem.legs)
+    legs = len(problem.distances)
     found = [random.uniform(-1, 1, shape) for shape in ((count, legs, 3), (count, legs, 3), (count, legs))]
     for errors in found:
         errors[::2] = np.sign(errors[::2])
-    if problem.planar:
+    if problem.motion.is_planar:
         found[0][..., 2] = found[1][..., 2] = 0
     return found[0], found[1], found[2]
 
@@ -40,14 +42,14 @@ def errors_of(problem: ForwardProblem, count: int, seed: int) -> tuple[Real, Rea
 def robots_with(problem: ForwardProblem, tolerances: Tolerances, errors: tuple[Real, Real, Real]) -> Robots:
     """The robots with these errors, in times the tolerances."""
     scales = np.sqrt(np.array(problem.metric, dtype=float))
-    base = np.array([[float(x) for x in leg.base] for leg in problem.legs]) * scales
-    platform = np.array([[float(x) for x in leg.platform] for leg in problem.legs]) * scales
-    lengths = np.sqrt([float(leg.length_squared) for leg in problem.legs])
+    base = np.array([[float(x) for x in leg.base] for leg in problem.distances]) * scales
+    platform = np.array([[float(x) for x in leg.platform] for leg in problem.distances]) * scales
+    lengths = np.sqrt([float(leg.length_squared) for leg in problem.distances])
     return Robots(
         base + float(tolerances.base) * errors[0],
         platform + float(tolerances.platform) * errors[1],
         lengths + float(tolerances.lengths) * errors[2],
-        problem.planar,
+        problem.motion,
     )
 
 
@@ -66,7 +68,7 @@ def poses_near(robots: Robots, pose: Pose) -> Real:
         lengths = np.linalg.norm(lines, axis=2)
         units = lines / lengths[..., None]
         jacobian = np.concatenate([units, np.cross(arms, units)], axis=2)
-        columns = [0, 1, 5] if robots.planar else list(range(6))
+        columns = [0, 1, 5] if robots.motion.is_planar else list(range(6))
         step = np.zeros((count, 6))
         step[:, columns] = np.linalg.solve(jacobian[..., columns], (robots.lengths - lengths)[..., None])[..., 0]
         c += step[:, :3]
@@ -102,12 +104,12 @@ def exact_robot(problem: ForwardProblem, tolerances: Tolerances, errors: tuple[R
         return value + tolerance * Fraction(error).limit_denominator(1000)
 
     legs = []
-    for k, leg in enumerate(problem.legs):
+    for k, leg in enumerate(problem.distances):
         base = tuple(off(x, tolerances.base, errors[0][0, k, i]) for i, x in enumerate(leg.base))
         platform = tuple(off(x, tolerances.platform, errors[1][0, k, i]) for i, x in enumerate(leg.platform))
         # The square of the length's decimal is exact; the length itself need not be rational.
         length = Fraction(float(leg.length_squared) ** 0.5) + tolerances.lengths * Fraction(errors[2][0, k]) * Fraction(
             99, 100
         )
-        legs.append(Leg(base, platform, length * length))
-    return ForwardProblem(tuple(legs), problem.metric, problem.planar)
+        legs.append(Distance(base, platform, length * length))
+    return ForwardProblem(tuple(legs), problem.metric, problem.motion)

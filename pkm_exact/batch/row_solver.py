@@ -83,7 +83,7 @@ def _middle(problems: Sequence[ForwardProblem]) -> ForwardProblem | None:
     if len(problems) < SHARED_START:
         return None
     try:
-        squares = np.array([[float(leg.length_squared) for leg in problem.legs] for problem in problems])
+        squares = np.array([[float(leg.length_squared) for leg in problem.distances] for problem in problems])
     except OverflowError:
         return None
     with np.errstate(all="ignore"):

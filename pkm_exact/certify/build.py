@@ -59,7 +59,7 @@ def _content(robot: Robot, configuration_name: str | None, solution: Solution) -
     """The certificate without its digest."""
     # The checker knows legs only: cranks and slides are certified as the 6-UPS robot with their knees as base joints.
     robot = robot.as_gough(robot.configuration(configuration_name) if robot.chains else None)
-    lengths_squared = [leg.length_squared for leg in solution.problem.legs]
+    lengths_squared = [leg.length_squared for leg in solution.problem.distances]
     if robot.problem(lengths_squared) != solution.problem:
         raise ValueError(f"the solution is not one of {robot!r}: joints or metric differ")
     return {
@@ -85,7 +85,7 @@ def _content(robot: Robot, configuration_name: str | None, solution: Solution) -
 
 def robot_entry(robot: Robot) -> dict[str, Any]:
     """The robot as certificates spell it; the third axis of a planar one enters nothing, its metric is written as 1."""
-    metric = (*robot.metric[:2], 1) if KINDS[robot.kind].planar else robot.metric
+    metric = (*robot.metric[:2], 1) if KINDS[robot.kind].motion.is_planar else robot.metric
     return {
         "name": robot.name,
         "kind": robot.kind,

@@ -34,7 +34,7 @@ def tolerance_certificate(robot: Robot, configuration_name: str | None, result: 
         If the result is one of another problem than the robot's.
     """
     robot = robot.as_gough(robot.configuration(configuration_name) if robot.chains else None)
-    squares = [leg.length_squared for leg in result.problem.legs]
+    squares = [leg.length_squared for leg in result.problem.distances]
     if robot.problem(squares) != result.problem:
         raise ValueError(f"the result is not one of {robot!r}: joints or metric differ")
     tolerances, frames = result.tolerances, result.frames

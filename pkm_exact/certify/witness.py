@@ -33,12 +33,12 @@ def translation_witnesses(problem: ForwardProblem, motion: TranslationalMotion) 
     unit = next(k for k in range(4) if products[k][k])
     e = [value / products[unit][unit] for value in products[unit]]
     fixed = [*e, *translation_coordinates([[c * x for x in e] for c in motion.offset], g)]
-    along = 1 if problem.planar else 2
+    along = 1 if problem.motion.is_planar else 2
     axis = [Fraction(int(k == along)) for k in range(3)]
     moved = [*[Fraction(0)] * 4, *translation_coordinates([[c * x for x in e] for c in axis], g)]
     index = next(k for k, value in enumerate(moved) if value)
     center, slope = fixed[index], moved[index]
-    square = problem.legs[0].length_squared / g[along] * slope**2
+    square = problem.distances[0].length_squared / g[along] * slope**2
     monic = [center**2 - square, -2 * center]
     numerators = [_numerator(p - q * center / slope, q / slope, monic) for p, q in zip(fixed, moved, strict=True)]
     eliminant, *rest = _in_lowest_terms([[*monic, Fraction(1)], *numerators])

@@ -45,14 +45,14 @@ def print_comparison(robot: Robot, configuration: str | None, comparison: Numeri
     )
     print_rows([_method(result, comparison) for result in comparison.results], _METHODS)
     if comparison.solution.poses:
-        angle = ", angle [degrees]" if comparison.solution.problem.planar else ""
+        angle = ", angle [degrees]" if comparison.solution.problem.motion.is_planar else ""
         sys.stdout.write(
             f"\ncertified poses (assembly modes): position [{robot.unit}]{angle}; "
             "starts of each method that ended there\n"
         )
         names = tuple(result.engine for result in comparison.results)
         rows = [_mode(mode, pose, comparison) for mode, pose in enumerate(comparison.solution.poses, 1)]
-        third = "theta" if comparison.solution.problem.planar else "z"
+        third = "theta" if comparison.solution.problem.motion.is_planar else "z"
         print_rows(rows, ("", "x", "y", third, "det J", "cond J", *names))
     for result in comparison.results:
         sys.stdout.write(_sentence(result, comparison))
@@ -76,7 +76,7 @@ def _method(result: EngineResult, comparison: NumericComparison) -> tuple[str, .
 def _mode(mode: int, pose: Pose, comparison: NumericComparison) -> tuple[str, ...]:
     number = f"{mode}" if pose.multiplicity == 1 else f"{mode} (x{pose.multiplicity or '?'})"
     x, y, z = pose.position
-    third = _angle(pose) if comparison.solution.problem.planar else z
+    third = _angle(pose) if comparison.solution.problem.motion.is_planar else z
     position = ("?" if value is None else f"{float(value.midpoint) + 0.0:.6g}" for value in (x, y, third))
     hits = (str(result.hits.get(mode, 0)) for result in comparison.results)
     jacobian = pose.jacobian

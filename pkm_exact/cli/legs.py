@@ -15,8 +15,8 @@ from pkm_exact.errors import InputError
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
+    from pkm_exact.constraints.form import Vector
     from pkm_exact.geometry.inverse import Matrix, Metric
-    from pkm_exact.geometry.problem import Vector
     from pkm_exact.geometry.robot import Robot
 
 _PLANAR: Final = ("--half-tangent", "--cos-sin")
@@ -128,7 +128,7 @@ def _require_kind(option: str, robot: Robot, model: str) -> None:
     """Refuse the rotation of a planar robot for a spatial one, and the other way round."""
     from pkm_exact.geometry.kinds import KINDS
 
-    planar = KINDS[robot.kind].planar
+    planar = KINDS[robot.kind].motion.is_planar
     if planar and option not in _PLANAR:
         raise InputError(
             f"{model}: {option} is for spatial robots, but a {robot.kind} robot is planar; "

@@ -8,10 +8,10 @@ from math import prod
 from typing import Any, Final
 
 from pkm_exact.cli.table import decimal
+from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import Crank
 from pkm_exact.geometry.inverse import Matrix, distance_squared
 from pkm_exact.geometry.kinds import KINDS
-from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.surds import Surd
 from pkm_exact.geometry.working_modes import (
@@ -46,7 +46,7 @@ def as_object(robot: Robot, position: Vector, rotation: Matrix, width: Fraction)
         "metric": list(map(str, robot.metric)),
         "pose": {"position": list(map(str, position)), "rotation": [list(map(str, row)) for row in rotation]},
     }
-    if KINDS[robot.kind].planar:
+    if KINDS[robot.kind].motion.is_planar:
         names = ("x", "y", "cos", "sin")
         answer["pose"]["planar"] = dict(zip(names, map(str, _planar(robot, position, rotation)), strict=True))
     if not robot.chains:
@@ -76,7 +76,7 @@ def _number(value: Surd, width: Fraction) -> dict[str, Any]:
 
 def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction) -> str:
     """The answer as a headline, a line for a configuration if there is one, and a table."""
-    if KINDS[robot.kind].planar:
+    if KINDS[robot.kind].motion.is_planar:
         x, y, c, s = _planar(robot, position, rotation)
         place = f"position ({x}, {y}), cosine and sine ({c}, {s})"
     else:

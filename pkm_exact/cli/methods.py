@@ -13,6 +13,7 @@ from click.core import ParameterSource
 
 from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
+from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
@@ -80,21 +81,22 @@ def solved_by_newton(problem: ForwardProblem, start: tuple[float, ...] | None) -
     """
     from pkm_exact.numeric.newton_iteration import solve_newton
 
-    return solve_newton(problem, None if start is None else _start_pose(start, planar=problem.planar))
+    return solve_newton(problem, None if start is None else _start_pose(start, problem.motion))
 
 
-def _start_pose(values: tuple[float, ...], *, planar: bool) -> StartPose:
+def _start_pose(values: tuple[float, ...], motion: Motion) -> StartPose:
     from pkm_exact.numeric.numeric_robot import StartPose
 
-    if planar and len(values) == 3:
+    if motion.is_planar and len(values) == 3:
         x, y, angle = values
         half = radians(angle % 360) / 2
         return StartPose((x, y, 0.0), (cos(half), 0.0, 0.0, sin(half)))
-    if not planar and len(values) == 7:
+    if not motion.is_planar and len(values) == 7:
         x, y, z, *quaternion = values
         q0, q1, q2, q3 = quaternion
         return StartPose((x, y, z), (q0, q1, q2, q3))
-    wanted = "the robot is planar; give X,Y,DEGREES" if planar else "the robot is spatial; give X,Y,Z,Q0,Q1,Q2,Q3"
+    planar, spatial = "planar; give X,Y,DEGREES", "spatial; give X,Y,Z,Q0,Q1,Q2,Q3"
+    wanted = f"the robot is {planar if motion.is_planar else spatial}"
     raise InputError(f"--start: {len(values)} numbers, but {wanted}")
 
 

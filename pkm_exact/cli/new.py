@@ -112,7 +112,7 @@ def _design(given: dict[str, Any], *, interview: bool) -> Design:
             click.echo(f"  {code}  {KINDS[code].description}", err=True)
         kind = _ask("Kind", next(iter(KINDS)), click.Choice([*KINDS, *_ALIASES]))
     kind = _ALIASES.get(kind, kind)
-    planar = KINDS[kind].planar
+    planar = KINDS[kind].motion.is_planar
     if interview:
         click.echo(_EXPLANATION[planar], err=True)
     sides = [_sides(given, kind, part, default) for part, default in zip(_PARTS, _SIDES[planar], strict=True)]
@@ -162,7 +162,7 @@ def _sides(given: dict[str, Any], kind: str, part: str, default: str) -> tuple[F
 
     if by_sides is not None:
         return sides(by_sides)
-    names = "A,B,C" if KINDS[kind].planar else "P,Q"
+    names = "A,B,C" if KINDS[kind].motion.is_planar else "P,Q"
     answer: tuple[Fraction, ...] = _ask(f"Sides of the {part}, {names}", default, sides)
     return answer
 
@@ -170,7 +170,7 @@ def _sides(given: dict[str, Any], kind: str, part: str, default: str) -> tuple[F
 def _on_circle(text: str, kind: str, option: str) -> tuple[Fraction, ...]:
     from pkm_exact.templates.layout import sides_on_circle
 
-    if KINDS[kind].planar:
+    if KINDS[kind].motion.is_planar:
         raise click.UsageError(f"{option}: a {kind} robot is planar; give the sides of its triangles instead.")
     numbers = _numbers(text, option)
     if len(numbers) != 2:

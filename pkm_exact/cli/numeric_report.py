@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.report import configuration_object
 from pkm_exact.cli.table import print_rows
+from pkm_exact.motions.motion import Motion
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
@@ -40,21 +41,21 @@ def _print_table(robot: Robot, configuration: str | None, solution: UncertifiedS
         f"{count} found; {solution.claim}: nothing is proved about what is listed, nor that there is no other",
     ]
     if verbose:
-        lengths = ", ".join(str(leg.length_squared) for leg in solution.problem.legs)
+        lengths = ", ".join(str(leg.length_squared) for leg in solution.problem.distances)
         lines += [f"source: {robot.source}", f"squared leg lengths: {lengths}"]
     lines += [f"note: {note}" for note in solution.notes]
     sys.stdout.write("\n".join(lines) + "\n")
     if not solution.poses:
         return
-    planar = solution.problem.planar
+    planar = solution.problem.motion.is_planar
     rotation = "angle [degrees]" if planar else "unit quaternion (scalar first)"
     sys.stdout.write(f"\nposition [{robot.unit}], {rotation}, as computed; no digit is guaranteed\n")
-    rows = [_row(number, pose, planar=planar) for number, pose in enumerate(solution.poses, 1)]
+    rows = [_row(number, pose, solution.problem.motion) for number, pose in enumerate(solution.poses, 1)]
     print_rows(rows, _PLANAR_HEADER if planar else _HEADER)
 
 
-def _row(number: int, pose: NumericPose, *, planar: bool) -> tuple[str, ...]:
-    values = (*pose.position[:2], _angle(pose)) if planar else (*pose.position, *pose.quaternion)
+def _row(number: int, pose: NumericPose, motion: Motion) -> tuple[str, ...]:
+    values = (*pose.position[:2], _angle(pose)) if motion.is_planar else (*pose.position, *pose.quaternion)
     return str(number), *(f"{value:.12g}" for value in values), f"{pose.residual:.1e}", str(pose.iterations)
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.modes import assembly_modes
 from pkm_exact.interactive.display import headline
+from pkm_exact.motions.motion import Motion
 from pkm_exact.poses.planar_coordinates import planar_coordinates
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def as_object(robot: Robot, configuration: str | None, solution: Solution) -> di
         "complex_solutions": solution.complex_solutions,
         "distinct_solutions": solution.distinct_solutions,
         "real_poses": len(solution.poses),
-        "poses": [_pose(pose, planar=solution.problem.planar) for pose in solution.poses],
+        "poses": [_pose(pose, solution.problem.motion) for pose in solution.poses],
         "assembly_modes": assembly_modes(solution.poses),
         "notes": list(solution.notes),
     }
@@ -54,16 +55,16 @@ def configuration_object(robot: Robot, name: str | None, problem: ForwardProblem
     """Name and squared lengths; for cranks and slides also the joint values and where they put the rods' lower ends."""
     entry: dict[str, Any] = {
         "name": name,
-        "lengths_squared": [str(leg.length_squared) for leg in problem.legs],
+        "lengths_squared": [str(leg.length_squared) for leg in problem.distances],
     }
     if robot.chains:
         values = robot.configuration(name).joint_values
         entry["joint_values"] = [list(map(str, v)) if isinstance(v, tuple) else str(v) for v in values]
-        entry["knees"] = [list(map(str, leg.base)) for leg in problem.legs]
+        entry["knees"] = [list(map(str, leg.base)) for leg in problem.distances]
     return entry
 
 
-def _pose(pose: Pose, *, planar: bool) -> dict[str, Any]:
+def _pose(pose: Pose, motion: Motion) -> dict[str, Any]:
     entry: dict[str, Any] = {
         "parameter": None if pose.parameter is None else _bounds(pose.parameter),
         "position": [_bounds(c) for c in pose.position],
@@ -72,7 +73,7 @@ def _pose(pose: Pose, *, planar: bool) -> dict[str, Any]:
         "multiplicity": pose.multiplicity,
         "jacobian": _jacobian(pose.jacobian),
     }
-    if planar:
+    if motion.is_planar:
         entry["planar"] = {name: _bounds(value) for name, value in planar_coordinates(pose).items()}
     return entry
 

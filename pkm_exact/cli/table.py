@@ -25,8 +25,8 @@ def print_table(robot: Robot, configuration: str | None, solution: Solution, hea
     sys.stdout.write("\n".join(lines) + "\n")
     if not solution.poses:
         return
-    planar = solution.problem.planar
-    rows = [pose_cells(number, pose, planar=planar) for number, pose in enumerate(solution.poses, 1)]
+    planar = solution.problem.motion.is_planar
+    rows = [pose_cells(number, pose, solution.problem.motion) for number, pose in enumerate(solution.poses, 1)]
     rotation = "angle [degrees]" if planar else "unit quaternion (scalar first)"
     sys.stdout.write(f"\nassembly modes: {summary(assembly_modes(solution.poses))}\n")
     sys.stdout.write(f"position [{robot.unit}], {rotation}, right to one unit of the last digit\n")
@@ -34,7 +34,7 @@ def print_table(robot: Robot, configuration: str | None, solution: Solution, hea
 
 
 def _details(robot: Robot, solution: Solution) -> list[str]:
-    lengths = ", ".join(str(leg.length_squared) for leg in solution.problem.legs)
+    lengths = ", ".join(str(leg.length_squared) for leg in solution.problem.distances)
     widths = [c.width for pose in solution.poses for c in (*pose.position, *pose.quaternion)]
     details = [
         f"source: {robot.source}",

@@ -133,7 +133,7 @@ def _ends(interval: Interval) -> list[str]:
 def _print(robot: Robot, result: ToleranceResult) -> None:
     from pkm_exact.cli.table import print_rows
 
-    planar = result.problem.planar
+    planar = result.problem.motion.is_planar
     axes = ("x", "y") if planar else ("x", "y", "z")
     t = result.tolerances
     sys.stdout.write(

@@ -82,8 +82,8 @@ class Judge:
         self._precision = 64 + max(ends, default=0) + GUARD_BITS
         with working_precision(self._precision):
             scales = [arb(g).sqrt() for g in problem.metric]
-            rows = [[scale * _exact(leg.platform[i]) for leg in problem.legs] for i, scale in enumerate(scales)]
-            self._joints = arb_mat([*rows, [arb(1)] * len(problem.legs)])
+            rows = [[scale * _exact(leg.platform[i]) for leg in problem.distances] for i, scale in enumerate(scales)]
+            self._joints = arb_mat([*rows, [arb(1)] * len(problem.distances)])
             self._places = [
                 self._placed(
                     [[*map(_ball, row), _ball(c)] for row, c in zip(pose.rotation, pose.position, strict=True)]

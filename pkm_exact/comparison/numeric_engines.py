@@ -9,7 +9,7 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import PLANAR_SUPPORT
+from pkm_exact.motions.motion import Motion
 from pkm_exact.numeric.home import home_pose, random_states
 from pkm_exact.numeric.levenberg_marquardt import DescentPolicy, levenberg_marquardt
 from pkm_exact.numeric.newton_iteration import newton, newton_from
@@ -67,25 +67,23 @@ def path_tracking(problem: ForwardProblem, robot: NumericRobot, _starts: int, _s
     found = approximations(problem, watch=watch)
     poses, complex_ends = [], 0
     for point in found.points:
-        values = motion_values(_full(point, planar=problem.planar))
+        values = motion_values(_full(point, problem.motion))
         turned = point / np.sqrt(values[-1] / abs(values[-1]))
         if np.linalg.norm(turned.imag) > REAL:
             complex_ends += 1
             continue
-        e = _full(turned, planar=problem.planar).real[:4]
+        e = _full(turned, problem.motion).real[:4]
         q0, q1, q2, q3 = (e / np.linalg.norm(e)).tolist()
         c = (values[4:7] / values[-1]).real * (found.section.frames.unit / robot.unit)
         poses.append(newton_from(robot, c, (q0, q1, q2, q3)))
-    lost = problem.motion_degree - len(found.points)
+    lost = problem.solution_bound - len(found.points)
     return Ends(tuple(poses), {"not real": complex_ends, "lost or at infinity": lost})
 
 
-def _full(point: Complex, *, planar: bool) -> Complex:
+def _full(point: Complex, motion: Motion) -> Complex:
     """All eight Study coordinates of a solution."""
-    if not planar:
-        return point
     full = np.zeros(8, dtype=complex)
-    full[list(PLANAR_SUPPORT)] = point
+    full[list(motion.support)] = point
     return full
 
 

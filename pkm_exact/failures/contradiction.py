@@ -70,8 +70,8 @@ def _spelled(problem: ForwardProblem) -> dict[str, Any]:
     """The problem, exactly, in plain JSON values."""
     return {
         "metric": [str(g) for g in problem.metric],
-        "planar": problem.planar,
-        "base": [[str(value) for value in leg.base] for leg in problem.legs],
-        "platform": [[str(value) for value in leg.platform] for leg in problem.legs],
-        "lengths_squared": [str(leg.length_squared) for leg in problem.legs],
+        "planar": problem.motion.is_planar,
+        "base": [[str(value) for value in leg.base] for leg in problem.distances],
+        "platform": [[str(value) for value in leg.platform] for leg in problem.distances],
+        "lengths_squared": [str(leg.length_squared) for leg in problem.distances],
     }

@@ -40,7 +40,7 @@ def leg_equations(
     metric = [rational(g) for g in problem.metric]
     square = dot(metric, position, position)
     equations = []
-    for leg in problem.legs:
+    for leg in problem.distances:
         base = [rational(value) for value in leg.base]
         platform = [rational(value) for value in leg.platform]
         turned = matrix_vector(rotation, platform)
@@ -116,8 +116,8 @@ class AFD3:
 
 def reflected(problem: ForwardProblem) -> ForwardProblem:
     """The robot with mirrored platform joints: R diag(1, 1, -1) is a rotation if det R = -1."""
-    legs = (replace(leg, platform=(leg.platform[0], leg.platform[1], -leg.platform[2])) for leg in problem.legs)
-    return replace(problem, legs=tuple(legs))
+    legs = (replace(leg, platform=(leg.platform[0], leg.platform[1], -leg.platform[2])) for leg in problem.distances)
+    return replace(problem, constraints=tuple(legs))
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,7 @@ class AFD6:
         _, x = rational_ring(STUDY_UNKNOWNS)
         products = [[left * right for right in x] for left in x]
         quadrics = motion_quadrics(problem.metric)
-        equations = [evaluate(leg_quadric(leg, problem.metric), products) for leg in problem.legs]
+        equations = [evaluate(leg_quadric(leg, problem.metric), products) for leg in problem.distances]
         equations += [evaluate(STUDY_CONDITION, products), evaluate(quadrics[-1], products) - 1]
         system = over_integers(STUDY_UNKNOWNS, equations)
         position = tuple(evaluate(quadric, products) for quadric in quadrics[4:7])

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from flint import fmpq, fmpq_mat
 
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.formulations.base import (
     Expression,
     FormulatedProblem,
@@ -26,21 +27,21 @@ from pkm_exact.formulations.base import (
     rational_ring,
 )
 from pkm_exact.formulations.displacement import reduced, rotation_equations
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import quaternion_products
 
 # Solved for from left to right: the translation first, so that R and s remain where the robot allows it.
 MOTION_COORDINATES = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
 
 
-def leg_hyperplane(leg: Leg, metric: Sequence[fmpq]) -> list[fmpq]:
+def leg_hyperplane(leg: Distance, metric: Sequence[fmpq]) -> list[fmpq]:
     """Coefficients of a leg's linear form on ``MOTION_COORDINATES`` and, last, on h.
 
     Examples
     --------
     >>> from fractions import Fraction
     >>> origin = (Fraction(0),) * 3
-    >>> leg_hyperplane(Leg(origin, origin, Fraction(4)), [fmpq(1)] * 3)[6::10]
+    >>> leg_hyperplane(Distance(origin, origin, Fraction(4)), [fmpq(1)] * 3)[6::10]
     [1, -4]
     """
     base = [rational(value) for value in leg.base]
@@ -103,8 +104,8 @@ class SE3:
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in those of ``MOTION_COORDINATES`` that the legs leave free."""
         metric = [rational(g) for g in problem.metric]
-        hyperplanes = [leg_hyperplane(leg, metric) for leg in problem.legs]
-        hyperplanes += planar_hyperplanes() if problem.planar else []
+        hyperplanes = [leg_hyperplane(leg, metric) for leg in problem.distances]
+        hyperplanes += planar_hyperplanes() if problem.motion.is_planar else []
         echelon, rank = fmpq_mat(hyperplanes).rref()
         size = len(MOTION_COORDINATES)
         pivots = [next(j for j in range(size + 1) if echelon[row, j] != 0) for row in range(rank)]

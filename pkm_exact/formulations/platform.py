@@ -45,7 +45,7 @@ def platform_frame(problem: ForwardProblem, triple: Triple | None = None) -> Pla
         If the given triple, or every triple, is collinear.
     """
     metric = [rational(g) for g in problem.metric]
-    joints = [[rational(value) for value in leg.platform] for leg in problem.legs]
+    joints = [[rational(value) for value in leg.platform] for leg in problem.distances]
     candidates = [triple] if triple is not None else list(combinations(range(len(joints)), 3))
     for legs in candidates:
         origin, first, second = (joints[index] for index in legs)
@@ -72,7 +72,7 @@ def platform_frame(problem: ForwardProblem, triple: Triple | None = None) -> Pla
 def edge_square(problem: ForwardProblem, i: int, j: int) -> fmpq:
     """|B_i - B_j|^2 of two platform joints, legs counted from 0."""
     metric = [rational(g) for g in problem.metric]
-    edge = [rational(a - b) for a, b in zip(problem.legs[i].platform, problem.legs[j].platform, strict=True)]
+    edge = [rational(a - b) for a, b in zip(problem.distances[i].platform, problem.distances[j].platform, strict=True)]
     square: fmpq = dot(metric, edge, edge)
     return square
 
@@ -97,6 +97,6 @@ def pose_from_points(
     rotation = [
         [v1[i] * inverse[0, j] + v2[i] * inverse[1, j] + v3[i] * inverse[2, j] for j in range(3)] for i in range(3)
     ]
-    joint = [rational(value) for value in problem.legs[frame.legs[0]].platform]
+    joint = [rational(value) for value in problem.distances[frame.legs[0]].platform]
     position = [points[0][i] - sum((rotation[i][j] * joint[j] for j in range(3)), 0 * unit) for i in range(3)]
     return PoseMap(tuple(map(tuple, quaternion_products(rotation, unit, metric))), tuple(position))

@@ -47,7 +47,7 @@ def _leg_equations(
     metric = [rational(g) for g in problem.metric]
     v1, v2, v3 = edge_vectors(points, metric)
     equations = []
-    for leg, (a, b, c) in zip(problem.legs, frame.coordinates, strict=True):
+    for leg, (a, b, c) in zip(problem.distances, frame.coordinates, strict=True):
         offset = [points[0][i] + a * v1[i] + b * v2[i] + c * v3[i] - rational(leg.base[i]) for i in range(3)]
         equations.append(dot(metric, offset, offset) - rational(leg.length_squared))
     return equations
@@ -147,8 +147,8 @@ class AFP3:
         metric = [rational(g) for g in problem.metric]
         points = [list(generators[3 * i : 3 * i + 3]) for i in range(3)]
         frame = platform_frame(problem, self.triple)
-        bases = [[rational(value) for value in problem.legs[index].base] for index in frame.legs]
-        squares = [rational(problem.legs[index].length_squared) for index in frame.legs]
+        bases = [[rational(value) for value in problem.distances[index].base] for index in frame.legs]
+        squares = [rational(problem.distances[index].length_squared) for index in frame.legs]
         legs = [
             dot(metric, p, p) - 2 * dot(metric, p, a) + dot(metric, a, a) - square
             for p, a, square in zip(points, bases, squares, strict=True)
@@ -163,7 +163,7 @@ class AFP3:
         recombined = [dot(metric, points[i], points[j]) - linear[i][j] for i, j in combinations(range(3), 2)]
         others = [
             _reduced_leg(problem, frame, index, points, linear)
-            for index in range(len(problem.legs))
+            for index in range(len(problem.distances))
             if index not in frame.legs
         ]
         system = over_integers(POINT_UNKNOWNS, legs + recombined + others)
@@ -180,7 +180,7 @@ def _reduced_leg(
 ) -> Expression:
     """|P_1 + a v1 + b v2 + c v3 - A|^2 - l^2 modulo the equations of the three points."""
     metric = [rational(g) for g in problem.metric]
-    leg = problem.legs[index]
+    leg = problem.distances[index]
     base = [rational(value) for value in leg.base]
     a, b, c = frame.coordinates[index]
     weights = (1 - a - b, a, b)

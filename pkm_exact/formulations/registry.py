@@ -63,7 +63,7 @@ def formulation_for(code: str, problem: ForwardProblem) -> Formulation:
         As ``formulation``, and if the robot is planar and the formulation for spatial ones only.
     """
     found, first = formulation(code), formulation_codes()[0]
-    if problem.planar and code != first:
+    if problem.motion.is_planar and code != first:
         raise InputError(f"formulation: {code} is for spatial robots, but this one is planar; use {first}")
     return found
 

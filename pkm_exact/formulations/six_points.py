@@ -53,7 +53,7 @@ class AFP4:
         frame = platform_frame(problem, self.triple)
         metric = [rational(g) for g in problem.metric]
         equations = []
-        for point, leg in zip(points, problem.legs, strict=True):
+        for point, leg in zip(points, problem.distances, strict=True):
             offset = [a - rational(b) for a, b in zip(point, leg.base, strict=True)]
             equations.append(dot(metric, offset, offset) - rational(leg.length_squared))
         others = [k for k in range(6) if k not in frame.legs]
@@ -99,7 +99,7 @@ def _mirrored(
     problem: ForwardProblem, frame: PlatformFrame, others: Sequence[int], signs: Sequence[int]
 ) -> ForwardProblem:
     """The robot whose joints with a minus sign are mirrored in the plane of the triple: B - 2 c u3."""
-    legs = list(problem.legs)
+    legs = list(problem.distances)
     for k, sign in zip(others, signs, strict=True):
         if sign < 0:
             shift = [2 * frame.coordinates[k][2] * value for value in frame.axes[2]]
@@ -107,4 +107,4 @@ def _mirrored(
                 b - Fraction(int(value.p), int(value.q)) for b, value in zip(legs[k].platform, shift, strict=True)
             )
             legs[k] = replace(legs[k], platform=(x, y, z))
-    return replace(problem, legs=tuple(legs))
+    return replace(problem, constraints=tuple(legs))

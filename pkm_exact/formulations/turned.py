@@ -7,9 +7,10 @@ from dataclasses import replace
 from fractions import Fraction
 from random import Random
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.formulations.base import Expression, FormulatedProblem, PoseMap
 from pkm_exact.formulations.protocol import Formulation
-from pkm_exact.geometry.problem import ForwardProblem, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import composition_matrix, quaternion_norm, scaled_rotation
 
 Turn = tuple[int, int, int, int]
@@ -39,11 +40,11 @@ def turned_problem(problem: ForwardProblem, turn: Turn) -> ForwardProblem:
     norm = quaternion_norm(products, problem.metric)
     rotation = [[entry / norm for entry in row] for row in scaled_rotation(products, problem.metric)]
     legs = []
-    for leg in problem.legs:
+    for leg in problem.distances:
         x, y, z = (sum((r * b for r, b in zip(row, leg.platform, strict=True)), Fraction(0)) for row in rotation)
         platform: Vector = (x, y, z)
         legs.append(replace(leg, platform=platform))
-    return replace(problem, legs=tuple(legs))
+    return replace(problem, constraints=tuple(legs))
 
 
 def formulate_turned(formulation: Formulation, problem: ForwardProblem, turn: Turn) -> FormulatedProblem:

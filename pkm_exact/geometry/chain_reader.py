@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any, Final
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Chain, Crank, Slide
 from pkm_exact.geometry.fields import known_keys, list_field, required, table_field
@@ -13,7 +14,6 @@ from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.joints import parse_joints
 from pkm_exact.geometry.kinds import Joints, Kind
 from pkm_exact.geometry.planar_rotation import quarter_turn
-from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.rational import parse_positive, parse_vector
 from pkm_exact.wording import shown
 
@@ -24,7 +24,7 @@ _RODS: Final = ("length", "lengths", "lengths_squared")
 def read_joints(table: dict[str, Any], key: str, kind: Kind, metric: Metric) -> Joints:
     """The joints of ``[base]`` or ``[platform]``, as coordinates or, for six, as a semi-regular hexagon."""
     value = table_field(table, key, "joints = [...]")
-    known_keys(value, ("joints",) if kind.planar else ("joints", "hexagon"), key)
+    known_keys(value, ("joints",) if kind.motion.is_planar else ("joints", "hexagon"), key)
     if "hexagon" not in value:
         rows = list_field(required(value, "joints", f"{key}."), f"{key}.joints", kind.legs)
         return parse_joints(rows, f"{key}.joints", kind)
@@ -73,7 +73,7 @@ def _cranks(table: dict[str, Any], kind: Kind, metric: Metric, rods: tuple[Fract
     cranks = table_field(table, "cranks", "at_0 = [...] and at_90 = [...]")
     known_keys(cranks, ("at_0", "at_90"), "cranks")
     at_0 = _vectors(cranks, "cranks", "at_0", kind)
-    if kind.planar and "at_90" not in cranks:
+    if kind.motion.is_planar and "at_90" not in cranks:
         at_90 = tuple(quarter_turn(vector, metric, "cranks.at_0") for vector in at_0)
     else:
         at_90 = _vectors(cranks, "cranks", "at_90", kind)

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeAlias
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric, dot
-from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.rational import parse_positive, parse_rational, parse_vector
 from pkm_exact.wording import shown
 

@@ -56,11 +56,11 @@ def _joint_value(key: str, value: object, where: str) -> object:
 def _lengths_squared_at(pose: object, where: str, robot: Robot) -> tuple[Fraction, ...]:
     kind = KINDS[robot.kind]
     if not isinstance(pose, dict):
-        rotation = "half_tangent = ..." if kind.planar else "quaternion = [...]"
+        rotation = "half_tangent = ..." if kind.motion.is_planar else "quaternion = [...]"
         raise InputError(f"{where}: {shown(pose)} is not a table; write {{ position = [...], {rotation} }}")
-    known_keys(pose, ("position", *(_TURNS if kind.planar else ("quaternion",))), where)
+    known_keys(pose, ("position", *(_TURNS if kind.motion.is_planar else ("quaternion",))), where)
     position = parse_vector(required(pose, "position", f"{where}."), f"{where}.position", kind.dimension)
-    turn = (_planar_rotation if kind.planar else _rotation)(pose, where, robot)
+    turn = (_planar_rotation if kind.motion.is_planar else _rotation)(pose, where, robot)
     squares = []
     for leg, (a, b) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True), 1):
         square = distance_squared(a, b, position, turn, robot.metric)

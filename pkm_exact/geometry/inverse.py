@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Final, TypeAlias
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.rotation import quaternion_norm, scaled_rotation
 
 Quaternion: TypeAlias = tuple[Fraction, Fraction, Fraction, Fraction]

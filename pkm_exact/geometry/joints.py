@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.kinds import Joints, Kind
-from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.rational import parse_vector
 from pkm_exact.wording import shown
 
@@ -35,7 +35,7 @@ def parse_metric(row: object, kind: Kind) -> Metric:
     For planar kinds the third does not matter; it is 1 if it is left out.
     """
     numbers = []
-    if kind.planar and isinstance(row, list | tuple) and len(row) == 2:
+    if kind.motion.is_planar and isinstance(row, list | tuple) and len(row) == 2:
         row = [*row, 1]
     for i, number in enumerate(parse_vector(row, "metric"), 1):
         if number <= 0 or number.denominator != 1:

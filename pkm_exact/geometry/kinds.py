@@ -13,8 +13,11 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Final, TypeAlias
 
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import Chain, Crank, JointValue, Slide
-from pkm_exact.geometry.problem import Leg, Vector
+from pkm_exact.motions.motion import Motion
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 
 Joints: TypeAlias = tuple[Vector, ...]
 
@@ -35,8 +38,8 @@ class Kind:
         The keys that give joint values in a configuration.
     gough : str
         The kind with the same number of legs whose legs themselves are actuated.
-    dimension : int
-        Number of coordinates of a joint: 3, or 2 if the robot is planar.
+    motion : Motion
+        What the platform is capable of.
     """
 
     description: str
@@ -44,17 +47,17 @@ class Kind:
     chain_table: str
     joint_keys: tuple[str, ...]
     gough: str = "6-UPS"
-    dimension: int = 3
+    motion: Motion = SPATIAL
 
     @property
-    def planar(self) -> bool:
-        """Whether the platform moves in the plane of the first two axes."""
-        return self.dimension == 2
+    def dimension(self) -> int:
+        """Number of coordinates of a joint: 3, or 2 if the robot is planar."""
+        return 2 if self.motion.is_planar else 3
 
     @property
     def legs(self) -> int:
         """How many legs a robot of this kind has: as many as its platform has freedoms."""
-        return 3 if self.planar else 6
+        return self.motion.dimension
 
 
 _LEG_KEYS: Final = ("lengths", "lengths_squared", "pose")
@@ -66,17 +69,17 @@ KINDS: Final[Mapping[str, Kind]] = MappingProxyType(
         "6-UPS": Kind("six legs of actuated length", None, "", _LEG_KEYS),
         "6-RUS": Kind("six rods of fixed length on cranks", Crank, "cranks", _CRANK_KEYS),
         "6-PUS": Kind("six rods of fixed length on slides", Slide, "slides", _SLIDE_KEYS),
-        "3-RPR": Kind("planar: three legs of actuated length", None, "", _LEG_KEYS, "3-RPR", 2),
-        "3-RRR": Kind("planar: three rods of fixed length on cranks", Crank, "cranks", _CRANK_KEYS, "3-RPR", 2),
-        "3-PRR": Kind("planar: three rods of fixed length on slides", Slide, "slides", _SLIDE_KEYS, "3-RPR", 2),
+        "3-RPR": Kind("planar: three legs of actuated length", None, "", _LEG_KEYS, "3-RPR", PLANAR),
+        "3-RRR": Kind("planar: three rods of fixed length on cranks", Crank, "cranks", _CRANK_KEYS, "3-RPR", PLANAR),
+        "3-PRR": Kind("planar: three rods of fixed length on slides", Slide, "slides", _SLIDE_KEYS, "3-RPR", PLANAR),
     }
 )
 """The kinds by the names used in model files."""
 
 
-def gough_legs(base: Joints, platform: Joints, lengths_squared: tuple[Fraction, ...]) -> tuple[Leg, ...]:
+def gough_legs(base: Joints, platform: Joints, lengths_squared: tuple[Fraction, ...]) -> tuple[Distance, ...]:
     """The legs of a 6-UPS robot (Gough platform) or a 3-RPR one: leg i joins the joints i, its length is actuated."""
-    return tuple(Leg(a, b, square) for a, b, square in zip(base, platform, lengths_squared, strict=True))
+    return tuple(Distance(*leg) for leg in zip(base, platform, lengths_squared, strict=True))
 
 
 def knees(base: Joints, chains: tuple[Chain, ...], values: tuple[JointValue, ...]) -> Joints:

@@ -14,10 +14,10 @@ from __future__ import annotations
 from fractions import Fraction
 from math import isqrt
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import CosSin, cosine_and_sine, parse_cosine_and_sine
 from pkm_exact.geometry.inverse import Matrix, Metric
-from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.rational import parse_rational
 
 

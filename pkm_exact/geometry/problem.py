@@ -1,4 +1,4 @@
-"""Exact data of a forward kinematics problem: legs between a base and a platform, in a Gram metric.
+"""Exact data of a forward kinematics problem: constraints on a platform, the motions it is capable of, a Gram metric.
 
 A parallel robot with locked actuators is a list of constraints on the pose (C, R) of its platform. Coordinates
 are rational with respect to orthogonal axes whose squared lengths are the Gram diagonal ``metric``: the ordinary
@@ -8,55 +8,68 @@ coordinate is sqrt(metric[i]) times the rational one. With ``metric = (1, 3, 1)`
 from __future__ import annotations
 
 from dataclasses import dataclass
-from fractions import Fraction
-from types import MappingProxyType
-from typing import Final, TypeAlias
 
-Vector: TypeAlias = tuple[Fraction, Fraction, Fraction]
-
-MOTION_DEGREES: Final = MappingProxyType({False: 40, True: 6})
-"""Degree of the variety of rigid motions, or of planar ones (key: planar); every leg is a hyperplane on it."""
-
-
-@dataclass(frozen=True)
-class Leg:
-    """A leg of known length between base joint ``base`` and platform joint ``platform``.
-
-    Attributes
-    ----------
-    base : tuple of 3 Fraction
-        Joint centre A in the fixed frame.
-    platform : tuple of 3 Fraction
-        Joint centre B in the mobile frame.
-    length_squared : Fraction
-        Square of the distance between A and C + R B, in squared units of length.
-    """
-
-    base: Vector
-    platform: Vector
-    length_squared: Fraction
+from pkm_exact.constraints.constraint import Constraint
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.errors import InputError
+from pkm_exact.motions.motion import Motion
+from pkm_exact.motions.motion_groups import SPATIAL
 
 
 @dataclass(frozen=True)
 class ForwardProblem:
-    """A robot with locked actuators: find every pose (C, R) with |C + R B_i - A_i|^2 = l_i^2.
+    """A robot with locked actuators: find every pose (C, R) that all constraints admit.
 
     Attributes
     ----------
-    legs : tuple of Leg
-        Six legs; three if the robot is planar.
+    constraints : tuple of Constraint
+        Of a Gough platform six legs, each a ``Distance`` |C + R B - A| = l; of a planar one three.
     metric : tuple of 3 int
         Gram diagonal of both frames, positive integers.
-    planar : bool
-        Whether the platform moves in the plane of the first two axes only: C3 = 0 and R turns about the third axis.
-        All third coordinates of joints are then 0.
+    motion : Motion
+        The motions that the platform is capable of. If they are planar, C3 = 0, R turns about the third axis, and all
+        third coordinates of joints are 0.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> zero = (Fraction(0),) * 3
+    >>> len(ForwardProblem((Distance(zero, zero, Fraction(4)),)).distances)
+    1
     """
 
-    legs: tuple[Leg, ...]
+    constraints: tuple[Constraint, ...]
     metric: tuple[int, int, int] = (1, 1, 1)
-    planar: bool = False
+    motion: Motion = SPATIAL
 
     @property
-    def motion_degree(self) -> int:
-        """Degree of the variety of the robot's motions: most solutions that it can have, if they are finitely many."""
-        return MOTION_DEGREES[self.planar]
+    def distances(self) -> tuple[Distance, ...]:
+        """The constraints of a robot all of whose constraints are legs of known length.
+
+        Raises
+        ------
+        InputError
+            If there is another constraint.
+        """
+        legs = tuple(found for found in self.constraints if isinstance(found, Distance))
+        for found in self.constraints:
+            if not isinstance(found, Distance):
+                called = f" {found.name!r}" if found.name else ""
+                raise InputError(
+                    f"constraint{called}: is of the type {found.type}, but this question is for legs of known length "
+                    "only; ask it about a robot all of whose constraints are distances"
+                )
+        return legs
+
+    @property
+    def has_only_distances(self) -> bool:
+        """Whether every constraint is a leg of known length."""
+        return all(isinstance(found, Distance) for found in self.constraints)
+
+    @property
+    def solution_bound(self) -> int:
+        """The most isolated solutions, with multiplicities: the degree of the variety of motions, by Bezout's theorem.
+
+        A hyperplane does not add to it; each cylinder, a quadric, doubles it.
+        """
+        return self.motion.degree << sum(len(found.squares(self.metric)) for found in self.constraints)

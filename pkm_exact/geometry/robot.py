@@ -79,7 +79,7 @@ class Robot:
     --------
     >>> corners = tuple((Fraction(x), Fraction(y), Fraction(0)) for x in (0, 1, 2) for y in (0, 1))
     >>> robot = Robot("example", "6-UPS", "m", "made up", corners, corners)
-    >>> robot.problem((4, 4, 4, 4, 4, "4.01")).legs[5].length_squared
+    >>> robot.problem((4, 4, 4, 4, 4, "4.01")).distances[5].length_squared
     Fraction(401, 100)
     """
 
@@ -99,7 +99,7 @@ class Robot:
             raise InputError(f"kind: {shown(self.kind)} is unknown; use one of: {', '.join(KINDS)}")
         kind = KINDS[self.kind]
         for field, where in (("base_joints", "base.joints"), ("platform_joints", "platform.joints")):
-            rows = [in_plane(row) for row in getattr(self, field)] if kind.planar else getattr(self, field)
+            rows = [in_plane(row) for row in getattr(self, field)] if kind.motion.is_planar else getattr(self, field)
             object.__setattr__(self, field, parse_joints(rows, where, kind))
         object.__setattr__(self, "metric", parse_metric(self.metric, kind))
         self._require_chains()
@@ -119,7 +119,7 @@ class Robot:
     def configuration(self, name: str | None = None) -> Configuration:
         """The configuration called ``name``, or the first one if ``name`` is None."""
         if not self.configurations:
-            count = "three" if KINDS[self.kind].planar else "six"
+            count = "three" if KINDS[self.kind].motion.is_planar else "six"
             remedy = "add one with joint values" if self.chains else f"give the {count} leg lengths instead"
             raise InputError(f"configurations: {shown(self.name)} has none; {remedy}")
         if name is None:
@@ -224,7 +224,7 @@ class Robot:
                     f"{kind.chain_table}[{leg}]: does not belong to the kind {self.kind}; use another kind"
                 )
             chain.require_exact(self.metric, f"{kind.chain_table}, leg {leg}")
-            if kind.planar and not chain.is_planar:
+            if kind.motion.is_planar and not chain.is_planar:
                 raise InputError(
                     f"{kind.chain_table}, leg {leg}: leaves the plane of a {self.kind} robot; give third coordinates 0"
                 )
@@ -236,7 +236,7 @@ class Robot:
 
     def _problem(self, feet: Joints, lengths_squared: tuple[Fraction, ...]) -> ForwardProblem:
         legs = gough_legs(feet, self.platform_joints, lengths_squared)
-        return ForwardProblem(legs, self.metric, KINDS[self.kind].planar)
+        return ForwardProblem(legs, self.metric, KINDS[self.kind].motion)
 
 
 def _refuse_equal_names(configurations: tuple[Configuration, ...]) -> None:

@@ -25,7 +25,8 @@ from itertools import permutations
 from math import lcm
 from typing import Any
 
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 
 Quadric = dict[tuple[int, int], int]
@@ -79,7 +80,7 @@ def motion_quadrics(metric: Sequence[int]) -> list[Quadric]:
     return [square, *turned, *position, *(rotation[i, j] for i in range(3) for j in range(3)), norm]
 
 
-def leg_form(leg: Leg, metric: Sequence[int]) -> list[int]:
+def leg_form(leg: Distance, metric: Sequence[int]) -> list[int]:
     """Integer coefficients of a leg on (|C|^2; u; C; R; 1), cleared of denominators; dots with G:
 
     |C|^2 + 2 B.u - 2 A.C - 2 A.(R B) + |A|^2 + |B|^2 - l^2
@@ -87,7 +88,7 @@ def leg_form(leg: Leg, metric: Sequence[int]) -> list[int]:
     Examples
     --------
     >>> half, zero = Fraction(1, 2), Fraction(0)
-    >>> leg_form(Leg((half, zero, zero), (zero, zero, zero), Fraction(1)), (1, 1, 1))
+    >>> leg_form(Distance((half, zero, zero), (zero, zero, zero), Fraction(1)), (1, 1, 1))
     [4, 0, 0, 0, -4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -3]
     """
     row = [Fraction(1)]
@@ -100,7 +101,7 @@ def leg_form(leg: Leg, metric: Sequence[int]) -> list[int]:
     return [int(value * denominator) for value in row]
 
 
-def leg_quadric(leg: Leg, metric: Sequence[int]) -> Quadric:
+def leg_quadric(leg: Distance, metric: Sequence[int]) -> Quadric:
     """A leg as a quadratic form in (e, f): it vanishes at the poses in which the leg has its length."""
     quadric: Quadric = {}
     for coefficient, form in zip(leg_form(leg, metric), motion_quadrics(metric), strict=True):
@@ -111,7 +112,7 @@ def leg_quadric(leg: Leg, metric: Sequence[int]) -> Quadric:
 
 def support(problem: ForwardProblem) -> tuple[int, ...]:
     """Indices of the Study coordinates that are not 0 for every pose of the problem."""
-    return PLANAR_SUPPORT if problem.planar else tuple(range(8))
+    return problem.motion.support
 
 
 def pose_quadrics(problem: ForwardProblem) -> list[Quadric]:
@@ -122,10 +123,10 @@ def pose_quadrics(problem: ForwardProblem) -> list[Quadric]:
 @lru_cache(maxsize=4)
 def _pose_quadrics(problem: ForwardProblem) -> tuple[Quadric, ...]:
     """The same; every step of a solve asks for them."""
-    legs = [leg_quadric(leg, problem.metric) for leg in problem.legs]
-    if not problem.planar:
-        return STUDY_CONDITION, *legs
-    kept = [{key: value for key, value in quadric.items() if set(key) <= set(PLANAR_SUPPORT)} for quadric in legs]
+    legs = [leg_quadric(leg, problem.metric) for leg in problem.distances]
+    support = set(problem.motion.support)
+    condition = [STUDY_CONDITION] if problem.motion.has_study_condition else []
+    kept = [{key: value for key, value in quadric.items() if set(key) <= support} for quadric in (*condition, *legs)]
     return tuple(quadric for quadric in kept if quadric)
 
 

@@ -15,9 +15,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import Chain, Crank, Slide
 from pkm_exact.geometry.inverse import Matrix, Metric, dot
-from pkm_exact.geometry.problem import Vector
 from pkm_exact.geometry.surds import Surd, quadratic_roots
 
 

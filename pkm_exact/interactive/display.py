@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Final
 from pkm_exact.claim import Claim
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.rational import finite_decimal
+from pkm_exact.motions.motion import Motion
 from pkm_exact.roots.interval import decimal
 from pkm_exact.wording import counted, printable
 
@@ -58,10 +59,10 @@ def headline(solution: Solution) -> str:
     return f"{count}; {meaning}{route}"
 
 
-def pose_cells(number: int, pose: Pose, *, planar: bool) -> tuple[str, ...]:
+def pose_cells(number: int, pose: Pose, motion: Motion) -> tuple[str, ...]:
     """A pose as a row of a table, under ``HEADER`` or ``PLANAR_HEADER``: decimals right to one unit of the last."""
     multiple = "" if pose.multiplicity == 1 else f" (x{pose.multiplicity or '?'})"
-    coordinates = _planar(pose) if planar else tuple(decimal(c) for c in (*pose.position, *pose.quaternion))
+    coordinates = _planar(pose) if motion.is_planar else tuple(decimal(c) for c in (*pose.position, *pose.quaternion))
     return f"{number}{multiple}", *coordinates, *_jacobian(pose)
 
 
@@ -85,7 +86,7 @@ def _jacobian(pose: Pose) -> tuple[str, str]:
 
 def solution_html(solution: Solution, robot: Robot | None, configuration: str | None) -> str:
     """Who was solved, what is claimed, the poses in a table, and a picture of them if one can be drawn."""
-    planar = solution.problem.planar
+    planar = solution.problem.motion.is_planar
     parts = [_paragraph(headline(solution))]
     if robot is not None:
         locked = "given leg lengths" if configuration is None else f"configuration {configuration}"
@@ -93,7 +94,7 @@ def solution_html(solution: Solution, robot: Robot | None, configuration: str | 
     if solution.poses:
         rotation = "angle theta [degrees]" if planar else "unit quaternion, scalar first"
         unit = "the robot's unit" if robot is None else robot.unit
-        rows = [pose_cells(number, pose, planar=planar) for number, pose in enumerate(solution.poses, 1)]
+        rows = [pose_cells(number, pose, solution.problem.motion) for number, pose in enumerate(solution.poses, 1)]
         parts.append(_table(PLANAR_HEADER if planar else HEADER, rows))
         parts.append(_paragraph(f"position [{unit}], {rotation}; right to one unit of the last digit"))
         parts.append(_picture(solution, robot, configuration))
@@ -134,7 +135,7 @@ def _picture(solution: Solution, robot: Robot | None, configuration: str | None)
 
 def robot_html(robot: Robot) -> str:
     """Name and origin of a robot, its joints as they were given, and its configurations."""
-    axes = "xy" if KINDS[robot.kind].planar else "xyz"
+    axes = "xy" if KINDS[robot.kind].motion.is_planar else "xyz"
     header = ("", *(f"base {axis}" for axis in axes), *(f"platform {axis}" for axis in axes))
     rows = [
         (str(leg), *(_number(x) for joint in (base, platform) for x in joint[: len(axes)]))
@@ -163,7 +164,7 @@ def many_html(summary: str, records: Sequence[Mapping[str, object]]) -> str:
 
 def tolerance_html(result: ToleranceResult) -> str:
     """What is proved for all robots within tolerance, and the box of every pose."""
-    axes = 2 if result.problem.planar else 3
+    axes = 2 if result.problem.motion.is_planar else 3
     header = ("pose", *"xyz"[:axes], "position error", "proved for", "dominated by")
     return _block([_paragraph(str(result)), _table(header, [_tolerance_cells(box, axes) for box in result.boxes])])
 

@@ -40,7 +40,7 @@ def posed(robot: Robot, question: Question) -> tuple[str | None, ForwardProblem]
     --------
     >>> from pkm_exact import Robot
     >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
-    >>> posed(robot, Question(["12.5", 15, 12]))[1].legs[0].length_squared
+    >>> posed(robot, Question(["12.5", 15, 12]))[1].distances[0].length_squared
     Fraction(625, 4)
     >>> posed(robot, Question([12.5, 15, 12]))
     Traceback (most recent call last):

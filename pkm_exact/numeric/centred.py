@@ -19,8 +19,11 @@ from typing import Final, TypeAlias
 
 from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
 
-from pkm_exact.geometry.problem import ForwardProblem, Vector
-from pkm_exact.geometry.study import PLANAR_SUPPORT, STUDY_CONDITION, motion_quadrics
+from pkm_exact.constraints.form import Vector
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import STUDY_CONDITION, motion_quadrics
+from pkm_exact.motions.motion import Motion
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 
 QUANTITIES: Final = 18
 """Number of quadratic forms: 17 coordinates of a rigid motion, and Study's condition."""
@@ -50,10 +53,10 @@ class CentredFrames:
 
 def centred_frames(problem: ForwardProblem) -> CentredFrames:
     """The frames at the centroids, and a unit of about the size of the robot."""
-    base = _centroid([leg.base for leg in problem.legs])
-    platform = _centroid([leg.platform for leg in problem.legs])
-    squares = [leg.length_squared for leg in problem.legs]
-    for leg in problem.legs:
+    base = _centroid([leg.base for leg in problem.distances])
+    platform = _centroid([leg.platform for leg in problem.distances])
+    squares = [leg.length_squared for leg in problem.distances]
+    for leg in problem.distances:
         for joint, origin in ((leg.base, base), (leg.platform, platform)):
             squares.append(
                 sum((g * (x - m) ** 2 for g, x, m in zip(problem.metric, joint, origin, strict=True)), Fraction(0))
@@ -92,9 +95,9 @@ def study_row() -> list[arb]:
 
 
 @cache
-def gradient_forms(*, planar: bool) -> fmpz_mat:
+def gradient_forms(motion: Motion) -> fmpz_mat:
     """All 2 M_k, one below the other, on the coordinates that are not 0 for every pose."""
-    kept = PLANAR_SUPPORT if planar else tuple(range(8))
+    kept = motion.support
     rows: list[list[int]] = []
     for quadric in (*motion_quadrics((1, 1, 1)), STUDY_CONDITION):
         matrix = [[0] * 8 for _ in range(8)]
@@ -108,7 +111,7 @@ def gradient_forms(*, planar: bool) -> fmpz_mat:
 def gradients(x: acb_mat) -> acb_mat:
     """G(x): the derivatives of the 18 quantities at a point or in a box, an 18 x n matrix."""
     size = x.nrows()
-    product = acb_mat(arb_mat(gradient_forms(planar=size == len(PLANAR_SUPPORT)))) * x
+    product = acb_mat(arb_mat(gradient_forms(PLANAR if size == len(PLANAR.support) else SPATIAL))) * x
     return acb_mat(QUANTITIES, size, product.entries())
 
 
@@ -165,15 +168,15 @@ class CentredRobot:
     @property
     def size(self) -> int:
         """Number of unknowns."""
-        return 4 if self.problem.planar else 8
+        return len(self.problem.motion.support)
 
 
 def centred_robot(problem: ForwardProblem, frames: CentredFrames) -> CentredRobot:
     """The robot at the precision in force."""
-    base = [centred_joint(leg.base, frames.base, frames.unit, problem.metric) for leg in problem.legs]
-    platform = [centred_joint(leg.platform, frames.platform, frames.unit, problem.metric) for leg in problem.legs]
-    squares = [ball(leg.length_squared / frames.unit**2) for leg in problem.legs]
-    rows = [] if problem.planar else [study_row()]
+    base = [centred_joint(leg.base, frames.base, frames.unit, problem.metric) for leg in problem.distances]
+    platform = [centred_joint(leg.platform, frames.platform, frames.unit, problem.metric) for leg in problem.distances]
+    squares = [ball(leg.length_squared / frames.unit**2) for leg in problem.distances]
+    rows = [] if problem.motion.is_planar else [study_row()]
     rows += [leg_row(a, b, square) for a, b, square in zip(base, platform, squares, strict=True)]
     return CentredRobot(problem, frames, base, platform, [square.sqrt() for square in squares], acb_mat(arb_mat(rows)))
 
@@ -209,5 +212,5 @@ def centred_point(e: Sequence[acb], f: Sequence[acb], robot: CentredRobot) -> ac
     unit = ball(robot.frames.unit)
     moved = [(value + r - v) / unit for value, r, v in zip(f, right, left, strict=True)]
     full = [*e, *moved]
-    kept = PLANAR_SUPPORT if robot.problem.planar else range(8)
+    kept = robot.problem.motion.support
     return acb_mat(robot.size, 1, [full[k] for k in kept])

@@ -31,7 +31,7 @@ def random_states(robot: NumericRobot, count: int, seed: int) -> tuple[Real, Rea
     """
     c, quaternions = np.zeros((count, 3)), np.zeros((4, count))
     generator = np.random.default_rng(seed)
-    moving = ((0, 3), (0, 1)) if robot.planar else ((0, 1, 2, 3), (0, 1, 2))
+    moving = ((0, 3), (0, 1)) if robot.motion.is_planar else ((0, 1, 2, 3), (0, 1, 2))
     for index in range(count):
         for target, axes in ((quaternions[:, index], moving[0]), (c[index], moving[1])):
             values = generator.standard_normal(len(axes))
@@ -60,14 +60,15 @@ def home_pose(robot: NumericRobot) -> StartPose:
     Examples
     --------
     >>> from fractions import Fraction
-    >>> from pkm_exact.geometry.problem import ForwardProblem, Leg
+    >>> from pkm_exact.constraints.distance import Distance
+    >>> from pkm_exact.geometry.problem import ForwardProblem
     >>> from pkm_exact.numeric.numeric_robot import numeric_robot
     >>> corners = [tuple(map(Fraction, joint)) for joint in ((0, 0, 0), (4, 0, 0), (2, 3, 0))] * 2
-    >>> robot = numeric_robot(ForwardProblem(tuple(Leg(joint, joint, Fraction(25)) for joint in corners)))
+    >>> robot = numeric_robot(ForwardProblem(tuple(Distance(joint, joint, Fraction(25)) for joint in corners)))
     >>> [round(x, 9) for x in home_pose(robot).position], home_pose(robot).quaternion
     ([0.0, 0.0, 5.0], (1.0, 0.0, 0.0, 0.0))
     """
-    if robot.planar:
+    if robot.motion.is_planar:
         quaternion, over = _planar_home(robot)
         direction = np.array([0.0, 1.0, 0.0])
     else:

@@ -42,24 +42,25 @@ def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
     Examples
     --------
     >>> from fractions import Fraction
-    >>> from pkm_exact.geometry.problem import Leg
+    >>> from pkm_exact.constraints.distance import Distance
+    >>> from pkm_exact.motions.motion_groups import PLANAR
     >>> joints = [((0, 0), (0, 0), 50), ((10, 0), (4, 0), 26), ((3, 10), (2, 2), 25)]
     >>> rows = [[tuple(map(Fraction, (*a, 0))), tuple(map(Fraction, (*b, 0))), Fraction(l)] for a, b, l in joints]
-    >>> start = nearby_start(ForwardProblem(tuple(Leg(*row) for row in rows), planar=True))
+    >>> start = nearby_start(ForwardProblem(tuple(Distance(*row) for row in rows), motion=PLANAR))
     >>> start.solutions.shape
     (6, 4)
     """
-    section, start = numeric_section(problem), generic_start(planar=problem.planar)
+    section, start = numeric_section(problem), generic_start(problem.motion)
     legs = section.legs.copy()
     legs[:, -1] += OFFSET * np.exp(2j * np.pi * np.random.default_rng(seed).random(len(legs)))
-    quadrics = section_quadrics(legs, planar=problem.planar)
+    quadrics = section_quadrics(legs, problem.motion)
     solutions = start.solutions[:0]
     for attempt in range(ATTEMPTS):
         with np.errstate(all="ignore"):
-            from_here = start_quadrics(start, seed + attempt, planar=problem.planar)
+            from_here = start_quadrics(start, seed + attempt, problem.motion)
             ends, arrived = track(start.solutions, from_here, quadrics)
             ends, change = polished(ends[arrived], quadrics)
         solutions = joined(solutions, ends[change < GREATEST_CHANGE])
-        if len(solutions) == problem.motion_degree:
+        if len(solutions) == problem.solution_bound:
             return StartSection(legs, solutions, section.frames)
     return None

@@ -72,10 +72,11 @@ def newton(robot: NumericRobot, start: StartPose, policy: NewtonPolicy = DEFAULT
     Examples
     --------
     >>> from fractions import Fraction
-    >>> from pkm_exact.geometry.problem import Leg
+    >>> from pkm_exact.constraints.distance import Distance
+    >>> from pkm_exact.motions.motion_groups import PLANAR
     >>> joints = [((0, 0), (0, 0), 50), ((10, 0), (4, 0), 26), ((3, 10), (2, 2), 25)]
     >>> rows = [[tuple(map(Fraction, (*a, 0))), tuple(map(Fraction, (*b, 0))), Fraction(l)] for a, b, l in joints]
-    >>> robot = numeric_robot(ForwardProblem(tuple(Leg(*row) for row in rows), planar=True))
+    >>> robot = numeric_robot(ForwardProblem(tuple(Distance(*row) for row in rows), motion=PLANAR))
     >>> pose = newton(robot, StartPose((4.5, 5.5, 0.0), (1.0, 0.0, 0.0, 0.0)))
     >>> pose.ending.value, [round(x, 9) for x in pose.position]
     ('converged', [5.0, 5.0, 0.0])
@@ -148,7 +149,7 @@ def _legs(base: Real, platform: Real, c: Real, quaternion: Quaternion) -> tuple[
 
 def moving_rows(robot: NumericRobot) -> slice | list[int]:
     """Of (v, w) what is not 0: all six, or three if the robot is planar."""
-    return [0, 1, 5] if robot.planar else slice(6)
+    return [0, 1, 5] if robot.motion.is_planar else slice(6)
 
 
 def transposed_jacobian(arms: Real, lines: Real, norms: Real) -> Real:

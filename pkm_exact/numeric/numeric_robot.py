@@ -17,8 +17,10 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.problem import ForwardProblem, Vector
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.motions.motion import Motion
 from pkm_exact.numeric.quaternions import rotation_matrix
 from pkm_exact.numeric.uncertified import Ending, NumericPose, Point, Quaternion
 
@@ -44,7 +46,7 @@ class NumericRobot:
         The centroids, in the robot's unit of length.
     unit : float
         A power of two; no coordinate or length is greater than it.
-    planar : bool
+    motion : Motion
     """
 
     base: Real
@@ -53,7 +55,7 @@ class NumericRobot:
     base_centre: Real
     platform_centre: Real
     unit: float
-    planar: bool
+    motion: Motion
 
 
 @dataclass(frozen=True)
@@ -74,17 +76,18 @@ def numeric_robot(problem: ForwardProblem) -> NumericRobot:
 
     Examples
     --------
-    >>> from pkm_exact.geometry.problem import Leg
+    >>> from pkm_exact.constraints.distance import Distance
+    >>> from pkm_exact.motions.motion_groups import PLANAR
     >>> corners = [(Fraction(x), Fraction(y), Fraction(0)) for x, y in ((0, 0), (4, 0), (2, 3))]
-    >>> robot = numeric_robot(ForwardProblem(tuple(Leg(a, a, Fraction(9)) for a in corners), planar=True))
+    >>> robot = numeric_robot(ForwardProblem(tuple(Distance(a, a, Fraction(9)) for a in corners), motion=PLANAR))
     >>> robot.unit, robot.lengths.tolist(), robot.base_centre.tolist()
     (4.0, [0.75, 0.75, 0.75], [2.0, 1.0, 0.0])
     """
     _require_moderate(problem)
-    base = [leg.base for leg in problem.legs]
-    platform = [leg.platform for leg in problem.legs]
+    base = [leg.base for leg in problem.distances]
+    platform = [leg.platform for leg in problem.distances]
     centres = _centroid(base), _centroid(platform)
-    squares = [leg.length_squared for leg in problem.legs]
+    squares = [leg.length_squared for leg in problem.distances]
     for joints, centre in zip((base, platform), centres, strict=True):
         squares += [g * (x - m) ** 2 for joint in joints for g, x, m in zip(problem.metric, joint, centre, strict=True)]
     unit = _unit(max(squares))
@@ -92,18 +95,18 @@ def numeric_robot(problem: ForwardProblem) -> NumericRobot:
     return NumericRobot(
         base=_columns(base, centres[0], problem.metric, unit),
         platform=_columns(platform, centres[1], problem.metric, unit),
-        lengths=np.array([sqrt(leg.length_squared / unit**2) for leg in problem.legs]),
+        lengths=np.array([sqrt(leg.length_squared / unit**2) for leg in problem.distances]),
         base_centre=scales * [float(x) for x in centres[0]],
         platform_centre=scales * [float(x) for x in centres[1]],
         unit=float(unit),
-        planar=problem.planar,
+        motion=problem.motion,
     )
 
 
 def _require_moderate(problem: ForwardProblem) -> None:
-    numbers = [abs(x) for leg in problem.legs for x in (*leg.base, *leg.platform)]
+    numbers = [abs(x) for leg in problem.distances for x in (*leg.base, *leg.platform)]
     numbers += [Fraction(g) for g in problem.metric]
-    longest = max(leg.length_squared for leg in problem.legs)
+    longest = max(leg.length_squared for leg in problem.distances)
     if max(numbers) > GREATEST or not Fraction(1, GREATEST**2) < longest < GREATEST**2:
         raise InputError(
             "coordinates or lengths are out of reach of floating point (10^-100 to 10^100); leave them to the method "
@@ -144,7 +147,7 @@ def centred(robot: NumericRobot, start: StartPose) -> tuple[Real, Quaternion]:
     largest = max(map(abs, start.quaternion))
     if largest == 0:
         raise InputError("start: all four numbers of the quaternion are 0; give one that is not")
-    if robot.planar and (start.position[2], *start.quaternion[1:3]) != (0, 0, 0):
+    if robot.motion.is_planar and (start.position[2], *start.quaternion[1:3]) != (0, 0, 0):
         raise InputError("start: leaves the plane of a planar robot; give z, q1 and q2 as 0")
     far = max(abs(x - m) for x, m in zip(start.position, robot.base_centre, strict=True))
     if far > FARTHEST * (robot.unit + float(abs(robot.platform_centre).max())):

@@ -20,10 +20,11 @@ from typing import Final, TypeAlias
 
 from flint import arb, arb_mat
 
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, JointValue, cosine_and_sine
 from pkm_exact.geometry.kinds import KINDS, gough_legs, knees
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric.centred import CentredFrames, ball, centred_joint, leg_row, study_row
 
@@ -71,7 +72,7 @@ def path_forms(robot: Robot, frames: CentredFrames, first: JointRow, last: Joint
 
 def _rows(robot: Robot, frames: CentredFrames, values: Sequence[Fraction]) -> list[list[arb]]:
     rows = []
-    if not KINDS[robot.kind].planar:
+    if not KINDS[robot.kind].motion.is_planar:
         rows.append(study_row())
     for leg, value in zip(_legs(robot, values), values, strict=True):
         base = centred_joint(leg.base, frames.base, frames.unit, robot.metric)
@@ -87,7 +88,7 @@ def has_cranks(robot: Robot) -> bool:
     return bool(robot.chains) and isinstance(robot.chains[0], Crank)
 
 
-def _legs(robot: Robot, values: Sequence[Fraction]) -> tuple[Leg, ...]:
+def _legs(robot: Robot, values: Sequence[Fraction]) -> tuple[Distance, ...]:
     """The legs, or rods, anywhere between two rows."""
     if not robot.chains:
         return gough_legs(robot.base_joints, robot.platform_joints, tuple(value * value for value in values))

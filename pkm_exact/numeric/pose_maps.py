@@ -92,7 +92,7 @@ def _moved(robot: CentredRobot, centroid: Sequence[_Row], rotation: Sequence[_Ro
 
 def _unit_quaternion(robot: CentredRobot, x: acb_mat, norm: arb, norm_slopes: Sequence[arb]) -> list[_Row]:
     length = norm.sqrt()
-    places = {0: 0, 3: 1} if robot.problem.planar else {k: k for k in range(4)}
+    places = {0: 0, 3: 1} if robot.problem.motion.is_planar else {k: k for k in range(4)}
     rows: list[_Row] = []
     for k in range(4):
         if k not in places:

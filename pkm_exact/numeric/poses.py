@@ -80,10 +80,10 @@ def approximations(
     OverflowError
         If a number of the robot is too large for floating point.
     """
-    start = start or generic_start(planar=problem.planar)
+    start = start or generic_start(problem.motion)
     section = numeric_section(problem, start.frames)
     with np.errstate(all="ignore"):
-        quadrics = start_quadrics(start, seed, planar=problem.planar)
+        quadrics = start_quadrics(start, seed, problem.motion)
         ends, arrived = track(start.solutions, quadrics, section.quadrics, watch=watch)
         ends, change = polished(ends[arrived], section.quadrics)
     return Approximations(section, ends[change < GREATEST_CHANGE])

@@ -17,8 +17,8 @@ from typing import Final
 
 import numpy as np
 
-from pkm_exact.geometry.problem import MOTION_DEGREES
-from pkm_exact.geometry.study import PLANAR_SUPPORT
+from pkm_exact.motions.motion import Motion
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.numeric.study_system import Complex, Frames, leg_forms, motion_values, section_quadrics
 from pkm_exact.numeric.tracker import normalised, polished, track
 
@@ -48,20 +48,20 @@ class StartSection:
 
 
 @cache
-def generic_start(*, planar: bool) -> StartSection:
+def generic_start(motion: Motion) -> StartSection:
     """The shipped section of spatial or planar motions."""
     text = files("pkm_exact.numeric").joinpath("start.json").read_text(encoding="utf-8")
-    entry = json.loads(text)["planar" if planar else "spatial"]
+    entry = json.loads(text)[motion.name]
     return StartSection(_complex(entry["legs"]), _complex(entry["solutions"]))
 
 
-def start_quadrics(start: StartSection, seed: int, *, planar: bool) -> Complex:
+def start_quadrics(start: StartSection, seed: int, motion: Motion) -> Complex:
     """The symmetric matrices of a section's equations, from which paths start.
 
     Each is multiplied by a random complex number of size 1, which changes the paths and not the solutions; with seed 0
     by 1.
     """
-    quadrics = section_quadrics(start.legs, planar=planar)
+    quadrics = section_quadrics(start.legs, motion)
     turns = np.random.default_rng(seed).random(len(quadrics)) if seed else np.zeros(len(quadrics))
     turned: Complex = quadrics * np.exp(2j * np.pi * turns)[:, None, None]
     return turned
@@ -73,7 +73,7 @@ def _complex(rows: list[list[list[float]]]) -> Complex:
     return values
 
 
-def find_start(seed: int, *, planar: bool) -> StartSection:
+def find_start(seed: int, motion: Motion) -> StartSection:
     """A section with random complex legs and all its solutions, by monodromy.
 
     Raises
@@ -82,36 +82,36 @@ def find_start(seed: int, *, planar: bool) -> StartSection:
         If loops stop finding solutions before there are all of them.
     """
     random = np.random.default_rng(seed)
-    first = _random_motion(random, planar=planar)
-    legs = _random_legs(random, planar=planar)
+    first = _random_motion(random, motion)
+    legs = _random_legs(random, motion)
     quantities = motion_values(first)
     legs[:, -1] -= legs @ quantities / quantities[-1]
-    solutions = normalised(first[None, list(PLANAR_SUPPORT)] if planar else first[None])
-    here = section_quadrics(legs, planar=planar)
+    solutions = normalised(first[None, list(motion.support)])
+    here = section_quadrics(legs, motion)
     for _ in range(_ROUNDS):
-        stations = [section_quadrics(_random_legs(random, planar=planar), planar=planar) for _ in range(2)]
+        stations = [section_quadrics(_random_legs(random, motion), motion) for _ in range(2)]
         points, arrived = solutions, np.ones(len(solutions), dtype=bool)
         for start, target in zip([here, *stations], [*stations, here], strict=True):
             points, ended = track(points, start, target)
             arrived &= ended
         points, change = polished(points, here)
         solutions = joined(solutions, points[arrived & (change < _SAME)])
-        if len(solutions) == MOTION_DEGREES[planar]:
+        if len(solutions) == motion.degree:
             return StartSection(legs, polished(solutions, here)[0])
-    raise RuntimeError(f"{len(solutions)} of {MOTION_DEGREES[planar]} solutions were found; take another seed")
+    raise RuntimeError(f"{len(solutions)} of {motion.degree} solutions were found; take another seed")
 
 
-def _random_legs(random: np.random.Generator, *, planar: bool) -> Complex:
-    count = 3 if planar else 6
+def _random_legs(random: np.random.Generator, motion: Motion) -> Complex:
+    count = motion.dimension
     base, platform = (_gaussian(random, count, 3) * SIZES[name] for name in ("base", "platform"))
-    if planar:
+    if motion.is_planar:
         base[:, 2] = platform[:, 2] = 0
     return leg_forms(base, platform, 1 + _gaussian(random, count) * SIZES["square"]).astype(np.complex128)
 
 
-def _random_motion(random: np.random.Generator, *, planar: bool) -> Complex:
+def _random_motion(random: np.random.Generator, motion: Motion) -> Complex:
     e, f = _gaussian(random, 4), _gaussian(random, 4)
-    if planar:
+    if motion.is_planar:
         e[[1, 2]] = f[[0, 3]] = 0
     else:
         f -= (e @ f) / (e @ e) * e
@@ -134,9 +134,9 @@ def joined(known: Complex, further: Complex) -> Complex:
 def main() -> int:
     """Compute both sections again and write them beside this module."""
     content = {}
-    for planar, name in ((False, "spatial"), (True, "planar")):
-        start = find_start(SEED, planar=planar)
-        content[name] = {key: _pairs(getattr(start, key)) for key in ("legs", "solutions")}
+    for motion in (SPATIAL, PLANAR):
+        start = find_start(SEED, motion)
+        content[motion.name] = {key: _pairs(getattr(start, key)) for key in ("legs", "solutions")}
     lines = json.dumps(content).replace("]], [[", "]],\n[[").replace('": [[[', '": [\n[[')
     Path(__file__).with_name("start.json").write_text(lines + "\n", encoding="utf-8")
     return 0

@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import PLANAR_SUPPORT, STUDY_CONDITION, Quadric, motion_quadrics
+from pkm_exact.geometry.study import STUDY_CONDITION, Quadric, motion_quadrics
+from pkm_exact.motions.motion import Motion
 
 Complex: TypeAlias = NDArray[np.complex128]
 Real: TypeAlias = NDArray[np.float64]
@@ -59,17 +60,17 @@ class Section:
     legs : (m, 17) array
         Leg forms on (|C|^2; u; C; R; 1) of the robot in its normalised frames; m = 6, or 3 if planar.
     frames : Frames
-    planar : bool
+    motion : Motion
     """
 
     legs: Complex
     frames: Frames
-    planar: bool
+    motion: Motion
 
     @property
     def quadrics(self) -> Complex:
         """(q, n, n) symmetric matrices of the equations: q = 7 and n = 8, or 3 and 4 if planar."""
-        return section_quadrics(self.legs, planar=self.planar)
+        return section_quadrics(self.legs, self.motion)
 
 
 def numeric_section(problem: ForwardProblem, frames: Frames | None = None) -> Section:
@@ -78,13 +79,13 @@ def numeric_section(problem: ForwardProblem, frames: Frames | None = None) -> Se
     Sections of one robot in the same frames differ by the constants of their legs only.
     """
     scales = np.sqrt(np.array(problem.metric, dtype=float))
-    base = np.array([[float(value) for value in leg.base] for leg in problem.legs]) * scales
-    platform = np.array([[float(value) for value in leg.platform] for leg in problem.legs]) * scales
-    squares = np.array([float(leg.length_squared) for leg in problem.legs])
+    base = np.array([[float(value) for value in leg.base] for leg in problem.distances]) * scales
+    platform = np.array([[float(value) for value in leg.platform] for leg in problem.distances]) * scales
+    squares = np.array([float(leg.length_squared) for leg in problem.distances])
     if frames is None:
         frames = _fitting_frames(base, platform, squares, scales)
     base, platform = (base - frames.base) / frames.unit, (platform - frames.platform) / frames.unit
-    return Section(leg_forms(base, platform, squares / frames.unit**2).astype(np.complex128), frames, problem.planar)
+    return Section(leg_forms(base, platform, squares / frames.unit**2).astype(np.complex128), frames, problem.motion)
 
 
 def _fitting_frames(base: Real, platform: Real, squares: Real, scales: Real) -> Frames:
@@ -102,7 +103,7 @@ def leg_forms(base: Inexact, platform: Inexact, squares: Inexact) -> Inexact:
     return np.concatenate([ones, 2 * platform, -2 * base, mixed, constant[..., None]], axis=-1)
 
 
-def section_quadrics(legs: Complex, *, planar: bool) -> Complex:
+def section_quadrics(legs: Complex, motion: Motion) -> Complex:
     """The symmetric matrices of the equations of leg forms (.., m, 17).
 
     The first leg is taken off the others: |C|^2 is left in one equation only, and does not drown the others when the
@@ -111,10 +112,12 @@ def section_quadrics(legs: Complex, *, planar: bool) -> Complex:
     legs = np.concatenate([legs[..., :1, :], legs[..., 1:, :] - legs[..., :1, :]], axis=-2)
     forms = _motion_forms()
     quadrics: Complex = np.tensordot(legs, forms[:QUANTITIES], axes=1)
-    if planar:
-        return quadrics[..., PLANAR_SUPPORT, :][..., :, PLANAR_SUPPORT]
-    study = np.broadcast_to(forms[QUANTITIES], (*legs.shape[:-2], 1, 8, 8))
-    return np.concatenate([study, quadrics], axis=-3)
+    if motion.has_study_condition:
+        study = np.broadcast_to(forms[QUANTITIES], (*legs.shape[:-2], 1, 8, 8))
+        quadrics = np.concatenate([study, quadrics], axis=-3)
+    if motion.support == tuple(range(8)):
+        return quadrics
+    return quadrics[..., motion.support, :][..., :, motion.support]
 
 
 def motion_values(point: Complex) -> Complex:
@@ -145,7 +148,7 @@ def rational_coordinates(points: Complex, section: Section) -> Complex:
     """
     frames, count = section.frames, len(points)
     full = np.zeros((count, 8), dtype=complex)
-    full[:, PLANAR_SUPPORT if section.planar else range(8)] = points
+    full[:, section.motion.support] = points
     e, f = full[:, :4], full[:, 4:]
     f = frames.unit * f + _product(_pure(frames.base), e) - _product(e, _pure(frames.platform))
     volume = float(np.prod(frames.scales))

@@ -18,7 +18,6 @@ from flint import acb, acb_mat, arb
 
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import PLANAR_SUPPORT
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.numeric.centred import (
     NORM,
@@ -91,10 +90,11 @@ def tolerance_boxes(
     Examples
     --------
     >>> from pkm_exact.engine import solve
-    >>> from pkm_exact.geometry.problem import Leg
+    >>> from pkm_exact.constraints.distance import Distance
+    >>> from pkm_exact.motions.motion_groups import PLANAR
     >>> legs = [((0, 0), (0, 0), 50), ((10, 0), (4, 0), 26), ((3, 10), (2, 2), 25)]
     >>> joint = lambda x, y: (Fraction(x), Fraction(y), Fraction(0))
-    >>> robot = ForwardProblem(tuple(Leg(joint(*a), joint(*b), Fraction(s)) for a, b, s in legs), planar=True)
+    >>> robot = ForwardProblem(tuple(Distance(joint(*a), joint(*b), Fraction(s)) for a, b, s in legs), motion=PLANAR)
     >>> print(tolerance_boxes(robot, Tolerances.uniform("0.0001"), solve(robot)))
     2 of 2 poses have a box for every robot within tolerance; complete: every robot within tolerance has exactly 2 \
 poses, one in each box
@@ -125,12 +125,12 @@ poses, one in each box
         is_complete = (
             all(box.is_proved for box in boxes)
             and len(proved) == len(found)
-            and count == problem.motion_degree
+            and count == problem.solution_bound
             and are_distinct(
                 [_core(around, exponent) for around in near], [_core(around, exponent) for around in pairs]
             )
         )
-    require(count <= problem.motion_degree, "more solutions than the variety of motions allows", proved=count)
+    require(count <= problem.solution_bound, "more solutions than the variety of motions allows", proved=count)
     for box, pose in zip(boxes, solution.poses, strict=True):
         require(_may_hold(box, pose), "a box of all robots does not hold the nominal pose", pose=box.pose)
     shown = proved if is_complete else ()
@@ -212,7 +212,7 @@ def _points_of_box(near: Linearisation, bounds: PoseBounds) -> acb_mat:
     centroid = [interval_ball(bound) for bound in bounds.centroid]
     c = [acb((value - a) / unit) for value, a in zip(centroid, origins(near.robot)[0], strict=True)]
     full = [*q, *quaternion_product([acb(0), *c], q)]
-    kept = PLANAR_SUPPORT if near.robot.problem.planar else range(8)
+    kept = near.robot.problem.motion.support
     return in_chart(acb_mat(near.robot.size, 1, [full[k] for k in kept]), near.chart)
 
 

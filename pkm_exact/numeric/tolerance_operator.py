@@ -101,7 +101,7 @@ class LegErrors:
 
 def leg_errors(robot: CentredRobot, errors: DataErrors, values: Sequence[acb]) -> list[LegErrors]:
     """The E_i at a point (or in a box), from the quantities there."""
-    axes = range(2 if robot.problem.planar else 3)
+    axes = range(2 if robot.problem.motion.is_planar else 3)
     norm = values[centred.NORM]
     position, turned = values[centred.POSITION : centred.ROTATION], values[centred.TURNED : centred.POSITION]
     rotation = [values[centred.ROTATION + 3 * i : centred.ROTATION + 3 * i + 3] for i in range(3)]
@@ -122,10 +122,10 @@ def leg_errors(robot: CentredRobot, errors: DataErrors, values: Sequence[acb]) -
 def form_errors(robot: CentredRobot, errors: DataErrors) -> acb_mat:
     """By how much the rows of the legs may change."""
     zero = arb(0)
-    third = zero if robot.problem.planar else arb(1)
+    third = zero if robot.problem.motion.is_planar else arb(1)
     da = [errors.base, errors.base, errors.base * third]
     db = [errors.platform, errors.platform, errors.platform * third]
-    rows = [] if robot.problem.planar else [[zero] * centred.QUANTITIES]
+    rows = [] if robot.problem.motion.is_planar else [[zero] * centred.QUANTITIES]
     for a, b, length in zip(robot.base, robot.platform, robot.lengths, strict=True):
         row = [zero, *(2 * v for v in db), *(-2 * v for v in da)]
         row += [-2 * (a[i] * db[j] + da[i] * b[j] + da[i] * db[j]) for i in range(3) for j in range(3)]

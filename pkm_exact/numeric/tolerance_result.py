@@ -106,7 +106,7 @@ class ToleranceResult:
         if not self.is_complete:
             claim = (
                 "that there are no others is not proved for every robot within tolerance, as "
-                f"{self.proved_solutions} of {self.problem.motion_degree} complex solutions are proved"
+                f"{self.proved_solutions} of {self.problem.solution_bound} complex solutions are proved"
             )
         elif count:
             claim = f"complete: every robot within tolerance has exactly {count} poses, one in each box"

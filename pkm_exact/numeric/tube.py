@@ -27,7 +27,8 @@ import numpy as np
 from flint import arb, arb_mat
 from numpy.typing import NDArray
 
-from pkm_exact.geometry.study import PLANAR_SUPPORT
+from pkm_exact.motions.motion import Motion
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.numeric.centred import QUANTITIES, ball, gradient_forms
 from pkm_exact.numeric.path_forms import PathForms
 
@@ -78,17 +79,17 @@ def _fits(point: arb_mat, centre: arb_mat, radii: Sequence[arb]) -> bool:
 
 
 @cache
-def _float_forms(*, planar: bool) -> Real:
+def _float_forms(motion: Motion) -> Real:
     """2 M_k as an array (18, n, n)."""
-    size = 4 if planar else 8
-    entries = gradient_forms(planar=planar).entries()
+    size = len(motion.support)
+    entries = gradient_forms(motion).entries()
     return np.array([int(value) for value in entries], dtype=float).reshape(QUANTITIES, size, size)
 
 
 def real_gradients(points: arb_mat) -> list[arb_mat]:
     """G at points that are the columns of a matrix: an 18 x n matrix each."""
     size, count = points.nrows(), points.ncols()
-    product = arb_mat(gradient_forms(planar=size == len(PLANAR_SUPPORT))) * points
+    product = arb_mat(gradient_forms(PLANAR if size == len(PLANAR.support) else SPATIAL)) * points
     entries = product.transpose().entries()
     stride = QUANTITIES * size
     return [arb_mat(QUANTITIES, size, entries[k * stride : (k + 1) * stride]) for k in range(count)]
@@ -139,7 +140,7 @@ class FloatPath:
 def predict(path: FloatPath, near: Real, middle: float) -> Prediction | None:
     """The solution at the middle of a step and the Taylor polynomial of the branch there; None without convergence."""
     size = len(near)
-    forms = _float_forms(planar=size == len(PLANAR_SUPPORT))
+    forms = _float_forms(PLANAR if size == len(PLANAR.support) else SPATIAL)
     weights = weights_at(near)
     chart = np.zeros(size)
     chart[: len(weights)] = weights

@@ -59,11 +59,11 @@ def camera(scene: Scene, view: View) -> Camera:
     Examples
     --------
     >>> from types import SimpleNamespace
-    >>> front = camera(SimpleNamespace(planar=False), View(-90, 0))
+    >>> front = camera(SimpleNamespace(motion=SPATIAL), View(-90, 0))
     >>> [round(x, 9) + 0.0 for x in front.flat((1, 2, 3))]
     [1.0, 3.0]
     """
-    if scene.planar:
+    if scene.motion.is_planar:
         return Camera((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
     a, e = radians(view.azimuth), radians(view.tilt)
     return Camera(

@@ -88,7 +88,7 @@ def rounded(value: float) -> str:
 def axis_names(scene: Scene) -> tuple[str, ...]:
     """The coordinates with their unit."""
     unit = "" if scene.unit in ("", "1") else f" [{style.drawable(scene.unit, 12)}]"
-    return tuple(f"{name}{unit}" for name in ("xy" if scene.planar else "xyz"))
+    return tuple(f"{name}{unit}" for name in ("xy" if scene.motion.is_planar else "xyz"))
 
 
 def legend_rows(scene: Scene, width: float, *, key: bool = True) -> int:
@@ -165,7 +165,7 @@ def add_key(figure: Figure, scene: Scene, shot: Camera, scale: float) -> None:
     key.set_xlim(0, KEY_WIDTH)
     key.set_ylim(0, KEY_HEIGHT)
     key.set_axis_off()
-    for name, axis in zip("xy" if scene.planar else "xyz", _AXES, strict=False):
+    for name, axis in zip("xy" if scene.motion.is_planar else "xyz", _AXES, strict=False):
         x, y = shot.flat(axis)
         start = (0.36, KEY_HEIGHT / 2)
         if x * x + y * y > 0.01:

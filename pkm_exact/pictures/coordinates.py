@@ -15,7 +15,9 @@ from flint import arb
 
 from pkm_exact.certify.checker.krawczyk import Equations, narrowed
 from pkm_exact.certify.checker.realposes import ordinary_coordinates
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.poses.jacobian import LegJacobian, pose_jacobians
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.isolation import real_root_enclosures
@@ -39,8 +41,8 @@ class Placed:
 
 def problem_of(document: Document) -> ForwardProblem:
     """The forward kinematics problem that a certificate answers."""
-    legs = tuple(Leg(leg.base, leg.platform, leg.length_squared) for leg in document.legs)
-    return ForwardProblem(legs, document.metric, len(legs) == 3)
+    legs = tuple(Distance(leg.base, leg.platform, leg.length_squared) for leg in document.legs)
+    return ForwardProblem(legs, document.metric, PLANAR if len(legs) == 3 else SPATIAL)
 
 
 def placed_poses(document: Document) -> list[Placed]:

@@ -89,7 +89,7 @@ def label(axes: Axes, scene: Scene, point: Point, text: str, colour: str, layer:
 
     write: Any = axes.text  # two coordinates or three
     write(
-        *(point[:2] if scene.planar else point),
+        *(point[:2] if scene.motion.is_planar else point),
         text,
         color=colour,
         zorder=layer,
@@ -128,7 +128,7 @@ def _is_turned(corners: Sequence[Point], inside: Point, shot: Camera) -> bool:
 
 def _face(axes: Axes, scene: Scene, corners: Sequence[Point], fill: str, opacity: float, layer: float) -> None:
     options = {"facecolor": fill, "edgecolor": "none", "alpha": opacity, "zorder": layer, "clip_on": False}
-    if scene.planar:
+    if scene.motion.is_planar:
         from matplotlib.patches import Polygon
 
         axes.add_patch(Polygon([corner[:2] for corner in corners], closed=True, **options))
@@ -139,7 +139,7 @@ def _face(axes: Axes, scene: Scene, corners: Sequence[Point], fill: str, opacity
 
 
 def _line(axes: Axes, scene: Scene, points: Sequence[Point], **options: Any) -> None:
-    across = list(zip(*points, strict=True))[: 2 if scene.planar else 3]
+    across = list(zip(*points, strict=True))[: 2 if scene.motion.is_planar else 3]
     axes.plot(*across, solid_capstyle="round", clip_on=False, **options)
 
 

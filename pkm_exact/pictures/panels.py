@@ -127,7 +127,7 @@ def panel(
     points: Sequence[Point],
 ) -> Axes:
     """Axes without frame on which one unit of length is ``scale`` inches long and ``middle`` is in the middle."""
-    if scene.planar:
+    if scene.motion.is_planar:
         axes = figure.add_axes(_fractions(figure, where))
         axes.set_xlim(middle[0] - where.width / scale / 2, middle[0] + where.width / scale / 2)
         axes.set_ylim(middle[1] - where.height / scale / 2, middle[1] + where.height / scale / 2)
@@ -196,7 +196,7 @@ def padded_bounds(points: Sequence[Point]) -> list[tuple[float, float]]:
 def large_size(scene: Scene, shot: Camera, limits: Sequence[tuple[float, float]]) -> tuple[float, float]:
     """A convenient size of a figure with one drawing."""
     across, upward = _extent(shot, limits)
-    width, beside = LARGE_WIDTH, _BESIDE[scene.planar]
+    width, beside = LARGE_WIDTH, _BESIDE[scene.motion.is_planar]
     wanted = upward * (width - 0.2 - beside[0]) / across + beside[1]
     return width, min(max(wanted, 3.0), 8.0) + HEADER + footer(scene, width, key=False)
 
@@ -206,12 +206,13 @@ def large_axes(
 ) -> Axes:
     """Axes with these limits, as large as fits into an area with the numbers beside them."""
     # In space, numbers stand farther away from larger axes.
-    beside = [max(least, 0 if scene.planar else 0.14 * max(area.width, area.height)) for least in _BESIDE[scene.planar]]
+    planar = scene.motion.is_planar
+    beside = [max(least, 0 if planar else 0.14 * max(area.width, area.height)) for least in _BESIDE[planar]]
     if min(area.width, area.height) < SMALLEST_PANEL + max(beside):
         raise InputError("size: too small for a drawing with its axes; give more inches")
     across, upward = _extent(shot, limits)
     scale = min((area.width - beside[0]) / across, (area.height - beside[1]) / upward)
-    if scene.planar:
+    if scene.motion.is_planar:
         return _planar_axes(figure, area, limits, scale)
     side = max(area.width, area.height)
     left, bottom = area.left + (area.width - side) / 2, area.bottom + (area.height - side) / 2

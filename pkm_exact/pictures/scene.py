@@ -15,6 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from pkm_exact.errors import InputError
+from pkm_exact.motions.motion import Motion
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
@@ -80,7 +82,7 @@ class Scene:
     ----------
     name, kind, unit : str
     configuration : str or None
-    planar : bool
+    motion : Motion
         Whether everything lies in the plane of the first two axes.
     claim : str
         What the certificate proves of the list: "complete", "inconsistent", ..
@@ -103,7 +105,7 @@ class Scene:
     configuration: str | None
     kind: str
     unit: str
-    planar: bool
+    motion: Motion
     claim: str
     complex_solutions: int
     base: tuple[Point, ...]
@@ -203,7 +205,7 @@ def _scene(document: Mapping[str, Any], robot: Robot | None) -> Scene:
         configuration=document["configuration"]["name"],
         kind=robot.kind if robot is not None else str(document["robot"]["kind"]),
         unit=str(document["robot"]["unit"]),
-        planar=len(typed.legs) == 3,
+        motion=PLANAR if len(typed.legs) == 3 else SPATIAL,
         claim=typed.claim,
         complex_solutions=typed.complex_solutions,
         base=base,

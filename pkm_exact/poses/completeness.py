@@ -62,9 +62,9 @@ def prove_complete(
     """A proof that a verified representation is complete, or None if none of those known here applies."""
     degree = representation.univariate.degree
     if (
-        len(problem.legs) == 6
-        and not problem.planar
-        and degree == problem.motion_degree
+        len(problem.distances) == 6
+        and not problem.motion.is_planar
+        and degree == problem.solution_bound
         and are_isolated(representation, problem, policy)
     ):
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)

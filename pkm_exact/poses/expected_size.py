@@ -11,7 +11,8 @@ from __future__ import annotations
 from fractions import Fraction
 from math import lcm
 
-from pkm_exact.geometry.problem import ForwardProblem, Leg
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.geometry.problem import ForwardProblem
 
 SHARE = Fraction(2, 5)
 
@@ -22,13 +23,13 @@ def expected_bits(problem: ForwardProblem, solutions: int) -> int:
     Examples
     --------
     >>> zero, one = (Fraction(0),) * 3, (Fraction(1),) * 3
-    >>> expected_bits(ForwardProblem((Leg(zero, one, Fraction(1, 1000)),) * 6), 40)
+    >>> expected_bits(ForwardProblem((Distance(zero, one, Fraction(1, 1000)),) * 6), 40)
     1152
     """
-    return int(SHARE * solutions * sum(_height(leg, problem) for leg in problem.legs))
+    return int(SHARE * solutions * sum(_height(leg, problem) for leg in problem.distances))
 
 
-def _height(leg: Leg, problem: ForwardProblem) -> int:
+def _height(leg: Distance, problem: ForwardProblem) -> int:
     """Bits of the largest coefficient of the leg's equation, a hyperplane, over the integers."""
     squares = [
         sum((g * x * x for g, x in zip(problem.metric, joint, strict=True)), Fraction(0))

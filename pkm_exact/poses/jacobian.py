@@ -70,16 +70,16 @@ def characteristic_length(problem: ForwardProblem) -> Fraction:
 
     Examples
     --------
-    >>> from pkm_exact.geometry.problem import Leg
+    >>> from pkm_exact.constraints.distance import Distance
     >>> zero, two = (Fraction(0),) * 3, (Fraction(2), Fraction(0), Fraction(0))
-    >>> legs = tuple(Leg(zero, joint, Fraction(1)) for joint in (zero, two) * 3)
+    >>> legs = tuple(Distance(zero, joint, Fraction(1)) for joint in (zero, two) * 3)
     >>> characteristic_length(ForwardProblem(legs))
     Fraction(1, 1)
     """
-    count = len(problem.legs)
+    count = len(problem.distances)
     square = Fraction(0)
     for axis, g in enumerate(problem.metric):
-        values = [leg.platform[axis] for leg in problem.legs]
+        values = [leg.platform[axis] for leg in problem.distances]
         mean = sum(values, Fraction(0)) / count
         square += g * sum(((value - mean) ** 2 for value in values), Fraction(0)) / count
     if square == 0:
@@ -98,7 +98,7 @@ def pose_jacobians(enclosures: Enclosures, problem: ForwardProblem, ranks: Seque
     ranks : sequence of int or None
         Exact ranks where they are known (``singularity``); None at poses that are proved simple.
     """
-    length, full = characteristic_length(problem), len(problem.legs)
+    length, full = characteristic_length(problem), len(problem.distances)
     found: list[LegJacobian | None] = [
         None if rank is None or rank == full else LegJacobian(0, rank, _ZERO, None, length) for rank in ranks
     ]
@@ -132,7 +132,7 @@ def _regular_jacobian(
     smallest, condition = _outward(1 / inverse), _outward(largest * inverse)
     if 2 * smallest.lo < smallest.hi:
         return None
-    return LegJacobian(1 if determinant > 0 else -1, len(problem.legs), smallest, condition, length)
+    return LegJacobian(1 if determinant > 0 else -1, len(problem.distances), smallest, condition, length)
 
 
 def _joints(problem: ForwardProblem) -> _Joints:
@@ -145,7 +145,7 @@ def _joints(problem: ForwardProblem) -> _Joints:
                 for row in side
             ]
         )
-        for side in ([leg.base for leg in problem.legs], [leg.platform for leg in problem.legs])
+        for side in ([leg.base for leg in problem.distances], [leg.platform for leg in problem.distances])
     )
     return base, platform
 
@@ -166,7 +166,7 @@ def _matrix(
         factor = (line[0] * line[0] + line[1] * line[1] + line[2] * line[2]).rsqrt()
         unit = [value * factor for value in line]
         turns = [(arm[j] * unit[k] - arm[k] * unit[j]) * scale for _, j, k in CYCLIC]
-        rows.append([unit[0], unit[1], turns[2]] if problem.planar else [*unit, *turns])
+        rows.append([unit[0], unit[1], turns[2]] if problem.motion.is_planar else [*unit, *turns])
     return arb_mat(rows)
 
 

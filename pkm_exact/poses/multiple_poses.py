@@ -44,7 +44,7 @@ _PLACES = dict(zip(MOTION_COORDINATES, (*range(1, 7), 0, *range(7, 16)), strict=
 
 def least_multiplicities(representation: PoseRepresentation, problem: ForwardProblem, policy: Policy) -> Multiplicities:
     """Lower bounds of the multiplicities of isolated poses, by the coranks of the leg Jacobian."""
-    legs = len(problem.legs)
+    legs = len(problem.distances)
     return tuple(
         (factor, 1)
         if are_isolated(representation, problem, policy, factor)

@@ -153,12 +153,12 @@ class _Robot:
                 [_rational(value) * axis for value in row]
                 for axis, row in zip(self.axes, zip(*side, strict=True), strict=True)
             ]
-            for side in ([leg.platform for leg in problem.legs], [leg.base for leg in problem.legs])
+            for side in ([leg.platform for leg in problem.distances], [leg.base for leg in problem.distances])
         )
-        ones = [arb(1)] * len(problem.legs)
+        ones = [arb(1)] * len(problem.distances)
         self.joints = arb_mat([*platform, ones, *([-value for value in row] for row in base)])
         """B, 1 and -A: what R, C and 1 are multiplied with."""
-        self.squares = [_rational(leg.length_squared) for leg in problem.legs]
+        self.squares = [_rational(leg.length_squared) for leg in problem.distances]
 
     def have_lengths(self, rows: Sequence[Sequence[arb]]) -> Iterator[bool]:
         """For each pose whether |C + R B - A|^2 = l^2 is possible for every leg."""

@@ -25,11 +25,13 @@ from random import Random
 
 from flint import fmpq, fmpq_mat
 
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Vector
 from pkm_exact.formulations.base import rational
 from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, leg_hyperplane, planar_hyperplanes
 from pkm_exact.geometry.inverse import dot
 from pkm_exact.geometry.planar_rotation import turn_of
-from pkm_exact.geometry.problem import ForwardProblem, Leg, Vector
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.poses.pose_representation import PoseRepresentation
 
@@ -72,14 +74,14 @@ class SelfMotion:
     ----------
     mobility : Mobility
         The set of poses has at least its dimension at each of the poses below.
-    legs : tuple of Leg
+    legs : tuple of Distance
         Further legs.
     representation : PoseRepresentation
         Complex poses, verified, in which the robot's legs and the further ones have their lengths.
     """
 
     mobility: Mobility
-    legs: tuple[Leg, ...]
+    legs: tuple[Distance, ...]
     representation: PoseRepresentation
 
 
@@ -90,21 +92,21 @@ def mobility(problem: ForwardProblem) -> Mobility | None:
     --------
     >>> zero = Fraction(0)
     >>> base = [(Fraction(x), Fraction(x * x), Fraction(x**3)) for x in range(6)]
-    >>> legs = tuple(Leg(joint, (Fraction(n * n), zero, zero), Fraction(99)) for n, joint in enumerate(base))
+    >>> legs = tuple(Distance(joint, (Fraction(n * n), zero, zero), Fraction(99)) for n, joint in enumerate(base))
     >>> mobility(ForwardProblem(legs))
     Mobility(dimension=1, rank=6, causes=(<Cause.PLATFORM_LINE: 'platform joints on a line'>,))
     """
     found: dict[Cause, int] = {}
     for joints, point, line in (
-        ([leg.platform for leg in problem.legs], Cause.PLATFORM_POINT, Cause.PLATFORM_LINE),
-        ([leg.base for leg in problem.legs], Cause.BASE_POINT, Cause.BASE_LINE),
+        ([leg.platform for leg in problem.distances], Cause.PLATFORM_POINT, Cause.PLATFORM_LINE),
+        ([leg.base for leg in problem.distances], Cause.BASE_POINT, Cause.BASE_LINE),
     ):
         spanned = affine_dimension(joints)
         if spanned == 0:
-            found[point] = 1 if problem.planar else 3
-        elif spanned == 1 and not problem.planar:
+            found[point] = 1 if problem.motion.is_planar else 3
+        elif spanned == 1 and not problem.motion.is_planar:
             found[line] = 1
-    freedom, rank = 3 if problem.planar else 6, leg_rank(problem)
+    freedom, rank = 3 if problem.motion.is_planar else 6, leg_rank(problem)
     if rank < freedom:
         found[_dependence(problem)] = freedom - rank
     return Mobility(max(found.values()), rank, tuple(found)) if found else None
@@ -118,8 +120,8 @@ def affine_dimension(points: Sequence[Vector]) -> int:
 def leg_rank(problem: ForwardProblem) -> int:
     """Rank over Q of the leg forms on the 17 coordinates of rigid motions, or on the 8 of planar ones."""
     metric = [rational(g) for g in problem.metric]
-    legs = [leg_hyperplane(leg, metric) for leg in problem.legs]
-    if not problem.planar:
+    legs = [leg_hyperplane(leg, metric) for leg in problem.distances]
+    if not problem.motion.is_planar:
         return int(fmpq_mat(legs).rank())
     size = len(MOTION_COORDINATES)
     places = [MOTION_COORDINATES.index(name) for name in ("r11", "r12", "r21", "r22")]
@@ -132,8 +134,8 @@ def leg_rank(problem: ForwardProblem) -> int:
 
 def _dependence(problem: ForwardProblem) -> Cause:
     """The known kind of dependence, if it is one."""
-    base, platform = [leg.base for leg in problem.legs], [leg.platform for leg in problem.legs]
-    if problem.planar or affine_dimension(base) != 2:
+    base, platform = [leg.base for leg in problem.distances], [leg.platform for leg in problem.distances]
+    if problem.motion.is_planar or affine_dimension(base) != 2:
         return Cause.DEPENDENT_LEGS
     squares = []
     for i, j in combinations(range(len(base)), 2):
@@ -149,16 +151,16 @@ def _dependence(problem: ForwardProblem) -> Cause:
 def extended_problems(problem: ForwardProblem, count: int, seed: int) -> Iterator[ForwardProblem]:
     """The problem with ``count`` further legs, random joints of the size of the robot's own, again and again."""
     random = Random(seed)
-    size = 1 + max(abs(value) for leg in problem.legs for value in (*leg.base, *leg.platform)).__ceil__()
-    square = 1 + max(leg.length_squared for leg in problem.legs).__ceil__()
+    size = 1 + max(abs(value) for leg in problem.distances for value in (*leg.base, *leg.platform)).__ceil__()
+    square = 1 + max(leg.length_squared for leg in problem.distances).__ceil__()
     while True:
         further = []
         for _ in range(count):
             x, y, z, u, v, w = (Fraction(random.randint(-size, size)) for _ in range(6))
-            if problem.planar:
+            if problem.motion.is_planar:
                 z = w = Fraction(0)
-            further.append(Leg((x, y, z), (u, v, w), Fraction(random.randint(1, square))))
-        yield replace(problem, legs=problem.legs + tuple(further))
+            further.append(Distance((x, y, z), (u, v, w), Fraction(random.randint(1, square))))
+        yield replace(problem, constraints=problem.distances + tuple(further))
 
 
 @dataclass(frozen=True)
@@ -179,10 +181,10 @@ class TranslationalMotion:
 
 def translational_motion(problem: ForwardProblem) -> TranslationalMotion | None:
     """The sphere or circle of poses of a robot with congruent base and platform and equal legs, or None."""
-    legs = problem.legs
+    legs = problem.distances
     if len({leg.length_squared for leg in legs}) != 1:
         return None
-    rotation = _planar_rotation(problem) if problem.planar else _spatial_rotation(problem)
+    rotation = _planar_rotation(problem) if problem.motion.is_planar else _spatial_rotation(problem)
     if rotation is None:
         return None
     offsets = {_difference(leg.base, _image(rotation, leg.platform)) for leg in legs}
@@ -191,7 +193,7 @@ def translational_motion(problem: ForwardProblem) -> TranslationalMotion | None:
 
 def _spatial_rotation(problem: ForwardProblem) -> tuple[Vector, Vector, Vector] | None:
     """The rotation that takes the platform's shape to the base's, from three joints that are not on a line."""
-    for triple in combinations(problem.legs, 3):
+    for triple in combinations(problem.distances, 3):
         u = _axes([leg.platform for leg in triple], problem.metric)
         v = _axes([leg.base for leg in triple], problem.metric)
         if not any(u[2]):
@@ -208,7 +210,7 @@ def _spatial_rotation(problem: ForwardProblem) -> tuple[Vector, Vector, Vector] 
 
 def _planar_rotation(problem: ForwardProblem) -> tuple[Vector, Vector, Vector] | None:
     """The rotation of the plane that takes the platform's shape to the base's, from two joints."""
-    for first, second in combinations(problem.legs, 2):
+    for first, second in combinations(problem.distances, 2):
         u, v = _difference(second.platform, first.platform), _difference(second.base, first.base)
         square = dot(u, u, problem.metric)
         if square:

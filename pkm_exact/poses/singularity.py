@@ -88,13 +88,13 @@ def singularity(representation: PoseRepresentation, problem: ForwardProblem, fac
     rows = []
     for arm, line in zip(arms, lines, strict=True):
         moment = _cross(arm, line)
-        rows.append([line[0], line[1], moment[2]] if problem.planar else [*line, *moment])
+        rows.append([line[0], line[1], moment[2]] if problem.motion.is_planar else [*line, *moment])
     rank = _rank(rows, field)
-    if rank == len(problem.legs):
+    if rank == len(problem.distances):
         return Singularity(rank)
     special = []
     shifts = [[x - y for x, y in zip(joint, base[0], strict=True)] for joint in base[1:]]
-    if not problem.planar and _rank([*shifts, *lines], field) <= 2:
+    if not problem.motion.is_planar and _rank([*shifts, *lines], field) <= 2:
         special.append(SpecialPose.PLANE)
     if _rank(lines, field) == 1:
         special.append(SpecialPose.PARALLEL)
@@ -111,9 +111,9 @@ def _legs(
     products = [[left * right % field if m >= k else left for m, right in enumerate(x)] for k, left in enumerate(x)]
     values = [evaluate(quadric, products) for quadric in motion_quadrics(problem.metric)]
     position, rotation, norm = values[4:7], [values[7 + 3 * i : 10 + 3 * i] for i in range(3)], values[16]
-    scale = lcm(*(value.denominator for leg in problem.legs for value in (*leg.base, *leg.platform)))
+    scale = lcm(*(value.denominator for leg in problem.distances for value in (*leg.base, *leg.platform)))
     base, arms, lines = [], [], []
-    for leg in problem.legs:
+    for leg in problem.distances:
         base.append([fmpq_poly([int(value * scale)]) for value in leg.base])
         platform = [int(value * scale) for value in leg.platform]
         arms.append([row[0] * platform[0] + row[1] * platform[1] + row[2] * platform[2] for row in rotation])

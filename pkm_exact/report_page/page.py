@@ -142,10 +142,10 @@ def _actuators(document: Mapping[str, Any], scene: Scene, robot: Robot | None) -
 
 def _explorer(scene: Scene, poses: PoseRows, *, tolerances: bool) -> Markup:
     """The picture to turn, beside the table to choose from."""
-    presets = {"reset": "Reset"} if scene.planar else _PRESETS
+    presets = {"reset": "Reset"} if scene.motion.is_planar else _PRESETS
     buttons = (element("button", title, type="button", data_preset=name) for name, title in presets.items())
-    turn = "Drag to move it" if scene.planar else "Drag to turn it, with Shift or two fingers to move it"
-    arrows = "arrow keys" if scene.planar else "arrow keys, + and -, T, F, S for top, front and side"
+    turn = "Drag to move it" if scene.motion.is_planar else "Drag to turn it, with Shift or two fingers to move it"
+    arrows = "arrow keys" if scene.motion.is_planar else "arrow keys, + and -, T, F, S for top, front and side"
     precision = (
         "The middle of each box. Exact bounds stand below the table and in the copies."
         if tolerances

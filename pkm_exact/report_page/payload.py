@@ -19,7 +19,7 @@ def payload(scene: Scene, poses: PoseRows) -> dict[str, Any]:
     """All data of the page's script."""
     return {
         "unit": with_unit("", scene.unit),
-        "planar": scene.planar,
+        "planar": scene.motion.is_planar,
         "base": _points(scene.base),
         "columns": poses.plain,
         "exact_first": poses.first,

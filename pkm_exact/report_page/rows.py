@@ -148,7 +148,7 @@ def _size(scene: Scene) -> float:
 def certified_rows(document: Mapping[str, Any], scene: Scene) -> PoseRows:
     """The rows of a pose certificate."""
     columns = (*_coordinate_columns(scene), *_common_columns(scene))
-    names = ("x", "y", "theta") if scene.planar else ("x", "y", "z")
+    names = ("x", "y", "theta") if scene.motion.is_planar else ("x", "y", "z")
     plain = ("pose", *names, *QUATERNION, "error", "det_sign", "condition", "multiplicity")
     rows = tuple(_row(document, entry, view, scene) for entry, view in zip(document["poses"], scene.poses, strict=True))
     return PoseRows(columns, rows, plain, ("pose", "claim", "multiplicity", "t_lo", "t_hi"))
@@ -156,7 +156,7 @@ def certified_rows(document: Mapping[str, Any], scene: Scene) -> PoseRows:
 
 def _coordinate_columns(scene: Scene) -> list[Column]:
     axes = [Column(axis, f"position {axis}{in_unit(scene.unit)}") for axis in ("x", "y", "z")]
-    if scene.planar:
+    if scene.motion.is_planar:
         return [*axes[:2], Column("theta", "angle [degrees]")]
     return axes + [Column(name, "unit quaternion, scalar first") for name in QUATERNION]
 
@@ -174,8 +174,8 @@ def _row(document: Mapping[str, Any], entry: Mapping[str, Any], view: PoseView, 
     box = box_of(entry)
     position, quaternion = (tuple(map(decimal, part)) for part in (box.position, box.quaternion))
     digits = short_digits(_size(scene))
-    angle = _angle(box) if scene.planar else None
-    if scene.planar:
+    angle = _angle(box) if scene.motion.is_planar else None
+    if scene.motion.is_planar:
         turned = Cell("?", "?", None) if angle is None else enclosed(angle, _SHORT_QUATERNION)
         coordinates = [*(enclosed(c, digits) for c in box.position[:2]), turned]
     else:
@@ -183,7 +183,7 @@ def _row(document: Mapping[str, Any], entry: Mapping[str, Any], view: PoseView, 
         coordinates += [enclosed(q, _SHORT_QUATERNION) for q in box.quaternion]
     texts, intervals = [*position, *quaternion], [*box.position, *box.quaternion]
     place = position
-    if scene.planar:
+    if scene.motion.is_planar:
         place = (*position[:2], "" if angle is None else decimal(angle))
         texts, intervals = ([*texts, place[2]], [*intervals, angle]) if angle else (texts, intervals)
     error = bound(distance(texts, intervals))
@@ -231,8 +231,8 @@ def _common_cells(view: PoseView, condition: Cell, box: Box) -> list[Cell]:
 def _lines(
     view: PoseView, scene: Scene, box: Box, place: Sequence[str], condition: Cell
 ) -> tuple[tuple[str, str], ...]:
-    lines = [(f"position{in_unit(scene.unit)}", f"({', '.join(place[:2] if scene.planar else place)})")]
-    if scene.planar:
+    lines = [(f"position{in_unit(scene.unit)}", f"({', '.join(place[:2] if scene.motion.is_planar else place)})")]
+    if scene.motion.is_planar:
         lines.append(("angle [degrees]", place[2] or "not decided"))
     else:
         lines.append(("unit quaternion, scalar first", f"({', '.join(map(decimal, box.quaternion))})"))

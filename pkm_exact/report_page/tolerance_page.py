@@ -7,6 +7,7 @@ from fractions import Fraction
 from math import sqrt
 from typing import Any, Final
 
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.pictures.scene import Point, PoseView, Scene, moved
 from pkm_exact.report_page.numerals import bound, distance, in_unit
 from pkm_exact.report_page.rows import QUATERNION, Box, Cell, Column, PoseRows, Row, box_of, enclosed, half_width
@@ -19,9 +20,9 @@ _DIGITS: Final = 5
 
 def tolerance_rows(document: Mapping[str, Any], scene: Scene) -> PoseRows:
     """The rows of a tolerance certificate."""
-    axes = ("x", "y") if scene.planar else ("x", "y", "z")
+    axes = ("x", "y") if scene.motion.is_planar else ("x", "y", "z")
     columns = [Column(axis, f"middle of the bounds of {axis}{in_unit(scene.unit)}") for axis in axes]
-    if not scene.planar:
+    if not scene.motion.is_planar:
         columns += [Column(name, "middle of its bounds; unit quaternion, scalar first") for name in QUATERNION]
     columns += [Column(f"{axis} ±", f"half width of the bounds of {axis}{in_unit(scene.unit)}") for axis in axes]
     columns += [
@@ -37,9 +38,9 @@ def tolerance_rows(document: Mapping[str, Any], scene: Scene) -> PoseRows:
 
 def _row(entry: Mapping[str, Any], scene: Scene) -> Row:
     box = box_of(entry)
-    count = 2 if scene.planar else 3
+    count = 2 if scene.motion.is_planar else 3
     position, quaternion = (tuple(map(decimal, part)) for part in (box.position, box.quaternion))
-    coordinates = (*box.position[:count], *(() if scene.planar else box.quaternion))
+    coordinates = (*box.position[:count], *(() if scene.motion.is_planar else box.quaternion))
     moved, turned = Fraction(entry["position_error"]), Fraction(entry["rotation_error"])
     errors = (bound(moved), bound(turned * DEGREES))
     error = bound(distance([*position, *quaternion], [*box.position, *box.quaternion]))
@@ -83,7 +84,7 @@ def tolerance_scene(document: Mapping[str, Any]) -> Scene:
         configuration=configuration["name"],
         kind=robot["kind"],
         unit=robot["unit"],
-        planar=len(base) == 3,
+        motion=PLANAR if len(base) == 3 else SPATIAL,
         claim="",
         complex_solutions=0,
         base=base,

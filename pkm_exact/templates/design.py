@@ -7,12 +7,12 @@ from fractions import Fraction
 from math import isqrt
 from typing import TYPE_CHECKING, Final
 
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, JointValue, Slide, cosine_and_sine
 from pkm_exact.geometry.inverse import Matrix, Metric, distance_squared, rotation_of
 from pkm_exact.geometry.kinds import KINDS, Joints, Kind, knees
 from pkm_exact.geometry.planar_rotation import quarter_turn, turn_of, weight
-from pkm_exact.geometry.problem import Vector
 from pkm_exact.templates import MOST_DECIMALS
 from pkm_exact.templates.layout import joints_and_metric
 from pkm_exact.wording import shown
@@ -63,7 +63,7 @@ class Design:
             raise InputError(f"--crank: {shown(self.crank)} is not positive; give a length")
         if self.digits is not None and not 0 <= self.digits <= MOST_DECIMALS:
             raise InputError(f"--digits: {self.digits} is out of range; give 0 to {MOST_DECIMALS}")
-        if self.digits is not None and has_cranks(self.kind) and not KINDS[self.kind].planar:
+        if self.digits is not None and has_cranks(self.kind) and not KINDS[self.kind].motion.is_planar:
             raise InputError(
                 f"--digits: the cranks of a {self.kind} robot turn along sides 60 degrees apart, which rounded numbers "
                 "cannot do exactly; leave it out"
@@ -107,14 +107,14 @@ def has_cranks(kind: str) -> bool:
 
 def require_sides(kind: Kind, sides: tuple[Fraction, ...], option: str) -> None:
     """Refuse sides that are not those of a hexagon or a triangle."""
-    wanted = 3 if kind.planar else 2
+    wanted = 3 if kind.motion.is_planar else 2
     if len(sides) != wanted:
-        shape = "the three sides of a triangle" if kind.planar else "the two sides of a hexagon"
+        shape = "the three sides of a triangle" if kind.motion.is_planar else "the two sides of a hexagon"
         raise InputError(f"{option}: {len(sides)} numbers; give {shape}, with commas between")
     for side in sides:
-        if side < 0 or (kind.planar and side == 0):
+        if side < 0 or (kind.motion.is_planar and side == 0):
             raise InputError(f"{option}: {shown(side)} is not positive; give lengths")
-    if kind.planar and 2 * max(sides) >= sum(sides):
+    if kind.motion.is_planar and 2 * max(sides) >= sum(sides):
         raise InputError(f"{option}: one side is not shorter than the others together; give the sides of a triangle")
     if not any(sides):
         raise InputError(f"{option}: both are 0; give at least one that is positive")
@@ -132,7 +132,7 @@ def drawn(design: Design) -> Draft:
     >>> draft.metric, str(draft.lengths_squared[0])
     ((1, 3, 1), '82/3')
     """
-    planar = KINDS[design.kind].planar
+    planar = KINDS[design.kind].motion.is_planar
     (base, platform), metric = joints_and_metric((design.base, design.platform), design.digits)
     zero = Fraction(0)
     if planar:
@@ -163,11 +163,11 @@ def _chains(design: Design, metric: Metric) -> tuple[Chain, ...]:
     kind, one = KINDS[design.kind], Fraction(1)
     zero = 0 * one
     if kind.chain is Slide:
-        direction = (one, zero, zero) if kind.planar else (zero, zero, one)
+        direction = (one, zero, zero) if kind.motion.is_planar else (zero, zero, one)
         return (Slide(direction, one),) * kind.legs
     if design.crank is None:
         return ()
-    if kind.planar:
+    if kind.motion.is_planar:
         crank = (design.crank, zero, zero)
         try:
             return (Crank(crank, quarter_turn(crank, metric, "cranks"), one),) * kind.legs

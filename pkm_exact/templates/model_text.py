@@ -102,7 +102,7 @@ def _chains(draft: Draft) -> Iterator[str]:
         yield "# ... and at 90 degrees: perpendicular to the first, and as long."
         yield from _vectors("at_90", draft, [chain.at_90 for chain in draft.chains if isinstance(chain, Crank)])
     else:
-        dimension = 2 if KINDS[draft.design.kind].planar else 3
+        dimension = 2 if KINDS[draft.design.kind].motion.is_planar else 3
         yield "[slides]"
         yield "# Of all slides; or directions = [...] with one vector per leg. A unit vector makes positions lengths."
         yield f"direction = [{_numbers(first.direction[:dimension])}]"
@@ -114,7 +114,7 @@ def _chains(draft: Draft) -> Iterator[str]:
 
 
 def _vectors(key: str, draft: Draft, vectors: list[tuple[Fraction, ...]]) -> Iterator[str]:
-    dimension = 2 if KINDS[draft.design.kind].planar else 3
+    dimension = 2 if KINDS[draft.design.kind].motion.is_planar else 3
     yield f"{key} = ["
     yield from (f"    [{_numbers(vector[:dimension])}]," for vector in vectors)
     yield "]"
@@ -127,11 +127,11 @@ def _home(draft: Draft) -> Iterator[str]:
     yield "[[configurations]]"
     yield 'name = "home"'
     if draft.chains:
-        where = f"at ({_numbers(draft.position[:2])})" if kind.planar else f"level at the height {height}"
+        where = f"at ({_numbers(draft.position[:2])})" if kind.motion.is_planar else f"level at the height {height}"
         what = "Tangents of half the angles (0 is 0 degrees, 1 is 90)" if _cranks(draft) else "Positions of the slides"
         yield f"# {what}; the platform can then be {where}."
         yield f"{'half_tangents' if _cranks(draft) else 'slides'} = [{', '.join(['0'] * kind.legs)}]"
-    elif kind.planar:
+    elif kind.motion.is_planar:
         yield "# The lengths that the legs have in this pose; half_tangent is that of half the platform's angle."
         yield f"pose = {{ position = [{_numbers(draft.position[:2])}], {_turn(draft)} }}"
     else:
