@@ -1575,6 +1575,28 @@ class Algebra:
         terms = [(value, row) for value, row in zip(vector.numerators, self.unknowns[axis], strict=True) if value]
         return combined(terms, vector.denominator, len(self.basis))
 
+    def vanish(self, elements: Iterable[Terms]) -> bool:
+        """Whether all elements are 0, evaluated by the matrices alone; those of leading monomials may define none."""
+        vectors = {self.basis[0]: Vector([1] + [0] * (len(self.basis) - 1), 1)}
+        for element in elements:
+            for monomial in element:
+                if monomial not in vectors:
+                    self.reach(monomial, vectors)
+            value = combined([(factor, vectors[m]) for m, factor in element.items()], 1, len(self.basis))
+            if any(value.numerators):
+                return False
+        return True
+
+    def reach(self, monomial: Monomial, vectors: dict[Monomial, Vector]) -> None:
+        """Add the coordinates of a monomial to the known ones, multiplying by one unknown after another."""
+        word = [axis for axis, exponent in enumerate(monomial) for _ in range(exponent)]
+        known = self.basis[0]
+        for axis in word:
+            larger = times(known, axis)
+            if larger not in vectors:
+                vectors[larger] = self.times_unknown(vectors[known], axis)
+            known = larger
+
     def traces(self) -> tuple[list[list[Vector]], list[Fraction]]:
         """The products of any two monomials of the basis, and the trace of multiplication by each."""
         size = len(self.basis)
@@ -1634,9 +1656,7 @@ def quotient_algebra(elimination: Elimination, basis: list[Monomial]) -> Algebra
         for left, right in zip(unknowns[one], unknowns[other], strict=True):
             if algebra.times_unknown(left, other) != algebra.times_unknown(right, one):
                 return None
-    if any(any(reduction.polynomial(element).numerators) for element in elimination.elements):
-        return None
-    return algebra
+    return algebra if algebra.vanish(elimination.elements) else None
 
 
 def multiplicity_polynomial(
@@ -1875,6 +1895,8 @@ def proved_of_all(certificate: Certificate, representation: Representation) -> P
     basis = elimination.basis()
     if simple and len(basis) == number:
         return Proved("complete", "exact-elimination", number, False, {})
+    line = f"elimination: it leaves {len(basis)} monomials, but the {number} solutions are proved simple"
+    require(not simple, line)
     algebra = quotient_algebra(elimination, basis) if basis else None
     v = multiplicity_polynomial(algebra, representation, certificate, elimination.places) if algebra else None
     if v is None:

@@ -78,7 +78,7 @@ def prove_complete(
     found = least_multiplicities(representation, problem, policy)
     if total_of(found) < bound:
         quotient = exact_quotient(basis, policy.dimension_limit)
-        if quotient is None or not quotient.commutes:
+        if quotient is None:
             return None
         rank = quotient.distinct_solutions
         require(rank == degree, "the trace form counts other solutions than were verified", rank=rank, verified=degree)

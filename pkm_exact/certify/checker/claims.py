@@ -156,6 +156,8 @@ def _filling(
     number = int(representation.eliminant.degree())
     elimination = eliminate(legs, metric, steps)
     left = len(elimination.standard(GREATEST_NUMBER))
+    if simple and left > number:
+        raise rejected(f"elimination: it leaves {left} monomials, but the {number} solutions are proved simple")
     multiple = () if simple else multiple_factors(representation, legs, metric)
     if left == number + sum(int(factor.degree()) for factor in multiple) and all(
         is_multiple(factor, representation, legs, metric) for factor in multiple

@@ -3,8 +3,9 @@
 On the monomials that an elimination leaves, multiplication by each unknown has a matrix over Q, read off the elements.
 If these matrices commute, exactly, they define an algebra with these monomials as a basis, whose solutions include
 every pose (Mourrain 1999). The number of its distinct solutions is the rank of its trace form (Hermite). If all
-elements are 0 in it, it is the algebra of the poses, and their multiplicities sum to its dimension: multiplication by
-a combination of unknowns has its values at the poses as eigenvalues, as often as these are multiple (Stickelberger).
+elements, evaluated by the matrices, are 0 in it, it is the algebra of the poses, and their multiplicities sum to its
+dimension: multiplication by a combination of unknowns has its values at the poses as eigenvalues, as often as these are
+multiple (Stickelberger).
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from itertools import combinations
 
 from flint import fmpq, fmpq_mat, nmod_mat, nmod_poly
 
-from pkm_exact.certify.checker.elimination import Elimination, Monomial
+from pkm_exact.certify.checker.elimination import Elimination, Monomial, Polynomial
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER
 
 
@@ -25,6 +26,34 @@ class Algebra:
 
     basis: tuple[Monomial, ...]
     unknowns: tuple[fmpq_mat, ...]
+
+    def vanish(self, elements: Iterable[Polynomial]) -> bool:
+        """Whether all elements are 0: nothing is used of them but the matrices, applied to the vector of 1.
+
+        An element that was not needed for the matrices, as others reduce its leading monomial, may well not be 0.
+        """
+        size = len(self.basis)
+        vectors = {self.basis[0]: fmpq_mat(1, size, [1] + [0] * (size - 1))}
+        for element in elements:
+            total = fmpq_mat(1, size)
+            for monomial, value in element.items():
+                total += self._vector(monomial, vectors) * value
+            if total != fmpq_mat(1, size):
+                return False
+        return True
+
+    def _vector(self, monomial: Monomial, vectors: dict[Monomial, fmpq_mat]) -> fmpq_mat:
+        """The coordinates of a monomial: one unknown after another is multiplied to what is in ``vectors``."""
+        axes = []
+        reached = monomial
+        while reached not in vectors:
+            axes.append(next(axis for axis, exponent in enumerate(reached) if exponent))
+            reached = _shifted(reached, axes[-1], -1)
+        for axis in reversed(axes):
+            larger = _shifted(reached, axis, 1)
+            vectors[larger] = vectors[reached] * self.unknowns[axis]
+            reached = larger
+        return vectors[monomial]
 
     def distinct_solutions(self) -> int:
         """The rank of the trace form."""
@@ -51,16 +80,15 @@ class Algebra:
 
 
 def quotient_algebra(elimination: Elimination) -> Algebra | None:
-    """The algebra of all poses, or None if the matrices do not commute or an element does not reduce to 0."""
+    """The algebra of all poses, or None if the matrices do not commute or an element is not 0 in it."""
     basis = elimination.standard(GREATEST_NUMBER)
     reduction = _Reduction(elimination, basis)
     matrices = reduction.matrices()
     cleared = [matrix.numer_denom()[0] for matrix in matrices]
     if any(left * right != right * left for left, right in combinations(cleared, 2)):
         return None
-    if any(reduction.combination(element.items()) for element in elimination.elements):
-        return None
-    return Algebra(tuple(basis), tuple(matrices))
+    algebra = Algebra(tuple(basis), tuple(matrices))
+    return algebra if algebra.vanish(elimination.elements) else None
 
 
 def _shifted(monomial: Monomial, axis: int, step: int) -> Monomial:
