@@ -20,6 +20,18 @@ class Claim(StrEnum):
     INCONSISTENT = "inconsistent"
 
 
+class RealMotion(StrEnum):
+    """What is proved of real motions, where the complex poses form a set of positive dimension.
+
+    ``PROVED``: a real pose is certified through which a curve of real poses leads; the robot moves with its legs
+    locked. ``NO_REAL_POSE``: it is proved that none of the poses is real. ``OPEN``: neither is proved.
+    """
+
+    PROVED = "proved"
+    NO_REAL_POSE = "no-real-pose"
+    OPEN = "open"
+
+
 class CompletenessRoute(StrEnum):
     """The argument that proves a list of poses complete.
 

@@ -11,6 +11,7 @@ from itertools import islice
 from flint import fmpz_poly
 
 from pkm_exact.claim import Claim
+from pkm_exact.claim_wording import DETECTED_NOTE, INCONSISTENT_NOTE, NO_SOLUTION_NOTE
 from pkm_exact.failures.contradiction import attached
 from pkm_exact.final_checks import consistent
 from pkm_exact.formulations.registry import formulation_codes, formulation_for
@@ -103,11 +104,7 @@ class _Run:
             return self._with_isolated(replace(result, self_motion=motion), width)
         start = self.search.started()
         if start.poses is None:
-            note = (
-                "the solutions form a set of positive dimension at two primes: the robot can move with its legs "
-                "locked, or solutions run together at infinity"
-            )
-            result = self._result(Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, note)
+            result = self._result(Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, DETECTED_NOTE)
             return self._with_isolated(replace(result, statistics=self._statistics(start)), width)
         if start.poses.count == 0:
             return replace(self._without_solutions(exponent), statistics=self._statistics(start))
@@ -118,10 +115,8 @@ class _Run:
         self.stages.enter("completeness")
         proof = prove_inconsistent(self.problem, self.policy, self.stages.amount)
         if proof is not None:
-            note = "no pose, real or complex, has these leg lengths"
-            return self._result(Claim.INCONSISTENT, exponent, note, proof)
-        note = "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
-        return self._result(Claim.NOT_PROVEN_COMPLETE, exponent, note)
+            return self._result(Claim.INCONSISTENT, exponent, INCONSISTENT_NOTE, proof)
+        return self._result(Claim.NOT_PROVEN_COMPLETE, exponent, NO_SOLUTION_NOTE)
 
     def _listed(self, start: Start, count: int, width: Fraction) -> Solution:
         """All poses in boxes, where there are so many modulo a prime, and what is proved about their list."""
@@ -176,7 +171,13 @@ class _Run:
         if translation is not None:
             return translation
         bound = mobility(self.problem)
-        return None if bound is None else self._witnessed(bound)
+        motion = None if bound is None else self._witnessed(bound)
+        if motion is None:
+            return None
+        # Floating point is needed for this alone: it proposes.
+        from pkm_exact.numeric.real_motion import real_motion
+
+        return replace(motion, real=real_motion(self.problem, motion, self.policy))
 
     def _witnessed(self, bound: Mobility) -> SelfMotion | None:
         """A pose, found by joining legs until finitely many are left, or None if there seems to be none."""

@@ -13,7 +13,7 @@ from fractions import Fraction
 from flint import fmpq, fmpz_poly, nmod_mat, nmod_poly
 
 from pkm_exact.algebra.primes import primes_below
-from pkm_exact.claim import Claim, CompletenessRoute
+from pkm_exact.claim import Claim, CompletenessRoute, RealMotion
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import evaluate, pose_quadrics
@@ -62,6 +62,8 @@ def _require_proof_of_claim(solution: Solution) -> None:
     facts = {"claim": claim, "route": solution.completeness_route}
     require((proof is not None) == (claim in _PROVED), "claim and proof of completeness do not fit", **facts)
     moves = solution.self_motion is not None
+    unreal = solution.real_motion is RealMotion.NO_REAL_POSE
+    require(not (unreal and solution.poses), "real poses, but it is proved that there is none", **facts)
     require(moves == (claim == Claim.POSITIVE_DIMENSIONAL_PROVED), "claim and proof of motion do not fit", **facts)
     if claim == Claim.INCONSISTENT:
         require(not solution.poses and solution.complex_solutions == 0, "poses of a robot that has none", **facts)
@@ -141,6 +143,9 @@ def _require_mobility(motion: SelfMotion, problem: ForwardProblem) -> None:
     said = motion.mobility.rank
     require(rank <= said, "the rank of the legs is greater modulo a prime than over Q", modular=rank, said=said)
     require(motion.mobility.dimension > 0, "a self-motion of dimension 0", dimension=motion.mobility.dimension)
+    if motion.real is RealMotion.NO_REAL_POSE:
+        gaps = roots_in_gaps(motion.representation.univariate.primitive_polynomial, [])
+        require(gaps != [True], "a witness is real, but no pose is")
 
 
 def _require_poses(solution: Solution) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pkm_exact.claim_wording import PARALLEL, REAL_MOTION
 from pkm_exact.formulations.turned import Turn
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.self_motion import Cause, SelfMotion, TranslationalMotion
@@ -23,10 +24,10 @@ def turn_notes(turn: Turn, attempt: int) -> tuple[str, ...]:
 
 
 _CAUSES = {
-    Cause.PLATFORM_LINE: "the platform joints are collinear, and the platform turns about their line",
-    Cause.BASE_LINE: "the base joints are collinear, and the platform turns about their line",
-    Cause.PLATFORM_POINT: "all platform joints coincide, and the platform turns freely about that point",
-    Cause.BASE_POINT: "all base joints coincide, and the platform turns freely about that point",
+    Cause.PLATFORM_LINE: "the platform joints are collinear, and turning about their line leads from pose to pose",
+    Cause.BASE_LINE: "the base joints are collinear, and turning about their line leads from pose to pose",
+    Cause.PLATFORM_POINT: "all platform joints coincide, and turning about that point leads from pose to pose",
+    Cause.BASE_POINT: "all base joints coincide, and turning about that point leads from pose to pose",
     Cause.DEPENDENT_LEGS: "the leg forms are dependent, of rank {rank} (an architecture singularity)",
     Cause.SIMILAR_ON_CONIC: (
         "base and platform are similar and their joints lie on a conic, so that the leg forms are dependent, of rank "
@@ -36,16 +37,12 @@ _CAUSES = {
 
 
 def motion_note(motion: SelfMotion | TranslationalMotion, problem: ForwardProblem) -> str:
-    """Names a self-motion."""
+    """Says why the poses form a set of positive dimension, and what is known of real ones."""
     if isinstance(motion, TranslationalMotion):
-        path = "a circle" if problem.motion.is_planar else "a sphere"
-        return (
-            f"self-motion: base and platform are congruent and the legs equal, so that the platform moves on {path} "
-            "without turning"
-        )
+        return PARALLEL.format(path="a circle" if problem.motion.is_planar else "a sphere")
     bound = motion.mobility
     causes = "; ".join(_CAUSES[cause].format(rank=bound.rank) for cause in bound.causes)
-    return f"self-motion: {causes}; the robot moves with its legs locked, in dimension {bound.dimension} at least"
+    return f"{causes}; the complex poses form a set of dimension {bound.dimension} at least; {REAL_MOTION[motion.real]}"
 
 
 def singular_notes(found: Sequence[Singularity | None], legs: int) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from pkm_exact.claim import Claim, CompletenessRoute
+from pkm_exact.claim import Claim, CompletenessRoute, RealMotion
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.pose import Pose
 
@@ -117,6 +117,13 @@ class Solution:
     def is_complete(self) -> bool:
         """Whether it is proved that there is no other pose. "No" does not mean that there is one."""
         return self.claim in (Claim.COMPLETE, Claim.INCONSISTENT)
+
+    @property
+    def real_motion(self) -> RealMotion | None:
+        """What is proved of real motions, if the claim is one of positive dimension; otherwise None."""
+        if self.claim is Claim.POSITIVE_DIMENSIONAL_DETECTED:
+            return RealMotion.OPEN
+        return None if self.self_motion is None else self.self_motion.real
 
     @property
     def completeness_route(self) -> CompletenessRoute | None:

@@ -257,7 +257,10 @@ NO_DESIGN = [
     ([*_options("6-RUS"), "--digits", "3", "-o", "-"], "--digits: the cranks of a 6-RUS robot"),
     ([*_options("6-UPS"), "--crank", "3", "-o", "-"], "--crank: a 6-UPS robot has none"),
     ([*_options("6-UPS"), "--name", " ", "-o", "-"], "name: ' ' is not a label"),
-    ([*_options("6-UPS"), "--platform-sides", "4,2", "-o", "-"], "with these the platform of the 6-UPS robot can move"),
+    (
+        [*_options("6-UPS"), "--platform-sides", "4,2", "-o", "-"],
+        "proved: the robot moves with locked legs (positive-dimensional-proved)",
+    ),
     ([*_options("6-UPS"), "--platform-sides", "200,400", "-o", "-"], "(positive-dimensional-detected); change"),
     ([*_options("6-UPS"), "-o", ""], "the path '' is empty"),
     ([*_options("6-UPS"), "-o", "nowhere/robot.toml"], "the folder nowhere does not exist"),

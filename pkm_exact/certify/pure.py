@@ -1829,7 +1829,7 @@ def nothing_listed(certificate: Certificate) -> Iterator[str]:
     if certificate.elimination is None and claim == ("not-proven-complete", None):
         yield "not proven complete: no solution is listed, and none is excluded"
     elif certificate.elimination is None and claim == ("positive-dimensional-detected", None):
-        yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
+        yield "positive dimension detected: evidence found by the solver, no proof"
     elif certificate.elimination is not None and claim == ("inconsistent", "exact-elimination"):
         elimination = eliminate(certificate.legs, certificate.metric, certificate.elimination)
         origin = (0,) * len(elimination.places)
@@ -1906,6 +1906,9 @@ def proved_of_all(certificate: Certificate, representation: Representation) -> P
     return Proved("complete", "exact-elimination", len(basis), has_multiple, multiplicities(v, representation))
 
 
+_NOT_REAL = "that one of them is real, and the robot moves, is not proved"
+
+
 def check_self_motion(certificate: Certificate, representation: Representation) -> Iterator[str]:
     """The witnesses, poses by checks 1 to 5, lie on a set of poses of positive dimension: three arguments."""
     nothing = certificate.boxes is not None or not (any(certificate.counts) or certificate.poses)
@@ -1918,14 +1921,17 @@ def check_self_motion(certificate: Certificate, representation: Representation) 
     sides = [leg.base for leg in certificate.legs], [leg.platform for leg in certificate.legs]
     turning = max(turning_dimension(joints, planar=planar) for joints in sides)
     if freedom - rank > turning:
-        yield f"positive dimension: the legs have rank {rank}, the robot moves in dimension {freedom - rank} at least"
+        least = f"sets of dimension {freedom - rank} at least"
+        yield f"positive dimension: the legs have rank {rank}, complex poses form {least}; {_NOT_REAL}"
     elif turning:
-        yield f"positive dimension: joints lie on a line or in a point, the robot turns in dimension {turning} at least"
+        least = f"sets of dimension {turning} at least by turning about it"
+        yield f"positive dimension: joints lie on a line or in a point, complex poses form {least}; {_NOT_REAL}"
     else:
         parallel = legs_are_one_vector(certificate, representation)
         require(parallel, "claim: positive-dimensional-proved is not proved by the witnesses")
         path = "circle" if planar else "sphere"
-        yield f"positive dimension: all legs are the same vector, the platform moves on a {path} without turning"
+        what = f"real poses form a {path}; the robot moves with its legs locked"
+        yield f"positive dimension: all legs are the same vector, {what}"
 
 
 def rank_of(rows: Sequence[Sequence[int]]) -> int:
@@ -2224,7 +2230,7 @@ def boxes_listed(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
         alone = certificate.representation is None and certificate.elimination is None
         detected = alone and claim == ("positive-dimensional-detected", None)
         require(detected, f"claim: {certificate.claim} is not proved by what is in the certificate")
-        yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
+        yield "positive dimension detected: evidence found by the solver, no proof"
         return
     proved = ("complete", "refined-bezout") if number == degree else ("not-proven-complete", None)
     require(claim == proved, f"claim: what is proved is {proved[0]} by {proved[1] or 'no route'}")

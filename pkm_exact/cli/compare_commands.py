@@ -39,8 +39,9 @@ def compare(
     hit, poses that are none, and the true error of what was found, with certified bounds: the greatest displacement of
     a platform joint. The starts are the same in every run.
 
-    Exit codes: 0 the certified list is complete, whatever the methods found of it; 3 it is not proved complete; 4 the
-    robot has infinitely many poses, or no certified answer. Others as for certify-poses.
+    Exit codes: 0 the certified list is complete, whatever the methods found of it; 3 it is not proved complete, or
+    there is none as solutions form a set of positive dimension (then nothing is compared, nor written to FILE). Others
+    as for certify-poses.
 
     \b
     Examples:
@@ -57,17 +58,21 @@ def compare(
         arguments.require_other_file(Path(output), model, "--json")
         arguments.require_writable(Path(output), "--json")
 
-    from pkm_exact.cli.compare_table import print_comparison
+    from pkm_exact.cli.compare_table import print_certified, print_comparison
     from pkm_exact.cli.report import configuration_object
-    from pkm_exact.comparison.numeric import compare_numeric
+    from pkm_exact.comparison.numeric import NothingToCompareError, compare_numeric
     from pkm_exact.interactive.progress import Progress
 
+    name = chosen.name if chosen else None
     with Progress(verbose=False) as progress:
         try:
             comparison = compare_numeric(problem, starts=starts, progress=progress)
+        except NothingToCompareError as error:
+            print_certified(robot, name, error.solution)
+            click.echo(f"nothing was compared: {error}")
+            return ExitCode.WEAKER_CLAIM
         except InputError as error:
             raise InputError(f"{model}: {error}") from None
-    name = chosen.name if chosen else None
     if output is not None:
         entry = configuration_object(robot, name, problem)
         content = {"model": model, "configuration": entry, "unit": robot.unit, **comparison.as_object()}

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from pkm_exact.comparison.numeric import EngineResult, NumericComparison
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.poses.pose import Interval, Pose
+    from pkm_exact.solution import Solution
 
 _METHODS = (
     "",
@@ -34,10 +35,7 @@ _LISTED = 20
 
 def print_comparison(robot: Robot, configuration: str | None, comparison: NumericComparison) -> None:
     """Print the tables, and below them a sentence for what did not converge, to stdout."""
-    actuators = f"configuration {configuration}" if configuration else "given leg lengths"
-    title = f"{robot.name} ({robot.kind}), {actuators}; random starts: seed {comparison.seed}"
-    sys.stdout.write(f"{title}\ncertified: {headline(comparison.solution)}\n")
-    sys.stdout.write("".join(f"note: {note}\n" for note in comparison.solution.notes))
+    print_certified(robot, configuration, comparison.solution, f"; random starts: seed {comparison.seed}")
     sys.stdout.write(
         f"\nmethods: starts, and how many of them converged; certified poses found and missed; starts that ended where "
         f"no certified pose is,\nor at one that is not clear; true errors of what was found, "
@@ -56,6 +54,13 @@ def print_comparison(robot: Robot, configuration: str | None, comparison: Numeri
         print_rows(rows, ("", "x", "y", third, "det J", "cond J", *names))
     for result in comparison.results:
         sys.stdout.write(_sentence(result, comparison))
+
+
+def print_certified(robot: Robot, configuration: str | None, solution: Solution, starts: str = "") -> None:
+    """Print what the methods are held against, to stdout."""
+    actuators = f"configuration {configuration}" if configuration else "given leg lengths"
+    sys.stdout.write(f"{robot.name} ({robot.kind}), {actuators}{starts}\ncertified: {headline(solution)}\n")
+    sys.stdout.write("".join(f"note: {note}\n" for note in solution.notes))
 
 
 def _method(result: EngineResult, comparison: NumericComparison) -> tuple[str, ...]:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from rich.console import Console
 from rich.table import Table
 
+from pkm_exact.claim import Claim
 from pkm_exact.comparison.row import Row
 from pkm_exact.wording import printable
 
@@ -74,13 +75,13 @@ def _result_cells(row: Row) -> tuple[str, ...]:
     if result is None:
         return row.code, *("-" for _ in _SOLUTIONS[1:-1]), row.status.value
     numbers = (result.basis_elements, result.primes, result.rur_bytes, result.rur_bits)
-    counts = (result.complex_solutions, result.real_solutions, result.real_poses)
+    infinite = "infinite" if result.claim is Claim.POSITIVE_DIMENSIONAL_PROVED else "infinite?"
+    counts = (
+        infinite if result.complex_solutions is None else str(result.complex_solutions),
+        *("-" if count is None else str(count) for count in (result.real_solutions, result.real_poses)),
+    )
     agrees = {True: "yes", False: "NO", None: "?"}[row.agrees]
-    return row.code, *("-" if x is None else str(x) for x in numbers), *(_count(x) for x in counts), agrees
-
-
-def _count(number: int | None) -> str:
-    return "infinite" if number is None else str(number)
+    return row.code, *("-" if x is None else str(x) for x in numbers), *counts, agrees
 
 
 def _time_cells(row: Row, stages: Sequence[str]) -> tuple[str, ...]:

@@ -246,6 +246,7 @@ def _proved_at_home(draft: Draft, text: str) -> str:
     from pkm_exact.claim import Claim
     from pkm_exact.engine import solve
     from pkm_exact.geometry.reader import robot_from_toml
+    from pkm_exact.interactive.display import headline
     from pkm_exact.interactive.progress import Progress
 
     robot = robot_from_toml(text)
@@ -253,8 +254,8 @@ def _proved_at_home(draft: Draft, text: str) -> str:
         solution = solve(robot.problem(robot.configuration("home")), progress=progress)
     if solution.claim is not Claim.COMPLETE:
         raise InputError(
-            f"--base-sides, --platform-sides: with these the platform of the {draft.design.kind} robot can move while "
-            f"all actuators are locked, or nearly so ({solution.claim}); change the ratio of one pair of sides"
+            f"--base-sides, --platform-sides: with these no list of poses of the {draft.design.kind} robot is proved "
+            f"complete at home; {headline(solution)} ({solution.claim}); change the ratio of one pair of sides"
         )
     if any(pose.multiplicity != 1 for pose in solution.poses):
         click.echo("note: one of the poses is singular; `solve` says which", err=True)

@@ -42,6 +42,7 @@ def as_object(robot: Robot, configuration: str | None, solution: Solution) -> di
         "method": solution.method,
         "claim": str(solution.claim),
         "completeness_route": str(solution.completeness_route) if solution.completeness_route else None,
+        "real_motion": None if solution.real_motion is None else str(solution.real_motion),
         "complex_solutions": solution.complex_solutions,
         "distinct_solutions": solution.distinct_solutions,
         "real_poses": len(solution.poses),

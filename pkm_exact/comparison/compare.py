@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from pkm_exact.claim_wording import without_a_list
 from pkm_exact.comparison.agreement import same_poses
 from pkm_exact.comparison.row import Row, Status
 from pkm_exact.comparison.worker import Outcome, run_apart
@@ -50,15 +51,19 @@ def compare_formulations(
     return tuple(_compared(known[code], known[reference]) for code in dict.fromkeys(wanted))
 
 
+def _without_poses(row: Row) -> str:
+    return "it has no list of poses" if row.result is None else without_a_list(row.result.claim)
+
+
 def _compared(outcome: Outcome, reference: Outcome) -> Row:
     """The row with its agreement decided, or with the reason why it is not."""
     row = outcome.row
     if row.status is not Status.DONE:
         return row
     if outcome.poses is None:
-        return replace(row, reason="it has infinitely many solutions, which are not compared")
+        return replace(row, reason=f"{_without_poses(row)}; nothing is compared")
     if reference.poses is None:
-        why = reference.row.reason or "it has infinitely many solutions"
+        why = reference.row.reason or _without_poses(reference.row)
         return replace(row, reason=f"there is nothing to compare with, for the reference {reference.row.code}: {why}")
     agrees = same_poses(outcome.poses, reference.poses)
     reason = "the boxes are too wide to tell which poses belong together" if agrees is None else None

@@ -19,7 +19,7 @@ from flint import fmpz
 
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.system import PolynomialSystem
-from pkm_exact.claim import Claim
+from pkm_exact.claim_wording import INFINITE
 from pkm_exact.comparison.row import ResultFigures, SystemFigures
 from pkm_exact.engine import solve
 from pkm_exact.export.polynomial_text import polynomial_text
@@ -30,8 +30,6 @@ from pkm_exact.policy import Policy
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.solution import Solution
-
-INFINITE = (Claim.POSITIVE_DIMENSIONAL_DETECTED, Claim.POSITIVE_DIMENSIONAL_PROVED)
 
 
 def measure(

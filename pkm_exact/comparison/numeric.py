@@ -15,7 +15,7 @@ from functools import partial
 from time import perf_counter
 from typing import Any, Final
 
-from pkm_exact.claim import Claim
+from pkm_exact.claim_wording import INFINITE, without_a_list
 from pkm_exact.comparison.numeric_distance import Judge, Judged, Landing
 from pkm_exact.comparison.numeric_engines import ENGINES
 from pkm_exact.engine import solve
@@ -33,6 +33,14 @@ WIDTH: Final = Fraction(1, 10**30)
 """Width of the certified boxes: far below what a double resolves."""
 STARTS: Final = 100
 SEED: Final = DescentPolicy.seed
+
+
+class NothingToCompareError(PkmExactError):
+    """There is no list of all poses; ``solution`` is the certified answer."""
+
+    def __init__(self, solution: Solution) -> None:
+        super().__init__(f"the robot has no list of poses to compare with: {without_a_list(solution.claim)}")
+        self.solution = solution
 
 
 @dataclass(frozen=True)
@@ -175,12 +183,14 @@ def compare_numeric(
     InputError
         If a number of the robot is out of reach of floating point.
     PkmExactError
-        If the robot has infinitely many poses, or the certified engine gives no answer.
+        If the certified engine gives no answer.
+    NothingToCompareError
+        If it has no list of all poses, since they form a set of positive dimension, or seem to.
     """
     robot = numeric_robot(problem)
     certified = solve(problem, width=WIDTH, progress=progress) if solution is None else solution
-    if certified.claim in (Claim.POSITIVE_DIMENSIONAL_DETECTED, Claim.POSITIVE_DIMENSIONAL_PROVED):
-        raise PkmExactError("the robot has infinitely many poses, so that there is no list of them to compare with")
+    if certified.claim in INFINITE:
+        raise NothingToCompareError(certified)
     judge = Judge(problem, certified.poses, characteristic_length(problem))
     results = []
     for name, engine in ENGINES.items():

@@ -62,11 +62,12 @@ class ResultFigures:
         Primes at which the system was eliminated.
     complex_solutions : int or None
         Solutions of the formulation's equations with multiplicity, those included that are no poses; None if there are
-        infinitely many. For AFD2 those with 1 + t_j^2 = 0, which are infinitely many, are left out.
+        infinitely many, modulo a prime at least. For AFD2 those with 1 + t_j^2 = 0, which are infinitely many, are left
+        out.
     real_solutions : int or None
         Distinct real solutions of the same.
     real_poses : int or None
-        None if there are infinitely many.
+        None if poses form a set of positive dimension, or seem to; there may be none, or infinitely many.
     claim : Claim
         What is proved about the list of poses.
     seconds : float

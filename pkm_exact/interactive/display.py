@@ -14,6 +14,7 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Final
 
 from pkm_exact.claim import Claim
+from pkm_exact.claim_wording import meaning
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.motions.motion import Motion
@@ -31,15 +32,6 @@ if TYPE_CHECKING:
 HEADER: Final = ("", "x", "y", "z", "q0", "q1", "q2", "q3", "det J", "cond J")
 PLANAR_HEADER: Final = ("", "x", "y", "theta", "det J", "cond J")
 
-_MEANING: Final = {
-    Claim.COMPLETE: "complete: it is proved that there is no other",
-    Claim.NOT_PROVEN_COMPLETE: "not proven complete: each pose is certified, but others are not excluded",
-    Claim.POSITIVE_DIMENSIONAL_DETECTED: (
-        "infinitely many solutions detected, not proved: the robot may move with locked legs"
-    ),
-    Claim.POSITIVE_DIMENSIONAL_PROVED: "infinitely many solutions, proved: the robot moves with locked legs",
-    Claim.INCONSISTENT: "inconsistent: no pose has these leg lengths, not even a complex one",
-}
 _COUNTED: Final = (Claim.COMPLETE, Claim.NOT_PROVEN_COMPLETE)
 _ROWS: Final = 40
 """Rows shown of many; the rest is counted."""
@@ -49,14 +41,14 @@ _LONGEST_TEXT: Final = 30
 
 def headline(solution: Solution) -> str:
     """One sentence that says how many solutions were found and what is claimed of them."""
-    meaning = _MEANING[solution.claim]
+    words = meaning(solution.claim, solution.real_motion)
     if solution.claim not in _COUNTED:
-        return meaning
+        return words
     distinct, total = solution.distinct_solutions, solution.complex_solutions
     several = "" if distinct == total else f" ({distinct} distinct)"
     count = f"{counted(total, 'complex solution')}{several}, {counted(len(solution.poses), 'real pose')}"
     route = f" ({solution.completeness_route})" if solution.completeness_route else ""
-    return f"{count}; {meaning}{route}"
+    return f"{count}; {words}{route}"
 
 
 def pose_cells(number: int, pose: Pose, motion: Motion) -> tuple[str, ...]:

@@ -53,7 +53,7 @@ def statement(scene: Scene) -> str:
     if scene.claim.startswith("positive-dimensional"):
         proved = "proved" if scene.claim.endswith("proved") else "detected, not proved"
         shown = f"{counted(len(scene.poses), 'isolated real pose')} listed"
-        return f"poses on curves or surfaces ({proved}); {shown}"
+        return f"complex poses on curves or surfaces ({proved}); {shown}"
     return f"{poses} listed; not proven complete"
 
 

@@ -103,7 +103,7 @@ def roots_figure(document: Mapping[str, Any], *, size: tuple[float, float] | Non
     Raises
     ------
     InputError
-        If the certificate has no eliminant, or one of witnesses of a self-motion only.
+        If the certificate has no eliminant, or one of witnesses of positive dimension only.
     """
     roots = _roots(document)
     stretch = _stretch(roots)
@@ -140,7 +140,7 @@ def _roots(document: Mapping[str, Any]) -> Roots:
         raise InputError(f"representation: the certificate has no eliminant whose roots could be drawn, {why}")
     if document["claim"] == "positive-dimensional-proved":
         raise InputError(
-            "representation: the eliminant is one of witnesses of a self-motion, its roots are not the poses; "
+            "representation: the eliminant is one of witnesses of positive dimension, its roots are not the poses; "
             "draw the poses instead"
         )
     h = fmpz_poly([int(text, 16) for text in representation["eliminant"]])

@@ -1,11 +1,12 @@
-"""Proofs that a robot moves although its legs are locked.
+"""Proofs that the poses of a robot form curves or surfaces. Whether real ones are among them is another question
+(``numeric.real_motion``): only then the robot moves although its legs are locked.
 
 Dependent legs. Rigid motions form a variety of dimension 6 on which each leg is a hyperplane. If the six leg forms have
 rank r < 6 (an architecture singularity), every component of the set of poses has dimension at least 6 - r; one finite
-pose, real or complex, then proves a self-motion through it. Planar motions have dimension 3, and three legs.
+pose, real or complex, then lies on such a set. Planar motions have dimension 3, and three legs.
 
-Collinear joints. If the platform joints lie on a line, the platform turns about it, whatever the pose; if they lie in
-one point, it turns about that point in any way. The same holds for the base. Again one finite pose is enough.
+Collinear joints. If the platform joints lie on a line, the platform can be turned about it, whatever the pose; if they
+lie in one point, about that point in any way. The same holds for the base. Again one finite pose is enough.
 
 Such a pose is found by joining further legs, chosen at random, until finitely many poses are left, and solving: every
 pose of the longer list of legs is one of the robot's.
@@ -25,6 +26,7 @@ from random import Random
 
 from flint import fmpq, fmpq_mat
 
+from pkm_exact.claim import RealMotion
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
 from pkm_exact.formulations.base import rational
@@ -58,7 +60,7 @@ class Mobility:
     rank : int
         Of the leg forms.
     causes : tuple of Cause
-        All that apply; each proves a self-motion by itself, the dimension is the greatest that one of them gives.
+        All that apply; each is a proof by itself, the dimension is the greatest that one of them gives.
     """
 
     dimension: int
@@ -78,11 +80,14 @@ class SelfMotion:
         Further legs.
     representation : PoseRepresentation
         Complex poses, verified, in which the robot's legs and the further ones have their lengths.
+    real : RealMotion
+        What is proved of real ones.
     """
 
     mobility: Mobility
     legs: tuple[Distance, ...]
     representation: PoseRepresentation
+    real: RealMotion = RealMotion.OPEN
 
 
 def mobility(problem: ForwardProblem) -> Mobility | None:
@@ -177,6 +182,11 @@ class TranslationalMotion:
 
     rotation: tuple[Vector, Vector, Vector]
     offset: Vector
+
+    @property
+    def real(self) -> RealMotion:
+        """Proved: the length of a leg is real and not 0, and so is R."""
+        return RealMotion.PROVED
 
 
 def translational_motion(problem: ForwardProblem) -> TranslationalMotion | None:

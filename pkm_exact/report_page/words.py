@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pkm_exact.claim import Claim, CompletenessRoute
+from pkm_exact.claim_wording import OF_CERTIFICATE, OF_CERTIFICATE_MEANING, OF_EVIDENCE, OF_EVIDENCE_MEANING
 from pkm_exact.wording import counted
 
 
@@ -44,7 +45,7 @@ def meaning_of(document: Mapping[str, Any]) -> Meaning:
             "No position of the platform gives all legs their lengths, not even a complex one.",
             "An elimination over the rational numbers shows that the equations of the legs imply 0 = 1.",
         )
-    return _moving(number, proved=claim is Claim.POSITIVE_DIMENSIONAL_PROVED)
+    return _infinite(number, proved=claim is Claim.POSITIVE_DIMENSIONAL_PROVED)
 
 
 def _complete(document: Mapping[str, Any], number: int) -> Meaning:
@@ -105,25 +106,20 @@ def _open(document: Mapping[str, Any], number: int) -> Meaning:
     )
 
 
-def _moving(number: int, *, proved: bool) -> Meaning:
+def _infinite(number: int, *, proved: bool) -> Meaning:
     isolated = "1 isolated pose is" if number == 1 else f"{number} isolated poses are"
     beside = f" Beside them {isolated} certified, those listed; others are not excluded." if number else ""
     if proved:
         return Meaning(
             "infinitely many, proved",
             True,
-            "Infinitely many solutions: the robot moves with its legs locked.",
-            "The leg lengths do not hold the platform: its equations have curves or surfaces of solutions, real or "
-            f"complex.{beside}",
-            "The certificate contains solutions, and the legs provably leave the platform a freedom of motion there, "
-            "for the reason in the last line of what was checked, below.",
+            OF_CERTIFICATE,
+            f"{OF_CERTIFICATE_MEANING}{beside}",
+            "The certificate contains solutions, and they lie on curves or surfaces of solutions for the reason in the "
+            "last line of what was checked, below.",
         )
     return Meaning(
-        "infinitely many, not proved",
-        False,
-        "Infinitely many solutions were detected, not proved: the robot may move with its legs locked.",
-        f"Computations modulo several primes point to a self-motion. This is evidence, not a proof.{beside}",
-        "There is no proof of the freedom of motion.",
+        "infinitely many, not proved", False, OF_EVIDENCE, f"{OF_EVIDENCE_MEANING}{beside}", "There is no proof."
     )
 
 

@@ -84,7 +84,7 @@ def _isolated_listed(document: Document, isolated: Isolated) -> Iterator[str]:
         if document.claim == "positive-dimensional-proved" and document.representation is not None:
             yield from check_self_motion(document, document.representation)
         elif alone and (document.claim, document.route) == ("positive-dimensional-detected", None):
-            yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
+            yield "positive dimension detected: evidence found by the solver, no proof"
         else:
             raise rejected(f"claim: {document.claim} is not proved by what is in the certificate")
         return
@@ -105,7 +105,7 @@ def _nothing_listed(document: Document) -> Iterator[str]:
     if proved == (False, "not-proven-complete", None):
         yield "not proven complete: no solution is listed, and none is excluded"
     elif proved == (False, "positive-dimensional-detected", None):
-        yield "positive dimension detected: evidence found by the solver, nothing is claimed as proved"
+        yield "positive dimension detected: evidence found by the solver, no proof"
     elif document.elimination is not None and proved[1:] == ("inconsistent", "exact-elimination"):
         eliminate(document.legs, document.metric, document.elimination).standard(0)
         yield "inconsistent: 1 = 0 follows from the leg lengths, there is no solution, real or complex"

@@ -3,15 +3,17 @@
 Three proofs are known. (1) The leg forms, on the 17 coordinates of rigid motions, have rank r < 6. Rigid motions are a
 variety of dimension 6, so each component of its section by the legs has dimension 6 - r at least, those through the
 witnesses too. Planar motions are a variety of dimension 3, and linear in 8 coordinates. (2) The joints of one side lie
-on a line, or in one point: whatever the pose, the platform turns about it. (3) At a witness all legs C + R B_i - A_i
-are the same vector. Then the platform can move on a sphere, in the plane on a circle, without turning: with R as it is,
-any C for which this vector keeps its length.
+on a line, or in one point: whatever the pose, the platform can be turned about it. (3) At a witness all legs
+C + R B_i - A_i are the same vector. Then the platform can move on a sphere, in the plane on a circle, without turning:
+with R as it is, any C for which this vector keeps its length. Only there the motion is proved to be real: R is, as the
+joints of no side lie on a line (in the plane: in a point) and so determine it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import lcm
+from typing import Final
 
 from flint import fmpq, fmpq_mat, fmpz_mat
 
@@ -19,6 +21,8 @@ from pkm_exact.certify.checker.document import Document, Representation
 from pkm_exact.certify.checker.solutions import primitive_part, vanishes
 from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, Point, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import rejected
+
+_NOT_REAL: Final = "that one of them is real, and the robot moves, is not proved"
 
 
 def check_self_motion(document: Document, representation: Representation) -> Iterator[str]:
@@ -34,12 +38,15 @@ def check_self_motion(document: Document, representation: Representation) -> Ite
     sides = [leg.base for leg in document.legs], [leg.platform for leg in document.legs]
     turning = max(_turning(joints, planar=planar) for joints in sides)
     if freedom - rank > turning:
-        yield f"positive dimension: the legs have rank {rank}, the robot moves in dimension {freedom - rank} at least"
+        least = f"sets of dimension {freedom - rank} at least"
+        yield f"positive dimension: the legs have rank {rank}, complex poses form {least}; {_NOT_REAL}"
     elif turning:
-        yield f"positive dimension: joints lie on a line or in a point, the robot turns in dimension {turning} at least"
+        least = f"sets of dimension {turning} at least by turning about it"
+        yield f"positive dimension: joints lie on a line or in a point, complex poses form {least}; {_NOT_REAL}"
     elif _are_parallel(representation, document.legs, document.metric):
         path = "circle" if planar else "sphere"
-        yield f"positive dimension: all legs are the same vector, the platform moves on a {path} without turning"
+        what = f"real poses form a {path}; the robot moves with its legs locked"
+        yield f"positive dimension: all legs are the same vector, {what}"
     else:
         raise rejected("claim: positive-dimensional-proved is not proved by the witnesses")
 

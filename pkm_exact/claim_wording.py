@@ -1,0 +1,82 @@
+"""The words for a claim: table, JSON, notebook, page, picture and message all take them from here.
+
+``docs/guarantees.md`` defines each claim and quotes its sentence; the tests hold one against the other. A robot is said
+to move only where a real motion is proved (``RealMotion``): that the complex poses form a curve does not say that a
+real one lies on it. The checkers share nothing with this package: their sentences stand in ``docs/certificates.md``.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+from pkm_exact.claim import Claim, RealMotion
+
+INFINITE: Final = (Claim.POSITIVE_DIMENSIONAL_DETECTED, Claim.POSITIVE_DIMENSIONAL_PROVED)
+
+_OF_LISTS: Final = {
+    Claim.COMPLETE: "complete: it is proved that there is no other",
+    Claim.NOT_PROVEN_COMPLETE: "not proven complete: each pose is certified, but others are not excluded",
+    Claim.POSITIVE_DIMENSIONAL_DETECTED: (
+        "infinitely many solutions detected, not proved; whether the robot can move with locked legs is not known"
+    ),
+    Claim.INCONSISTENT: "inconsistent: no pose has these leg lengths, not even a complex one",
+}
+_OF_MOTIONS: Final = {
+    RealMotion.PROVED: "infinitely many real poses, proved: the robot moves with locked legs",
+    RealMotion.OPEN: "infinitely many complex poses, proved; a real motion is neither proved nor excluded",
+    RealMotion.NO_REAL_POSE: "infinitely many complex poses, proved; that none of them is real is proved as well",
+}
+REAL_MOTION: Final = {
+    RealMotion.PROVED: "real ones among them are proved, along which the robot moves with its legs locked",
+    RealMotion.OPEN: "that one of them is real, and that the robot moves, is neither proved nor excluded",
+    RealMotion.NO_REAL_POSE: "no real pose has these leg lengths, which is proved too",
+}
+"""What is known of real motions on a set of complex poses, after its cause and its dimension."""
+
+PARALLEL: Final = (
+    "self-motion: base and platform are congruent and the legs equal, so that the platform moves on {path} without "
+    "turning"
+)
+"""The motion that every certificate of it proves to be real."""
+OF_CERTIFICATE: Final = "Infinitely many complex poses, proved."
+OF_CERTIFICATE_MEANING: Final = (
+    "The equations of the legs have curves or surfaces of solutions. Whether real poses are among them, so that the "
+    "robot moves with its legs locked, is proved by this certificate only if the last line of what was checked, below, "
+    "says so."
+)
+"""What a certificate says of a set of positive dimension: its proof is one of complex poses."""
+OF_EVIDENCE: Final = "Infinitely many solutions were detected, not proved; whether the robot can move is not known."
+OF_EVIDENCE_MEANING: Final = (
+    "Modulo two primes the solutions are infinitely many. This is evidence, not a proof, and does not tell real "
+    "solutions from others."
+)
+DETECTED_NOTE: Final = (
+    "the solutions form a set of positive dimension at two primes, which is evidence and no proof: there is a curve of "
+    "poses, real or complex, or solutions run together at infinity"
+)
+INCONSISTENT_NOTE: Final = "no pose, real or complex, has these leg lengths"
+NO_SOLUTION_NOTE: Final = (
+    "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
+)
+
+
+def meaning(claim: Claim, motion: RealMotion | None) -> str:
+    """The sentence for a claim; of a set of positive dimension that is proved, with what is known of real motions.
+
+    Examples
+    --------
+    >>> meaning(Claim.COMPLETE, None)
+    'complete: it is proved that there is no other'
+    >>> meaning(Claim.POSITIVE_DIMENSIONAL_PROVED, RealMotion.OPEN)
+    'infinitely many complex poses, proved; a real motion is neither proved nor excluded'
+    """
+    if claim is Claim.POSITIVE_DIMENSIONAL_PROVED:
+        return _OF_MOTIONS[motion or RealMotion.OPEN]
+    return _OF_LISTS[claim]
+
+
+def without_a_list(claim: Claim) -> str:
+    """Why there is no list of all poses, where their set has a positive dimension, or seems to have one."""
+    if claim is Claim.POSITIVE_DIMENSIONAL_PROVED:
+        return "its complex poses are infinitely many, which is proved"
+    return "its solutions are infinitely many modulo two primes, which is evidence and no proof"
