@@ -5,11 +5,13 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import click
+import doc_samples
 import pytest
 from doc_samples import LANGUAGES, ROOT, Block, SampleError, Session, blocks, commands
 
@@ -18,7 +20,6 @@ from pkm_exact.cli.commands import COMMANDS
 
 PAGES = sorted([*(ROOT / "docs").rglob("*.md"), *ROOT.glob("*.md")])
 TEXTS = {page: page.read_text(encoding="utf-8") for page in PAGES}
-RUNNER = Path(__file__).parent / "doc_samples.py"
 
 
 def _name(page: Path) -> str:
@@ -29,30 +30,46 @@ def _has_samples(page: Path) -> bool:
     return any(block.language in LANGUAGES - {"text"} for block in blocks(TEXTS[page]))
 
 
+SLOW = ("docs/cli.md", "docs/pictures.md")
+"""Pages with many samples, all of them of commands that other pages run too."""
+
+
 def _is_slow(page: Path) -> bool:
     return any(block.is_slow for block in blocks(TEXTS[page]))
 
 
-def _run(page: Path, folder: Path, *flags: str) -> None:
+def _with_samples() -> Iterator[Any]:
+    for page in filter(_has_samples, PAGES):
+        name = _name(page)
+        yield pytest.param(page, id=name, marks=pytest.mark.slow if name in SLOW else ())
+
+
+@pytest.fixture
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Callable[..., None]:
     """Run a page's samples in a folder with copies of what a reader of the repository has."""
     for part in ("models", "certs"):
-        shutil.copytree(ROOT / part, folder / part)
+        shutil.copytree(ROOT / part, tmp_path / part)
+    monkeypatch.chdir(tmp_path)
     path = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
-    environment = os.environ | {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "200", "HOME": str(folder)}
-    command = [sys.executable, "-W", "error", str(RUNNER), *flags, str(page)]
-    done = subprocess.run(command, capture_output=True, text=True, cwd=folder, env=environment)
-    assert done.returncode == 0, done.stderr
+    for name, value in {"PATH": path, "MPLBACKEND": "Agg", "COLUMNS": "200", "HOME": str(tmp_path)}.items():
+        monkeypatch.setenv(name, value)
+
+    def run(page: Path, *flags: str) -> None:
+        code = doc_samples.main([*flags, str(page)])
+        assert code == 0, capfd.readouterr().err
+
+    return run
 
 
-@pytest.mark.parametrize("page", [*filter(_has_samples, PAGES)], ids=_name)
-def test_the_samples_of_a_page_run(page: Path, tmp_path: Path) -> None:
-    _run(page, tmp_path)
+@pytest.mark.parametrize("page", _with_samples())
+def test_the_samples_of_a_page_run(page: Path, run: Callable[..., None]) -> None:
+    run(page)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("page", [*filter(_is_slow, PAGES)], ids=_name)
-def test_the_slow_samples_of_a_page_run(page: Path, tmp_path: Path) -> None:
-    _run(page, tmp_path, "--slow")
+def test_the_slow_samples_of_a_page_run(page: Path, run: Callable[..., None]) -> None:
+    run(page, "--slow")
 
 
 @pytest.mark.parametrize("page", PAGES, ids=_name)

@@ -52,7 +52,9 @@ def test_every_help_has_examples(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
-def test_every_example_of_a_help_works(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_example_of_a_help_works(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
     """In the order in which they are shown, in a folder that has models/, certs/ and the reader's own files."""
     for folder in ("models", "certs"):
         shutil.copytree(ROOT / folder, tmp_path / folder)
@@ -63,17 +65,12 @@ def test_every_example_of_a_help_works(name: str, tmp_path: Path, monkeypatch: p
         if any(word in example for word in NOT_HERE):
             continue
         line, _, target = example.partition(" > ")
-        done = subprocess.run(
-            [sys.executable, "-m", "pkm_exact.cli.main", *shlex.split(line)[1:]],
-            capture_output=True,
-            text=True,
-            check=False,
-            stdin=subprocess.DEVNULL,
-        )
+        code = main(shlex.split(line)[1:])
+        out, err = capsys.readouterr()
         expected = ExitCode.WEAKER_CLAIM if "--method newton" in line else ExitCode.DONE
-        assert done.returncode == expected, (example, done.stdout, done.stderr)
+        assert code == expected, (example, out, err)
         if target:
-            Path(target).write_text(done.stdout)
+            Path(target).write_text(out)
 
 
 def test_versions_begin_with_our_own(capsys: Capture) -> None:

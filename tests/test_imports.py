@@ -5,6 +5,7 @@ import subprocess
 import sys
 from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -81,24 +82,29 @@ def _part(module: str) -> str:
     return f"{module}.".split(".")[1]
 
 
-MODULES = {
-    ".".join(path.relative_to(ROOT).with_suffix("").parts): ast.parse(path.read_text(encoding="utf-8"))
-    for path in PACKAGE.rglob("*.py")
-    if path != PACKAGE / "__init__.py"
-}
+@cache
+def modules() -> dict[str, ast.Module]:
+    """The modules of the package, parsed when a test asks for them: every process collects this file."""
+    return {
+        ".".join(path.relative_to(ROOT).with_suffix("").parts): ast.parse(path.read_text(encoding="utf-8"))
+        for path in PACKAGE.rglob("*.py")
+        if path != PACKAGE / "__init__.py"
+    }
+
+
 STATED = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8").partition("A robot becomes a certificate")[2]
 ORDER = [line.split()[0] for line in STATED.split("```")[1].splitlines()[1:]]
 """The parts of the package in the order that CONTRIBUTING.md states."""
 
 
 def test_every_part_has_a_place_in_the_order() -> None:
-    assert sorted(ORDER) == sorted({_part(module) for module in MODULES})
+    assert sorted(ORDER) == sorted({_part(module) for module in modules()})
 
 
 def test_parts_import_from_those_above_them_only() -> None:
     upwards = [
         f"{module} imports {name}"
-        for module, tree in MODULES.items()
+        for module, tree in modules().items()
         for name in _imported(tree)
         if ORDER.index(_part(name)) > ORDER.index(_part(module))
     ]
@@ -106,10 +112,10 @@ def test_parts_import_from_those_above_them_only() -> None:
 
 
 def test_only_the_command_line_imports_the_command_line() -> None:
-    importing = {module for module, tree in MODULES.items() if "cli" in map(_part, _imported(tree))}
+    importing = {module for module, tree in modules().items() if "cli" in map(_part, _imported(tree))}
     assert {_part(module) for module in importing} == {"cli"}
 
 
 def test_no_two_modules_have_the_same_name() -> None:
-    names = [module.rpartition(".")[2] for module in MODULES if not module.endswith("__init__")]
+    names = [module.rpartition(".")[2] for module in modules() if not module.endswith("__init__")]
     assert sorted(name for name, count in Counter(names).items() if count > 1) == []

@@ -8,15 +8,21 @@ from samples import CODES, MODELS, REFERENCE, shipped, solved, system
 from pkm_exact.backends.msolve_program import MsolveError, find_msolve, msolve_input, parse_msolve, run_msolve
 from pkm_exact.formulations.registry import formulation
 
-QUICK = ("dietmaier", "mourrain-l", "robocrane-r", "rolland-6-6", "similar-planar-s", "ssm-exact")
-ROBOTS = [pytest.param(path.stem, marks=() if path.stem in QUICK else pytest.mark.slow) for path in MODELS]
-
 needs_msolve = pytest.mark.skipif(find_msolve() is None, reason="the program msolve is not installed")
 
 
-SLOW = "ssm-rounded"  # its completeness takes an elimination with long numbers
+EVERY_FORMULATION = "mourrain-l"
+IN_ONE_FORMULATION = ("3-rpr-merlet-p", "3-rpr-triple", "3-rrr", "robocrane-r", "ssm-exact")
+
+
+def _is_quick(name: str, code: str) -> bool:
+    return name == EVERY_FORMULATION or (name in IN_ONE_FORMULATION and code == CODES[0])
+
+
 CASES = [
-    pytest.param(path.stem, code, id=f"{path.stem}-{code}", marks=[pytest.mark.slow] if path.stem == SLOW else [])
+    pytest.param(
+        path.stem, code, id=f"{path.stem}-{code}", marks=() if _is_quick(path.stem, code) else pytest.mark.slow
+    )
     for path in MODELS
     for code in (CODES if path.stem in REFERENCE else CODES[:1])
 ]
@@ -34,7 +40,7 @@ def test_msolve_counts_the_same(name: str, code: str) -> None:
 
 
 @needs_msolve
-@pytest.mark.parametrize("name", ["mourrain-l", "rolland-6-6"])
+@pytest.mark.parametrize("name", ["mourrain-l", pytest.param("rolland-6-6", marks=pytest.mark.slow)])
 def test_msolve_finds_the_positions_of_our_boxes(name: str) -> None:
     equations = formulation("AFD4").formulate(shipped(name)).system
     position = [equations.unknowns.index(unknown) for unknown in ("c1", "c2", "c3")]

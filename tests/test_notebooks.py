@@ -9,6 +9,8 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.py"))
+QUICK = ("derive_displacement", "derive_position")
+EACH = [pytest.param(path, id=path.stem, marks=() if path.stem in QUICK else pytest.mark.slow) for path in NOTEBOOKS]
 
 
 def _run(notebook: Path, folder: Path, **variables: str) -> str:
@@ -25,7 +27,7 @@ def test_the_four_documents_are_there() -> None:
     assert names >= {"derive_displacement", "derive_position", "compare_formulations", "motion_variety"}
 
 
-@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("notebook", EACH)
 def test_notebook_runs(notebook: Path, tmp_path: Path) -> None:
     assert _run(notebook, tmp_path, PKM_EXACT_QUICK="1")
 

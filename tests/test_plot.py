@@ -67,17 +67,22 @@ FIGURES = {
 }
 
 
+@cache
+def standard(name: str, figure: str = "grid") -> tuple[Figure, Drawn]:
+    """The picture of a golden certificate without options, drawn once for all that is asked of it."""
+    made = FIGURES[figure](scene(name))
+    return made, render(made)
+
+
 # What is drawn
 
 
 @pytest.mark.parametrize("name", ["mourrain-l", "3-rpr-double-q", "linapod-n", "3-rrr", *map(slow, LONGER)])
 def test_there_is_a_panel_for_each_pose_with_its_title(name: str) -> None:
     shown = scene(name)
-    figure = poses_figure(shown)
+    figure, drawn = standard(name)
     assert [axes.get_label() for axes in panels(figure)] == [f"pose {pose.number}" for pose in shown.poses]
-    titles = [
-        text for text, _ in render(figure).texts if text.split(":")[0].split(" ")[0].isdigit() and "det J" in text
-    ]
+    titles = [text for text, _ in drawn.texts if text.split(":")[0].split(" ")[0].isdigit() and "det J" in text]
     for title, pose in zip(titles, shown.poses, strict=True):
         sign = {1: ">", -1: "<", 0: "="}[pose.det_sign]
         assert title.startswith(f"{pose.number}")
@@ -88,7 +93,7 @@ def test_there_is_a_panel_for_each_pose_with_its_title(name: str) -> None:
 @pytest.mark.parametrize("name", ["mourrain-l", "3-rpr-double-q", "linapod-n", "3-rrr", *map(slow, LONGER)])
 def test_drawn_legs_have_their_true_lengths_and_stand_on_the_base(name: str) -> None:
     shown = scene(name)
-    for axes, pose in zip(panels(poses_figure(shown)), shown.poses, strict=True):
+    for axes, pose in zip(panels(standard(name)[0]), shown.poses, strict=True):
         for leg, (a, b) in enumerate(shown.legs):
             ends = line(axes, f"leg-{leg + 1}")
             assert length(ends) == pytest.approx(shown.lengths[leg], rel=1e-12)
@@ -155,7 +160,7 @@ def test_up_is_up_and_right_is_right() -> None:
 
 
 def test_legs_have_their_colours_and_one_legend() -> None:
-    figure = poses_figure(scene("mourrain-l"))
+    figure, _ = standard("mourrain-l")
     for axes in panels(figure):
         drawn = {entry.get_gid(): entry.get_color() for entry in axes.lines if str(entry.get_gid()).startswith("leg")}
         assert drawn == {f"leg-{leg}": LEG_COLOURS[leg - 1] for leg in range(1, 7)}
@@ -174,7 +179,7 @@ def drawn_names() -> list[str]:
 
 def test_an_overlay_numbers_all_poses() -> None:
     shown = scene("mourrain-l")
-    texts = [text for text, _ in render(overlay_figure(shown)).texts]
+    texts = [text for text, _ in standard("mourrain-l", "overlay")[1].texts]
     assert {str(pose.number) for pose in shown.poses} <= set(texts)
 
 
@@ -184,7 +189,7 @@ def test_an_overlay_numbers_all_poses() -> None:
 @pytest.mark.parametrize("name", ["mourrain-l", slow("hexa"), slow("hexaglide"), "linapod-n", "3-prr"])
 @pytest.mark.parametrize("figure", FIGURES)
 def test_nothing_is_cut_off(name: str, figure: str) -> None:
-    drawn = render(FIGURES[figure](scene(name)))
+    _, drawn = standard(name, figure)
     assert drawn.texts_inside()
     assert drawn.edge_is_white()
 
@@ -232,8 +237,7 @@ def scaled(shown: Scene, factor: float) -> Scene:
 @pytest.mark.parametrize("name", ["mourrain-l", "3-rrr", slow("rolland-6-6"), slow("dietmaier")])
 def test_titles_overlap_neither_each_other_nor_drawings(name: str) -> None:
     shown = scene(name)
-    figure = poses_figure(shown)
-    drawn = render(figure)
+    figure, drawn = standard(name)
     titles = [box for text, box in drawn.texts if "det J" in text and ":" in text]
     assert len(titles) == len(shown.poses)
     for one, two in combinations([*titles, *headlines(drawn)], 2):
@@ -258,9 +262,7 @@ def headlines(drawn: Drawn) -> list[Bbox]:
 @pytest.mark.parametrize("name", ["mourrain-l", "linapod-n", "3-rrr", slow("hexa")])
 @pytest.mark.parametrize("figure", FIGURES)
 def test_headline_legend_and_drawing_are_apart(name: str, figure: str) -> None:
-    shown = scene(name)
-    made = FIGURES[figure](shown)
-    drawn = render(made)
+    made, drawn = standard(name, figure)
     legend = made.legends[0].get_window_extent()
     entries = {text.get_text() for text in made.legends[0].get_texts()}
     apart = [legend, *headlines(drawn)]

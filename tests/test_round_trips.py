@@ -89,7 +89,7 @@ def _check_round_trip(shape: str, seed: int, metric: tuple[int, int, int]) -> No
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-@settings(max_examples=2)
+@settings(max_examples=1)
 @given(seed=seeds, metric=st.sampled_from(METRICS))
 def test_the_known_pose_is_found(shape: str, seed: int, metric: tuple[int, int, int]) -> None:
     _check_round_trip(shape, seed, metric)

@@ -66,7 +66,8 @@ def records(path: Path) -> list[dict[str, Any]]:
 
 
 def run(model: Path, rows: Path, out: Path, *options: str) -> int:
-    return main(["sweep", str(model), str(rows), "-o", str(out), "--workers", "2", *options])
+    """The command with one worker; each costs a start."""
+    return main(["sweep", str(model), str(rows), "-o", str(out), "--workers", "1", *options])
 
 
 @dataclass
