@@ -68,7 +68,7 @@ BAD_USAGE = [
     (["solve", str(ROOT)], "is a directory"),
     (["solve", MODEL, "--configuration", "nowhere"], "'nowhere' is unknown; use one of: home"),
     (["solve", MODEL, "--configuration", "home", "--lengths", "1,1,1,1,1,1"], "exclude each other"),
-    (["solve", MODEL, "--lengths", "1,1,1,1,1"], "--lengths: 5 given, six are needed"),
+    (["solve", MODEL, "--lengths", "1,1,1,1,1"], "lengths: 5 values; give 6, one per leg"),
     (["solve", MODEL, "--lengths", "1,1,1,1,1,-1"], "--lengths, number 6: -1 is not positive"),
     (["solve", MODEL, "--lengths", "1,1,1,1,1,nan"], "--lengths, number 6: nan is not a finite number"),
     (["solve", MODEL, "--lengths", "1,1,1,1,1,__import__('os')"], "--lengths, number 6: __import__"),

@@ -239,10 +239,10 @@ def test_legs_of_planar_robots(capsys: Capture) -> None:
 
 
 WRONG = [
-    (["solve", P, "--lengths", "1,1,1,1,1,1"], "3-rpr-merlet-p.toml: lengths_squared: 6 values; give 3, one per leg"),
+    (["solve", P, "--lengths", "1,1,1,1,1,1"], "3-rpr-merlet-p.toml: lengths: 6 values; give 3, one per leg"),
     (
         ["solve", P, "--lengths", "1,1,1,1"],
-        "--lengths: 4 given, six are needed between commas, three for a planar robot",
+        "lengths: 4 values; give 3, one per leg",
     ),
     (["solve", P, "--formulation", "AFD4"], "AFD4 is for spatial robots, but this one is planar; use SE3"),
     (["export", P, "--formulation", "AFP4", "--to", TARGETS[0]], "AFP4 is for spatial robots, but this one is planar"),

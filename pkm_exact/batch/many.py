@@ -20,7 +20,7 @@ from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.errors import InputError, PkmExactError
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.reader import read_jointed_robot
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.interactive.facade import exact_length, exact_width
 from pkm_exact.policy import Policy
@@ -154,7 +154,7 @@ def solve_many(
     'lengths, row 2, leg 3: -1 is not positive; give a number greater than 0'
     """
     if not isinstance(robot, Robot):
-        robot = read_robot(Path(robot))
+        robot = read_jointed_robot(Path(robot), "solve_many")
     policy, width = policy or Policy(), exact_width(width)
     problems = [
         _problem(robot, row, number, squared, doubles_are_exact)

@@ -15,11 +15,13 @@ from json.encoder import encode_basestring_ascii
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.certify.witness import translation_witnesses
+from pkm_exact.errors import PkmExactError
 from pkm_exact.files import write_whole
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.robot import Robot
 
 if TYPE_CHECKING:
-    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.poses.isolated_solutions import IsolatedSolutions
     from pkm_exact.poses.pose import Pose
     from pkm_exact.roots.interval import Interval
@@ -29,7 +31,7 @@ FORMAT: Final = "pkm_exact certificate"
 VERSION: Final = 1
 
 
-def certificate(robot: Robot, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
+def certificate(robot: Machine, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
     """The certificate of a solution, as a JSON object with its digest.
 
     Parameters
@@ -49,14 +51,16 @@ def certificate(robot: Robot, configuration_name: str | None, solution: Solution
     return sealed(_content(robot, configuration_name, solution))
 
 
-def certificate_bytes(robot: Robot, configuration_name: str | None, solution: Solution) -> bytes:
+def certificate_bytes(robot: Machine, configuration_name: str | None, solution: Solution) -> bytes:
     """What ``write_certificate`` writes of a solution, spelled out only once; errors as ``certificate``."""
     body = canonical_bytes(_content(robot, configuration_name, solution))
     return body.removesuffix(b"\n}\n") + f',\n "digest": "{_digest(body)}"\n}}\n'.encode("ascii")
 
 
-def _content(robot: Robot, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
+def _content(robot: Machine, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
     """The certificate without its digest."""
+    if not isinstance(robot, Robot):
+        raise PkmExactError("certificate: a mechanism declared by constraints needs version 2 of the format")
     # The checker knows legs only: cranks and slides are certified as the 6-UPS robot with their knees as base joints.
     robot = robot.as_gough(robot.configuration(configuration_name) if robot.chains else None)
     lengths_squared = [leg.length_squared for leg in solution.problem.distances]

@@ -16,10 +16,12 @@ from pkm_exact.policy import SMALLEST_WIDTH
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
-    from pkm_exact.geometry.robot import Configuration, Robot
+    from pkm_exact.geometry.robot import Configuration
 
 LONGEST_TIME: Final = 10**8
+MOST_LENGTHS: Final = 64
 
 
 def width(context: click.Context, _option: click.Parameter, value: str) -> Fraction:
@@ -31,14 +33,12 @@ def width(context: click.Context, _option: click.Parameter, value: str) -> Fract
 
 
 def lengths(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[Fraction, ...] | None:
-    """The numbers that --lengths denotes, six or three; the robot says which."""
+    """The numbers that --lengths denotes; the robot says how many there must be."""
     if value is None:
         return None
     words = value.split(",")
-    if len(words) not in (3, 6):
-        raise click.UsageError(
-            f"--lengths: {len(words)} given, six are needed between commas, three for a planar robot.", context
-        )
+    if len(words) > MOST_LENGTHS:
+        raise click.UsageError(f"--lengths: {len(words)} given, at most {MOST_LENGTHS} are possible.", context)
     return tuple(_number(context, word.strip(), f"--lengths, number {i}") for i, word in enumerate(words, 1))
 
 
@@ -108,12 +108,12 @@ def _number(context: click.Context, text: str, where: str) -> Fraction:
 
 
 def chosen_problem(
-    robot: Robot, model: str, configuration: str | None, given: tuple[Fraction, ...] | None = None
+    robot: Machine, model: str, configuration: str | None, given: tuple[Fraction, ...] | None = None
 ) -> tuple[Configuration | None, ForwardProblem]:
     """The configuration of that name, or the first, and its problem; or None and that of the given lengths."""
     try:
         if given is not None:
-            chosen, problem = None, robot.problem([length * length for length in given])
+            chosen, problem = None, robot.problem_at(given)
         else:
             chosen = robot.configuration(configuration)
             problem = robot.problem(chosen)

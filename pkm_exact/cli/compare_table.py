@@ -14,7 +14,7 @@ from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordina
 
 if TYPE_CHECKING:
     from pkm_exact.comparison.numeric import EngineResult, NumericComparison
-    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.poses.pose import Interval, Pose
     from pkm_exact.solution import Solution
 
@@ -33,7 +33,7 @@ _METHODS = (
 _LISTED = 20
 
 
-def print_comparison(robot: Robot, configuration: str | None, comparison: NumericComparison) -> None:
+def print_comparison(robot: Machine, configuration: str | None, comparison: NumericComparison) -> None:
     """Print the tables, and below them a sentence for what did not converge, to stdout."""
     print_certified(robot, configuration, comparison.solution, f"; random starts: seed {comparison.seed}")
     sys.stdout.write(
@@ -56,7 +56,7 @@ def print_comparison(robot: Robot, configuration: str | None, comparison: Numeri
         sys.stdout.write(_sentence(result, comparison))
 
 
-def print_certified(robot: Robot, configuration: str | None, solution: Solution, starts: str = "") -> None:
+def print_certified(robot: Machine, configuration: str | None, solution: Solution, starts: str = "") -> None:
     """Print what the methods are held against, to stdout."""
     actuators = f"configuration {configuration}" if configuration else "given leg lengths"
     sys.stdout.write(f"{robot.name} ({robot.kind}), {actuators}{starts}\ncertified: {headline(solution)}\n")

@@ -16,7 +16,8 @@ from pkm_exact.export.targets import TARGETS
 from pkm_exact.formulations.registry import formulation_codes
 
 if TYPE_CHECKING:
-    from pkm_exact.geometry.robot import Configuration, Robot
+    from pkm_exact.geometry.machine import Machine
+    from pkm_exact.geometry.robot import Configuration
 
 
 @click.command(short_help="All formulations on one robot, side by side.")
@@ -137,5 +138,5 @@ def export(
     return ExitCode.DONE
 
 
-def _title(robot: Robot, configuration: Configuration | None) -> str:
+def _title(robot: Machine, configuration: Configuration | None) -> str:
     return f"{robot.name} ({robot.kind}), configuration {configuration.name if configuration else 'none'}"

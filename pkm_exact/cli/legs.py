@@ -91,9 +91,9 @@ def legs(
         raise click.UsageError("--quaternion: all four numbers are 0, give one that is not.")
 
     from pkm_exact.cli.legs_report import as_object, as_text
-    from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.geometry.reader import read_jointed_robot
 
-    robot = read_robot(model)
+    robot = read_jointed_robot(model, "legs")
     _require_kind(option, robot, model)
     rotation = _rotation(option, values, robot.metric)
     if layout == "json":

@@ -9,19 +9,20 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.modes import assembly_modes
+from pkm_exact.geometry.robot import Robot
 from pkm_exact.interactive.display import headline
 from pkm_exact.motions.motion import Motion
 from pkm_exact.poses.planar_coordinates import planar_coordinates
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
-    from pkm_exact.geometry.robot import Robot
     from pkm_exact.poses.jacobian import LegJacobian
     from pkm_exact.poses.pose import Interval, Pose
     from pkm_exact.solution import Solution
 
 
-def report(robot: Robot, configuration: str | None, solution: Solution, layout: str, *, verbose: bool) -> None:
+def report(robot: Machine, configuration: str | None, solution: Solution, layout: str, *, verbose: bool) -> None:
     """Print a solution to stdout as ``table``, ``json`` or ``csv``."""
     if layout == "json":
         sys.stdout.write(json.dumps(as_object(robot, configuration, solution), indent=1) + "\n")
@@ -33,7 +34,7 @@ def report(robot: Robot, configuration: str | None, solution: Solution, layout: 
         print_table(robot, configuration, solution, headline(solution), verbose=verbose)
 
 
-def as_object(robot: Robot, configuration: str | None, solution: Solution) -> dict[str, Any]:
+def as_object(robot: Machine, configuration: str | None, solution: Solution) -> dict[str, Any]:
     """The solution as a JSON object: bounds are exact rationals as strings, assembly modes indices of poses."""
     return {
         "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
@@ -52,8 +53,10 @@ def as_object(robot: Robot, configuration: str | None, solution: Solution) -> di
     }
 
 
-def configuration_object(robot: Robot, name: str | None, problem: ForwardProblem) -> dict[str, Any]:
+def configuration_object(robot: Machine, name: str | None, problem: ForwardProblem) -> dict[str, Any]:
     """Name and squared lengths; for cranks and slides also the joint values and where they put the rods' lower ends."""
+    if not isinstance(robot, Robot):
+        return {"name": name, "values": constraint_values(problem)}
     entry: dict[str, Any] = {
         "name": name,
         "lengths_squared": [str(leg.length_squared) for leg in problem.distances],
@@ -63,6 +66,15 @@ def configuration_object(robot: Robot, name: str | None, problem: ForwardProblem
         entry["joint_values"] = [list(map(str, v)) if isinstance(v, tuple) else str(v) for v in values]
         entry["knees"] = [list(map(str, leg.base)) for leg in problem.distances]
     return entry
+
+
+def constraint_values(problem: ForwardProblem) -> dict[str, str]:
+    """The values of all constraints that have one, by name: squared lengths, offsets, products."""
+    return {
+        constraint.name: str(getattr(constraint, constraint.value_field))
+        for constraint in problem.constraints
+        if constraint.value_field is not None
+    }
 
 
 def _pose(pose: Pose, motion: Motion) -> dict[str, Any]:

@@ -98,11 +98,16 @@ def solve(
     require_fitting(click.get_current_context(), method)
     tolerance_report.require_fitting(click.get_current_context(), tolerance, method, layout)
     from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.geometry.robot import jointed
 
     robot = read_robot(model)
     chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     name = chosen.name if chosen else None
-    tolerances = None if tolerance is None else tolerance_report.chosen_tolerances(robot, model, tolerance)
+    tolerances = (
+        None
+        if tolerance is None
+        else tolerance_report.chosen_tolerances(jointed(robot, "--tolerance"), model, tolerance)
+    )
     if output is not None:
         arguments.require_other_file(Path(output), model, "-o")
         arguments.require_writable(Path(output), "-o")
@@ -116,11 +121,18 @@ def solve(
         except InputError as error:
             raise InputError(f"{model}: {error}") from None
     if isinstance(solution, UncertifiedSolution):
-        return report_uncertified(robot, name, solution, layout, output, verbose=verbose)
+        return report_uncertified(jointed(robot, "--method newton"), name, solution, layout, output, verbose=verbose)
     if tolerances is not None:
         with Progress(verbose=verbose) as progress:
             return tolerance_report.report_tolerances(
-                robot, name, solution, tolerances, output, layout, verbose=verbose, progress=progress
+                jointed(robot, "--tolerance"),
+                name,
+                solution,
+                tolerances,
+                output,
+                layout,
+                verbose=verbose,
+                progress=progress,
             )
     if output is not None:
         from pkm_exact.certify.build import certificate_bytes

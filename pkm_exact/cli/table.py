@@ -11,11 +11,12 @@ from pkm_exact.interactive.display import HEADER, PLANAR_HEADER, pose_cells
 from pkm_exact.roots.interval import decimal as decimal
 
 if TYPE_CHECKING:
-    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.geometry.machine import Machine
+    from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.solution import Solution
 
 
-def print_table(robot: Robot, configuration: str | None, solution: Solution, headline: str, *, verbose: bool) -> None:
+def print_table(robot: Machine, configuration: str | None, solution: Solution, headline: str, *, verbose: bool) -> None:
     """Print robot, headline, poses and notes to stdout."""
     actuators = f"configuration {configuration}" if configuration else "given leg lengths"
     lines = [f"{robot.name} ({robot.kind}), {actuators}, formulation {solution.formulation}", headline]
@@ -33,12 +34,11 @@ def print_table(robot: Robot, configuration: str | None, solution: Solution, hea
     print_rows(rows, PLANAR_HEADER if planar else HEADER)
 
 
-def _details(robot: Robot, solution: Solution) -> list[str]:
-    lengths = ", ".join(str(leg.length_squared) for leg in solution.problem.distances)
+def _details(robot: Machine, solution: Solution) -> list[str]:
     widths = [c.width for pose in solution.poses for c in (*pose.position, *pose.quaternion)]
     details = [
         f"source: {robot.source}",
-        f"squared leg lengths: {lengths}",
+        locked_values(solution.problem),
         f"method: {solution.method}; claim: {solution.claim}; route: {solution.completeness_route or 'none'}",
     ]
     if widths:
@@ -51,6 +51,18 @@ def _details(robot: Robot, solution: Solution) -> list[str]:
             f"primes: {len(facts.primes)}, unlucky: {len(facts.unlucky_primes)}; choices made again: {facts.retries}"
         )
     return details
+
+
+def locked_values(problem: ForwardProblem) -> str:
+    """The squared leg lengths, or what the constraints of a mechanism are locked at."""
+    if problem.has_only_distances:
+        return f"squared leg lengths: {', '.join(str(leg.length_squared) for leg in problem.distances)}"
+    values = (
+        f"{constraint.name}: {getattr(constraint, constraint.value_field)}"
+        for constraint in problem.constraints
+        if constraint.value_field is not None
+    )
+    return f"values of the constraints, lengths squared: {', '.join(values)}"
 
 
 def print_rows(rows: list[tuple[str, ...]], header: tuple[str, ...]) -> None:

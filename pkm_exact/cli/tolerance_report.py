@@ -18,6 +18,7 @@ from pkm_exact.geometry.rational import NumberText, parse_positive
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.geometry.tolerances import Tolerances
     from pkm_exact.numeric.tolerance_result import ToleranceBox, ToleranceResult
@@ -55,15 +56,17 @@ def require_fitting(context: click.Context, given: object, method: str, layout: 
         raise click.UsageError("--tolerance: has no csv output; use table or json.", context)
 
 
-def chosen_tolerances(robot: Robot, model: str, given: Fraction | str) -> Tolerances:
+def chosen_tolerances(robot: Machine, model: str, given: Fraction | str) -> Tolerances:
     """The tolerances of the model, or the given number for all data."""
+    from pkm_exact.geometry.robot import jointed
     from pkm_exact.geometry.tolerances import Tolerances
 
     if isinstance(given, Fraction):
         return Tolerances.uniform(given)
-    if robot.tolerances is None:
+    legs = jointed(robot, "--tolerance")
+    if legs.tolerances is None:
         raise InputError(f"{model}: tolerances: is missing; add [tolerances] or give --tolerance a number")
-    return robot.tolerances
+    return legs.tolerances
 
 
 def report_tolerances(

@@ -70,9 +70,9 @@ def track(model: str, path: str, number: int, width: Fraction, output: str, verb
     if target.suffix.lower() not in _SUFFIXES:
         raise click.UsageError(f"-o: {printable(output)} ends neither in .csv nor in .json; give it one of these.")
     from pkm_exact.geometry.path_reader import read_path
-    from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.geometry.reader import read_jointed_robot
 
-    robot = read_robot(model)
+    robot = read_jointed_robot(model, "track")
     joints = read_path(path, robot)
     arguments.require_other_file(target, model, "-o")
     arguments.require_other_file(target, path, "-o", "the file of the path")

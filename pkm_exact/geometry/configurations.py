@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any, Final
+from typing import Any
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import cosine_and_sine, parse_cosine_and_sine
-from pkm_exact.geometry.fields import known_keys, label, list_field, required
-from pkm_exact.geometry.inverse import Matrix, distance_squared, rotation_of
+from pkm_exact.geometry.fields import known_keys, label, list_field
+from pkm_exact.geometry.inverse import distance_squared
 from pkm_exact.geometry.kinds import KINDS
-from pkm_exact.geometry.planar_rotation import parse_half_tangent, parse_turn
-from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational, parse_vector
+from pkm_exact.geometry.pose_reader import read_pose
+from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.wording import shown
-
-_TURNS: Final = ("half_tangent", "cos_sin")
 
 
 def read_configuration(row: dict[str, Any], where: str, robot: Robot) -> Configuration:
@@ -54,13 +52,7 @@ def _joint_value(key: str, value: object, where: str) -> object:
 
 
 def _lengths_squared_at(pose: object, where: str, robot: Robot) -> tuple[Fraction, ...]:
-    kind = KINDS[robot.kind]
-    if not isinstance(pose, dict):
-        rotation = "half_tangent = ..." if kind.motion.is_planar else "quaternion = [...]"
-        raise InputError(f"{where}: {shown(pose)} is not a table; write {{ position = [...], {rotation} }}")
-    known_keys(pose, ("position", *(_TURNS if kind.motion.is_planar else ("quaternion",))), where)
-    position = parse_vector(required(pose, "position", f"{where}."), f"{where}.position", kind.dimension)
-    turn = (_planar_rotation if kind.motion.is_planar else _rotation)(pose, where, robot)
+    position, turn = read_pose(pose, where, KINDS[robot.kind].motion, robot.metric)
     squares = []
     for leg, (a, b) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True), 1):
         square = distance_squared(a, b, position, turn, robot.metric)
@@ -68,21 +60,3 @@ def _lengths_squared_at(pose: object, where: str, robot: Robot) -> tuple[Fractio
             raise InputError(f"{where}: leg {leg} has length 0 at this pose; give another pose")
         squares.append(bounded(square, square, f"{where}: the squared length of leg {leg}", MAX_COMPUTED_DIGITS))
     return tuple(squares)
-
-
-def _rotation(pose: dict[str, Any], where: str, robot: Robot) -> Matrix:
-    row = list_field(required(pose, "quaternion", f"{where}."), f"{where}.quaternion", 4)
-    if len(row) != 4:
-        raise InputError(f"{where}.quaternion: {len(row)} numbers; give 4, scalar first")
-    e0, e1, e2, e3 = (parse_rational(e, f"{where}.quaternion[{i}]") for i, e in enumerate(row, 1))
-    if not any((e0, e1, e2, e3)):
-        raise InputError(f"{where}.quaternion: all four numbers are 0; give one that is not")
-    return rotation_of((e0, e1, e2, e3), robot.metric)
-
-
-def _planar_rotation(pose: dict[str, Any], where: str, robot: Robot) -> Matrix:
-    given = [key for key in _TURNS if key in pose]
-    if len(given) != 1:
-        raise InputError(f"{where}: {' and '.join(given) or 'no angle'} given; give one of {', '.join(_TURNS)}")
-    parse = parse_half_tangent if given[0] == "half_tangent" else parse_turn
-    return parse(pose[given[0]], f"{where}.{given[0]}", robot.metric)

@@ -10,6 +10,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.kinds import Joints, Kind
 from pkm_exact.geometry.rational import parse_vector
+from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import shown
 
 
@@ -29,13 +30,13 @@ def in_plane(row: object) -> object:
     return row
 
 
-def parse_metric(row: object, kind: Kind) -> Metric:
+def parse_metric(row: object, motion: Motion) -> Metric:
     """Three positive integers: the Gram diagonal. In place of p/q write p q, and divide that coordinate by q.
 
-    For planar kinds the third does not matter; it is 1 if it is left out.
+    For planar motions the third does not matter; it is 1 if it is left out.
     """
     numbers = []
-    if kind.motion.is_planar and isinstance(row, list | tuple) and len(row) == 2:
+    if motion.is_planar and isinstance(row, list | tuple) and len(row) == 2:
         row = [*row, 1]
     for i, number in enumerate(parse_vector(row, "metric"), 1):
         if number <= 0 or number.denominator != 1:

@@ -20,8 +20,10 @@ from pkm_exact.geometry.fields import known_keys, label, required
 from pkm_exact.geometry.inverse import UNIT_METRIC
 from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.mechanism import CONSTRAINTS_KIND, Mechanism
+from pkm_exact.geometry.mechanism_reader import read_mechanism
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
-from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.geometry.tolerances import read_tolerances
 from pkm_exact.wording import printable, shown
 
@@ -49,7 +51,7 @@ _TOP: Final = (
 )
 
 
-def read_robot(path: str | os.PathLike[str]) -> Robot:
+def read_robot(path: str | os.PathLike[str]) -> Robot | Mechanism:
     """The robot that a model file describes.
 
     Raises
@@ -64,28 +66,45 @@ def read_robot(path: str | os.PathLike[str]) -> Robot:
         raise InputError(f"{printable(name)}: {error}") from None
 
 
-def robot_from_toml(text: str) -> Robot:
+def read_jointed_robot(path: str | os.PathLike[str], question: str) -> Robot:
+    """The robot that a model file describes, for a question that needs its joints, cranks or slides.
+
+    Raises
+    ------
+    InputError
+        As ``read_robot``, and if it is a mechanism declared by constraints.
+    """
+    try:
+        return jointed(read_robot(path), question)
+    except InputError as error:
+        raise InputError(f"{printable(os.fspath(path))}: {error}") from None
+
+
+def robot_from_toml(text: str) -> Robot | Mechanism:
     """The robot that the text of a model file describes."""
     table = _parse(text)
-    known_keys(table, _TOP, "")
     schema = required(table, "schema", "")
     if isinstance(schema, bool) or schema != SCHEMA:
         raise InputError(f"schema: {shown(schema)} is unknown; write schema = {SCHEMA}")
-    geometry: dict[str, Any] = {
+    kind_name = label(table, "kind", "")
+    if kind_name not in KINDS and kind_name != CONSTRAINTS_KIND:
+        raise InputError(f"kind: {shown(kind_name)} is unknown; use one of: {', '.join((*KINDS, CONSTRAINTS_KIND))}")
+    head = {
         "name": label(table, "name", ""),
-        "kind": label(table, "kind", ""),
         "unit": label(table, "unit", ""),
         "source": label(table, "source", "", limit=_MAX_TEXT),
     }
-    if geometry["kind"] not in KINDS:
-        raise InputError(f"kind: {shown(geometry['kind'])} is unknown; use one of: {', '.join(KINDS)}")
-    kind = KINDS[geometry["kind"]]
-    metric = parse_metric(table["metric"], kind) if "metric" in table else UNIT_METRIC
+    if kind_name == CONSTRAINTS_KIND:
+        return read_mechanism(table, head)
+    known_keys(table, _TOP, "")
+    kind = KINDS[kind_name]
+    metric = parse_metric(table["metric"], kind.motion) if "metric" in table else UNIT_METRIC
+    geometry: dict[str, Any] = head | {"kind": kind_name}
     geometry |= {
         "metric": metric,
         "base_joints": read_joints(table, "base", kind, metric),
         "platform_joints": read_joints(table, "platform", kind, metric),
-        "chains": read_chains(table, geometry["kind"], kind, metric),
+        "chains": read_chains(table, kind_name, kind, metric),
         "tolerances": read_tolerances(table["tolerances"]) if "tolerances" in table else None,
     }
     rows = table.get("configurations", [])

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from fractions import Fraction
-from typing import Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Chain, Crank, JointValue, parse_cosine_and_sine
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.joints import in_plane, parse_joints, parse_metric, refuse_equal_legs
 from pkm_exact.geometry.kinds import KINDS, Joints, gough_legs, knees
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational
 from pkm_exact.geometry.tolerances import Tolerances
-from pkm_exact.wording import printable, shown
-
-_LISTED: Final = 20
+from pkm_exact.motions.motion import Motion
+from pkm_exact.wording import shown
 
 
 def _squares(values: Sequence[object], where: str) -> tuple[Fraction, ...]:
@@ -52,7 +50,7 @@ class Configuration:
 
 
 @dataclass(frozen=True)
-class Robot:
+class Robot(Machine):
     """A parallel robot: exact joint coordinates, how they are joined, and named configurations.
 
     Attributes
@@ -101,7 +99,7 @@ class Robot:
         for field, where in (("base_joints", "base.joints"), ("platform_joints", "platform.joints")):
             rows = [in_plane(row) for row in getattr(self, field)] if kind.motion.is_planar else getattr(self, field)
             object.__setattr__(self, field, parse_joints(rows, where, kind))
-        object.__setattr__(self, "metric", parse_metric(self.metric, kind))
+        object.__setattr__(self, "metric", parse_metric(self.metric, kind.motion))
         self._require_chains()
         if not self.chains:
             refuse_equal_legs(self.base_joints, self.platform_joints)
@@ -110,30 +108,19 @@ class Robot:
     def __repr__(self) -> str:
         return f"Robot({self.name!r}, kind={self.kind!r})"
 
-    def __str__(self) -> str:
-        names = ", ".join(printable(configuration.name) for configuration in self.configurations[:_LISTED])
-        more = ", ..." if len(self.configurations) > _LISTED else ""
-        found = f"configurations: {names}{more}" if names else "no configurations"
-        return f"{printable(self.name)} ({self.kind}, lengths in {printable(self.unit)}), {found}"
+    @property
+    def motion(self) -> Motion:
+        """What the platform of a robot of this kind is capable of."""
+        return KINDS[self.kind].motion
 
-    def configuration(self, name: str | None = None) -> Configuration:
-        """The configuration called ``name``, or the first one if ``name`` is None."""
-        if not self.configurations:
-            count = "three" if KINDS[self.kind].motion.is_planar else "six"
-            remedy = "add one with joint values" if self.chains else f"give the {count} leg lengths instead"
-            raise InputError(f"configurations: {shown(self.name)} has none; {remedy}")
-        if name is None:
-            return self.configurations[0]
-        for configuration in self.configurations:
-            if configuration.name == name:
-                return configuration
-        known = ", ".join(configuration.name for configuration in self.configurations[:_LISTED])
-        more = ", ..." if len(self.configurations) > _LISTED else ""
-        raise InputError(f"configuration: {shown(name)} is unknown{self._guess(name)}; use one of: {known}{more}")
+    @property
+    def actuated(self) -> tuple[str, ...]:
+        """The legs, by their numbers."""
+        return tuple(f"leg {number}" for number in range(1, KINDS[self.kind].legs + 1))
 
-    def _guess(self, name: object) -> str:
-        close = get_close_matches(str(name), [configuration.name for configuration in self.configurations], 1)
-        return f", did you mean {shown(close[0])}?" if close else ""
+    def _instead_of_configurations(self) -> str:
+        count = "three" if self.motion.is_planar else "six"
+        return "add one with joint values" if self.chains else f"give the {count} leg lengths instead"
 
     def problem(self, locked: Configuration | Sequence[Fraction | int | str]) -> ForwardProblem:
         """The forward kinematics problem of a configuration, or for squared leg lengths, exact and positive.
@@ -154,6 +141,11 @@ class Robot:
         feet = self.knees(locked)
         self._require_one_per_leg(locked.lengths_squared, f"configuration {shown(locked.name)}, lengths_squared")
         return self._problem(feet, locked.lengths_squared)
+
+    def problem_at(self, values: Sequence[Fraction], *, squared: bool = False) -> ForwardProblem:
+        """The problem for given leg lengths, or squared ones."""
+        self._require_one_per_leg(values, "lengths_squared" if squared else "lengths")
+        return self.problem(values if squared else [value * value for value in values])
 
     def lock(self, name: str, values: Sequence[object]) -> Configuration:
         """The configuration in which the cranks or slides stand at the given joint values.
@@ -237,6 +229,21 @@ class Robot:
     def _problem(self, feet: Joints, lengths_squared: tuple[Fraction, ...]) -> ForwardProblem:
         legs = gough_legs(feet, self.platform_joints, lengths_squared)
         return ForwardProblem(legs, self.metric, KINDS[self.kind].motion)
+
+
+def jointed(robot: Machine, question: str) -> Robot:
+    """The robot itself, for a question that needs its joints, cranks or slides.
+
+    Raises
+    ------
+    InputError
+        If it has none but is declared by constraints.
+    """
+    if not isinstance(robot, Robot):
+        raise InputError(
+            f"kind: {question} needs a robot with legs, not the kind {robot.kind}; give one of: {', '.join(KINDS)}"
+        )
+    return robot
 
 
 def _refuse_equal_names(configurations: tuple[Configuration, ...]) -> None:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Self
 import pkm_exact.numeric.tolerance_result as tolerances
 import pkm_exact.solution as solutions
 from pkm_exact.errors import PkmExactError
-from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.machine import Machine
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -34,11 +34,11 @@ class Answer:
         The name of its configuration; None if the lengths were given.
     """
 
-    robot: Robot | None = field(default=None, repr=False, compare=False, kw_only=True)
+    robot: Machine | None = field(default=None, repr=False, compare=False, kw_only=True)
     configuration: str | None = field(default=None, repr=False, compare=False, kw_only=True)
 
     @classmethod
-    def of(cls, found: Any, robot: Robot | None = None, configuration: str | None = None) -> Self:
+    def of(cls, found: Any, robot: Machine | None = None, configuration: str | None = None) -> Self:
         """The answer with the data of what an engine returned."""
         data = {entry.name: getattr(found, entry.name) for entry in fields(found)}
         return cls(**data | {"robot": robot, "configuration": configuration})
@@ -76,11 +76,11 @@ class Answer:
         """
         self.certificate().save(path)
 
-    def _content(self, robot: Robot) -> dict[str, Any]:
+    def _content(self, robot: Machine) -> dict[str, Any]:
         """The certificate as a JSON object."""
         raise NotImplementedError
 
-    def _known_robot(self, what: str) -> Robot:
+    def _known_robot(self, what: str) -> Machine:
         if self.robot is None:
             raise PkmExactError(
                 f"{what}: this solution knows its problem but not its robot; get it by robot.solve(..), or use "
@@ -105,7 +105,7 @@ class Solution(Answer, solutions.Solution):
 
         return solution_figure(self, self._known_robot("plot"), self.configuration)
 
-    def _content(self, robot: Robot) -> dict[str, Any]:
+    def _content(self, robot: Machine) -> dict[str, Any]:
         from pkm_exact.certify.build import certificate
 
         return certificate(robot, self.configuration, self)
@@ -120,10 +120,11 @@ class Solution(Answer, solutions.Solution):
 class ToleranceResult(Answer, tolerances.ToleranceResult):
     __doc__ = tolerances.ToleranceResult.__doc__
 
-    def _content(self, robot: Robot) -> dict[str, Any]:
+    def _content(self, robot: Machine) -> dict[str, Any]:
         from pkm_exact.certify.tolerance_build import tolerance_certificate
+        from pkm_exact.geometry.robot import jointed
 
-        return tolerance_certificate(robot, self.configuration, self)
+        return tolerance_certificate(jointed(robot, "certificate"), self.configuration, self)
 
     def _repr_html_(self) -> str:
         from pkm_exact.interactive.display import tolerance_html

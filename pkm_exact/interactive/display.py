@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Final
 
 from pkm_exact.claim import Claim
 from pkm_exact.claim_wording import meaning
-from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.rational import finite_decimal
+from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.motions.motion import Motion
 from pkm_exact.roots.interval import decimal
 from pkm_exact.wording import counted, printable
@@ -24,7 +25,7 @@ from pkm_exact.wording import counted, printable
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.numeric.tolerance_result import ToleranceBox, ToleranceResult
     from pkm_exact.poses.pose import Pose
     from pkm_exact.solution import Solution
@@ -76,7 +77,7 @@ def _jacobian(pose: Pose) -> tuple[str, str]:
     return "+" if pose.jacobian.det_sign > 0 else "-", f"{Decimal(condition.numerator) / condition.denominator:.4g}"
 
 
-def solution_html(solution: Solution, robot: Robot | None, configuration: str | None) -> str:
+def solution_html(solution: Solution, robot: Machine | None, configuration: str | None) -> str:
     """Who was solved, what is claimed, the poses in a table, and a picture of them if one can be drawn."""
     planar = solution.problem.motion.is_planar
     parts = [_paragraph(headline(solution))]
@@ -94,7 +95,7 @@ def solution_html(solution: Solution, robot: Robot | None, configuration: str | 
     return _block(parts)
 
 
-def solution_figure(solution: Solution, robot: Robot, configuration: str | None) -> Figure:
+def solution_figure(solution: Solution, robot: Machine, configuration: str | None) -> Figure:
     """All real poses side by side.
 
     Raises
@@ -108,10 +109,10 @@ def solution_figure(solution: Solution, robot: Robot, configuration: str | None)
     from pkm_exact.pictures.scene import scene_of_solution
     from pkm_exact.pictures.views import poses_figure
 
-    return poses_figure(scene_of_solution(robot, configuration, solution))
+    return poses_figure(scene_of_solution(jointed(robot, "plot"), configuration, solution))
 
 
-def _picture(solution: Solution, robot: Robot | None, configuration: str | None) -> str:
+def _picture(solution: Solution, robot: Machine | None, configuration: str | None) -> str:
     """The picture as part of the HTML; nothing without matplotlib, or where coordinates are too large to be drawn."""
     if robot is None or find_spec("matplotlib") is None:
         return ""
@@ -125,14 +126,10 @@ def _picture(solution: Solution, robot: Robot | None, configuration: str | None)
     return f'<img alt="the real poses side by side" src="data:image/png;base64,{b64encode(data).decode("ascii")}"/>'
 
 
-def robot_html(robot: Robot) -> str:
-    """Name and origin of a robot, its joints as they were given, and its configurations."""
-    axes = "xy" if KINDS[robot.kind].motion.is_planar else "xyz"
-    header = ("", *(f"base {axis}" for axis in axes), *(f"platform {axis}" for axis in axes))
-    rows = [
-        (str(leg), *(_number(x) for joint in (base, platform) for x in joint[: len(axes)]))
-        for leg, (base, platform) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True), 1)
-    ]
+def robot_html(robot: Machine) -> str:
+    """Name and origin of a robot, its joints or constraints as they were given, and its configurations."""
+    axes = "xy" if robot.motion.is_planar else "xyz"
+    header, rows = _joint_rows(robot, axes) if isinstance(robot, Robot) else _constraint_rows(robot)
     parts = [f"<p><b>{_text(robot.name)}</b> ({_text(robot.kind)}), {_text(robot.source)}</p>", _table(header, rows)]
     scales = tuple(robot.metric[: len(axes)])
     if set(scales) != {1}:
@@ -141,6 +138,23 @@ def robot_html(robot: Robot) -> str:
     names = ", ".join(configuration.name for configuration in robot.configurations[:_ROWS]) or "none"
     more = ", ..." if len(robot.configurations) > _ROWS else ""
     return _block([*parts, _paragraph(f"unit of length: {robot.unit}; configurations: {names}{more}")])
+
+
+def _joint_rows(robot: Robot, axes: str) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    header = ("", *(f"base {axis}" for axis in axes), *(f"platform {axis}" for axis in axes))
+    return header, [
+        (str(leg), *(_number(x) for joint in (base, platform) for x in joint[: len(axes)]))
+        for leg, (base, platform) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True), 1)
+    ]
+
+
+def _constraint_rows(robot: Machine) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """The constraints of a mechanism, each with what it asks."""
+    constraints = robot.constraints if isinstance(robot, Mechanism) else ()
+    return ("constraint", "type", "actuated"), [
+        (constraint.name, constraint.title, "yes" if constraint.name in robot.actuated else "")
+        for constraint in constraints
+    ]
 
 
 def many_html(summary: str, records: Sequence[Mapping[str, object]]) -> str:

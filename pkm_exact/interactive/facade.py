@@ -10,7 +10,8 @@ from typing import Any, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
-from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.machine import Machine
+from pkm_exact.geometry.mechanism import LockedValues
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import NumberText, parse_positive
 from pkm_exact.geometry.robot import Configuration, Robot
@@ -25,7 +26,7 @@ class Question:
     """The arguments of ``Robot.solve`` that say what is to be solved, and how."""
 
     lengths: Any = None
-    configuration: Configuration | str | None = None
+    configuration: Configuration | LockedValues | str | None = None
     method: str = METHODS[0]
     formulation: str | None = None
     width: object = None
@@ -33,7 +34,7 @@ class Question:
     doubles_are_exact: bool = False
 
 
-def posed(robot: Robot, question: Question) -> tuple[str | None, ForwardProblem]:
+def posed(robot: Machine, question: Question) -> tuple[str | None, ForwardProblem]:
     """The name of the configuration, None if lengths are given, and the forward kinematics problem.
 
     Examples
@@ -51,28 +52,28 @@ write "12.5" or Fraction(25, 2), or say doubles_are_exact=True if it is
         if question.squared or question.doubles_are_exact:
             raise InputError("lengths: squared and doubles_are_exact are about given lengths; give them as well")
         chosen = question.configuration
-        if not isinstance(chosen, Configuration):
+        if not isinstance(chosen, Configuration | LockedValues):
             chosen = robot.configuration(chosen)
         return chosen.name, robot.problem(chosen)
     if question.configuration is not None:
         raise InputError("lengths: a configuration has lengths of its own; give lengths or a configuration, not both")
     values = _lengths(robot, question)
-    return None, robot.problem(values if question.squared else [value * value for value in values])
+    return None, robot.problem_at(values, squared=question.squared)
 
 
-def _lengths(robot: Robot, question: Question) -> list[Fraction]:
+def _lengths(robot: Machine, question: Question) -> list[Fraction]:
     lengths = question.lengths
     if isinstance(lengths, str):
         raise InputError(
             f"lengths: {shown(lengths)} is a text; give a list of numbers, or configuration={shown(lengths)}"
         )
-    if robot.chains:
+    if isinstance(robot, Robot) and robot.chains:
         names = ", ".join(shown(configuration.name) for configuration in robot.configurations) or "none"
         raise InputError(
             f"lengths: the rods of a {robot.kind} robot have fixed lengths; give a configuration, by its name (known: "
             f"{names}) or made by robot.lock(name, joint values)"
         )
-    legs = KINDS[robot.kind].legs
+    legs = len(robot.actuated)
     if isinstance(lengths, bytes | bytearray | Set | Mapping):
         raise InputError(
             f"lengths: {type(lengths).__name__} is no list of numbers in the order of the legs; give a list of {legs}"

@@ -9,19 +9,21 @@ from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
+import pkm_exact.geometry.mechanism as mechanisms
 import pkm_exact.geometry.reader as reader
 import pkm_exact.geometry.robot as robots
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.interactive.facade import Question, options, posed
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.mechanism import LockedValues
     from pkm_exact.geometry.robot import Configuration
     from pkm_exact.interactive.answers import Solution
     from pkm_exact.policy import Policy
 
 
-@dataclass(frozen=True, repr=False)
-class Robot(robots.Robot):
-    __doc__ = robots.Robot.__doc__
+class Asked(Machine):
+    """What can be asked of every robot."""
 
     def _repr_html_(self) -> str:
         from pkm_exact.interactive.display import robot_html
@@ -29,7 +31,7 @@ class Robot(robots.Robot):
         return robot_html(self)
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Robot:
+    def load(cls, path: str | os.PathLike[str]) -> Robot | Mechanism:
         """The robot in a model file; the same as ``read_robot``.
 
         Raises
@@ -48,7 +50,7 @@ class Robot(robots.Robot):
         self,
         lengths: Sequence[object] | None = None,
         *,
-        configuration: Configuration | str | None = None,
+        configuration: Configuration | LockedValues | str | None = None,
         method: Literal["exact", "krawczyk"] = "exact",
         formulation: str | None = None,
         width: Fraction | int | str | None = None,
@@ -105,7 +107,17 @@ class Robot(robots.Robot):
             return replace(engine(problem, progress=show, **chosen), robot=self, configuration=name)
 
 
-def read_robot(path: str | os.PathLike[str]) -> Robot:
+@dataclass(frozen=True, repr=False)
+class Robot(Asked, robots.Robot):
+    __doc__ = robots.Robot.__doc__
+
+
+@dataclass(frozen=True, repr=False)
+class Mechanism(Asked, mechanisms.Mechanism):
+    __doc__ = mechanisms.Mechanism.__doc__
+
+
+def read_robot(path: str | os.PathLike[str]) -> Robot | Mechanism:
     """The robot that a model file describes.
 
     Raises
@@ -114,7 +126,8 @@ def read_robot(path: str | os.PathLike[str]) -> Robot:
         If the file cannot be read or does not describe a robot; the message is one sentence that starts with the path.
     """
     found = reader.read_robot(path)
-    return Robot(**{entry.name: getattr(found, entry.name) for entry in fields(found)})
+    data = {entry.name: getattr(found, entry.name) for entry in fields(found)}
+    return Mechanism(**data) if isinstance(found, mechanisms.Mechanism) else Robot(**data)
 
 
 def _shown(progress: Callable[[str], None] | bool | None) -> Any:

@@ -117,14 +117,16 @@ class _Robots:
     @cached_property
     def planar_robot(self) -> Robot:
         from pkm_exact.geometry.reader import robot_from_toml
+        from pkm_exact.geometry.robot import jointed
 
-        return robot_from_toml(_PLANAR)
+        return jointed(robot_from_toml(_PLANAR), "selftest")
 
     @cached_property
     def robot(self) -> Robot:
         from pkm_exact.geometry.reader import robot_from_toml
+        from pkm_exact.geometry.robot import jointed
 
-        return robot_from_toml(_SPATIAL)
+        return jointed(robot_from_toml(_SPATIAL), "selftest")
 
     @cached_property
     def planar(self) -> Solution:

@@ -1,0 +1,73 @@
+"""Poses in model files: a position, and a rotation by a quaternion or, in the plane, by an angle. All exact."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any, Final
+
+from pkm_exact.constraints.form import Vector, value_at
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.fields import known_keys, list_field, required
+from pkm_exact.geometry.inverse import Matrix, Metric, rotation_of
+from pkm_exact.geometry.planar_rotation import parse_half_tangent, parse_turn
+from pkm_exact.geometry.rational import parse_rational, parse_vector
+from pkm_exact.motions.motion import Motion
+from pkm_exact.wording import shown
+
+_TURNS: Final = ("half_tangent", "cos_sin")
+_ORIGIN: Final = (Fraction(0), Fraction(0), Fraction(0))
+_UNTURNED: Final = (Fraction(1), *_ORIGIN)
+
+
+def read_pose(pose: object, where: str, motion: Motion, metric: Metric) -> tuple[Vector, Matrix]:
+    """Position and rotation matrix, in rational coordinates, of the pose that a table gives.
+
+    What all motions of the group have in common may be left out: the position of turns about the origin, the quaternion
+    of translations.
+
+    Raises
+    ------
+    InputError
+        If it is no pose of the motion.
+
+    Examples
+    --------
+    >>> from pkm_exact.motions.motion_groups import TRANSLATION
+    >>> position, rotation = read_pose({"position": [1, "1/2", 3]}, "pose", TRANSLATION, (1, 1, 1))
+    >>> [str(x) for x in (*position, *rotation[0])]
+    ['1', '1/2', '3', '1', '0', '0']
+    """
+    turns = _TURNS if motion.is_planar else ("quaternion",)
+    if not isinstance(pose, dict):
+        rotation = "half_tangent = ..." if motion.is_planar else "quaternion = [...]"
+        raise InputError(f"{where}: {shown(pose)} is not a table; write {{ position = [...], {rotation} }}")
+    known_keys(pose, ("position", *turns), where)
+    moves, turning = 0 in motion.twist, bool({3, 4, 5} & set(motion.twist))
+    position = _ORIGIN
+    if moves or "position" in pose:
+        dimension = 2 if motion.is_planar else 3
+        position = parse_vector(required(pose, "position", f"{where}."), f"{where}.position", dimension)
+    if motion.is_planar:
+        return position, _planar_rotation(pose, where, metric)
+    turned = _rotation(pose, where, metric) if turning or "quaternion" in pose else rotation_of(_UNTURNED, metric)
+    if any(value_at(form, position, turned, metric) for form in motion.forms):
+        raise InputError(f"{where}: is not among the {motion.title} that the mechanism is capable of; give one that is")
+    return position, turned
+
+
+def _rotation(pose: dict[str, Any], where: str, metric: Metric) -> Matrix:
+    row = list_field(required(pose, "quaternion", f"{where}."), f"{where}.quaternion", 4)
+    if len(row) != 4:
+        raise InputError(f"{where}.quaternion: {len(row)} numbers; give 4, scalar first")
+    e0, e1, e2, e3 = (parse_rational(e, f"{where}.quaternion[{i}]") for i, e in enumerate(row, 1))
+    if not any((e0, e1, e2, e3)):
+        raise InputError(f"{where}.quaternion: all four numbers are 0; give one that is not")
+    return rotation_of((e0, e1, e2, e3), metric)
+
+
+def _planar_rotation(pose: dict[str, Any], where: str, metric: Metric) -> Matrix:
+    given = [key for key in _TURNS if key in pose]
+    if len(given) != 1:
+        raise InputError(f"{where}: {' and '.join(given) or 'no angle'} given; give one of {', '.join(_TURNS)}")
+    parse = parse_half_tangent if given[0] == "half_tangent" else parse_turn
+    return parse(pose[given[0]], f"{where}.{given[0]}", metric)
