@@ -61,7 +61,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFi
     return run
 
 
-@pytest.mark.parametrize("page", _with_samples())
+@pytest.mark.parametrize("page", [*_with_samples()])
 def test_the_samples_of_a_page_run(page: Path, run: Callable[..., None]) -> None:
     run(page)
 
