@@ -74,10 +74,36 @@ def _is_at_home(draft: Draft, solution: Solution) -> bool:
     )
 
 
+ROUNDED = [
+    kind if motion.is_planar else pytest.param(kind, marks=pytest.mark.slow)
+    for kind, motion in ((kind, KINDS[kind].motion) for kind in KINDS)
+]
+
+
+@pytest.mark.parametrize("kind", ROUNDED)
+def test_every_coordinate_is_ordinary_unless_exact_joints_are_asked_for(
+    kind: str, tmp_path: Path, capsys: Capture
+) -> None:
+    """Joints from a drawing can take the place of those in the file: no metric is left that would scale them."""
+    path = tmp_path / "my-robot.toml"
+    isosceles = ["--base-sides", "6,6,6", "--platform-sides", "1,2,2"] if KINDS[kind].motion.is_planar else []
+    assert main(["new", *_options(kind), *isosceles, "-o", str(path)]) == 0
+    assert capsys.readouterr().err == ""
+    assert "metric" not in tomllib.loads(path.read_text())
+    assert "hexagon" not in path.read_text()
+    assert read_robot(path).metric == (1, 1, 1)
+    exact, _ = _robot(_design(kind)) if not isosceles else (None, None)
+    if exact is not None:
+        for side in ("base_joints", "platform_joints"):
+            for joint, wanted in zip(getattr(read_robot(path), side), getattr(exact, side), strict=True):
+                for x, y, g in zip(joint, wanted, exact.metric, strict=True):
+                    assert abs(float(x) - math.sqrt(g) * float(y)) <= 0.6e-6
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_file_of_every_kind_is_solved_as_written(kind: str, tmp_path: Path, capsys: Capture) -> None:
     path = tmp_path / "my-robot.toml"
-    assert main(["new", *_options(kind), "-o", str(path)]) == 0
+    assert main(["new", *_options(kind), "--exact", "-o", str(path)]) == 0
     out, err = capsys.readouterr()
     assert err == ""
     robot = read_robot(path)
@@ -104,8 +130,6 @@ def test_every_line_is_explained(kind: str) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_stands_in_comments_holds_too(kind: str, digits: int | None) -> None:
     """The joints written out are those of the hexagon, and the further configuration can be read."""
-    if digits is not None and has_cranks(kind) and not KINDS[kind].motion.is_planar:
-        return
     text = model_text(drawn(_design(kind, digits)), "r", "mm")
     pieces = re.sub(r"^hexagon = .*\n", "", text, flags=re.M)
     pieces = re.sub(r"^# (joints = \[|    \[.*|\]|\[\[conf.*|name = .*|[a-z_]+ = \[.*)$", r"\1", pieces, flags=re.M)
@@ -123,7 +147,7 @@ def test_what_stands_in_comments_holds_too(kind: str, digits: int | None) -> Non
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_source_makes_the_same_file_again(kind: str, capsys: Capture) -> None:
-    assert main(["new", *_options(kind), "-o", "-", "--name", "r"]) == 0
+    assert main(["new", *_options(kind), "--exact", "-o", "-", "--name", "r"]) == 0
     text = capsys.readouterr().out
     words = tomllib.loads(text)["source"].split("certify-poses new ")[1].split()
     assert main(["new", *words, "-o", "-", "--name", "r"]) == 0
@@ -215,7 +239,7 @@ def test_planar_robots_are_complete_and_at_home(
     try:
         new_module._proved_at_home(draft, model_text(draft, "r", "mm"))
     except InputError as error:
-        assert "can move while" in str(error)
+        assert "no list of poses" in str(error)
         return
     assert _is_at_home(draft, solve(robot.problem(robot.configuration())))
 
@@ -252,9 +276,15 @@ NO_DESIGN = [
     ([*_options("6-UPS"), "--base-sides", "1,2,3", "-o", "-"], "--base-sides: 3 numbers; give the two sides"),
     ([*_options("6-UPS"), "--base-sides", "0,0", "-o", "-"], "--base-sides: both are 0"),
     ([*_options("3-RPR"), "--base-sides", "1,2,3", "-o", "-"], "--base-sides: one side is not shorter"),
-    ([*_options("3-RPR"), "--base-sides", "3,2,2", "-o", "-"], "no exact coordinates suit both triangles; round"),
-    ([*_options("3-RRR"), "--base-sides", "6,6,6", "--platform-sides", "1,1,1", "-o", "-"], "exact cranks need"),
-    ([*_options("6-RUS"), "--digits", "3", "-o", "-"], "--digits: the cranks of a 6-RUS robot"),
+    (
+        [*_options("3-RPR"), "--exact", "--base-sides", "3,2,2", "-o", "-"],
+        "no exact coordinates suit both triangles; round",
+    ),
+    (
+        [*_options("3-RRR"), "--exact", "--base-sides", "6,6,6", "--platform-sides", "1,1,1", "-o", "-"],
+        "exact cranks need",
+    ),
+    ([*_options("6-RUS"), "--exact", "--digits", "3", "-o", "-"], "--exact and --digits exclude each other"),
     ([*_options("6-UPS"), "--crank", "3", "-o", "-"], "--crank: a 6-UPS robot has none"),
     ([*_options("6-UPS"), "--name", " ", "-o", "-"], "name: ' ' is not a label"),
     (
@@ -302,9 +332,9 @@ def test_any_name_comes_back(tmp_path: Path, capsys: Capture) -> None:
 
 
 def test_6_6_is_another_word_for_6_ups(capsys: Capture) -> None:
-    assert main(["new", *_options("6-UPS"), "-o", "-"]) == 0
+    assert main(["new", *_options("6-UPS"), "--exact", "-o", "-"]) == 0
     expected = capsys.readouterr().out
-    assert main(["new", *_options("6-UPS"), "--kind", "6-6", "-o", "-"]) == 0
+    assert main(["new", *_options("6-UPS"), "--kind", "6-6", "--exact", "-o", "-"]) == 0
     assert capsys.readouterr().out == expected
 
 

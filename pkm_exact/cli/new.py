@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -15,7 +16,7 @@ from pkm_exact.cli import arguments
 from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.kinds import KINDS
-from pkm_exact.templates import MOST_DECIMALS
+from pkm_exact.templates import DEFAULT_DECIMALS, MOST_DECIMALS
 from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
@@ -54,7 +55,12 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
 @click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
 @click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
 @click.option(
-    "--digits", type=click.IntRange(0, MOST_DECIMALS), help="Round joints to so many decimals.  [default: exact joints]"
+    "--digits",
+    type=click.IntRange(0, MOST_DECIMALS),
+    help=f"Round joints to so many decimals.  [default: {DEFAULT_DECIMALS}, unless they are rational]",
+)
+@click.option(
+    "--exact", is_flag=True, help="Exact joints, in a metric: y in the file is then not y, but y by a square root."
 )
 @click.option("--unit", help="Unit of all lengths, for display.  [default: mm]")
 @click.option("--name", help="Name of the robot.  [default: that of the file]")
@@ -72,10 +78,12 @@ def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
     \b
     Examples:
       certify-poses new --kind 6-6 --base-sides 400,200 --platform-sides 100,300 --height 500 -o my-robot.toml
-      certify-poses new --kind 6-RUS --base-circle 300,40 --platform-circle 120,90 --height 400 --crank 120 -o hexa.toml
+      certify-poses new --kind 6-RUS --base-circle 300,40 --platform-circle 120,90 --height 400 --crank 120 --exact -o -
       certify-poses new --kind 3-RPR --base-sides 6,5,5 --platform-sides 1.6,1,1 --height 3 --unit m -o planar.toml
     """
     _checked_output(output, force)
+    if given["exact"] and given["digits"] is not None:
+        raise click.UsageError("--exact and --digits exclude each other.")
     missing = _missing(given, output)
     if missing and not _can_ask():
         raise click.UsageError(f"there is no terminal to ask on; give {', '.join(missing)} as well.")
@@ -91,6 +99,7 @@ def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
 
     draft = drawn(design)
     text = model_text(draft, name, unit)
+    _require_sound_shape(design)
     found = _proved_at_home(draft, text)
     if output == STDOUT:
         sys.stdout.write(text)
@@ -104,6 +113,7 @@ def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
 def _design(given: dict[str, Any], *, interview: bool) -> Design:
     """The design that the options give, the rest asked for."""
     from pkm_exact.templates.design import Design, has_cranks
+    from pkm_exact.templates.layout import default_decimals
 
     kind = given["kind"]
     if interview:
@@ -123,8 +133,12 @@ def _design(given: dict[str, Any], *, interview: bool) -> Design:
     elif given["crank"] is not None:
         raise click.UsageError(f"--crank: a {kind} robot has none; leave it out.")
     digits = given["digits"]
-    if interview and digits is None and (planar or crank is None):
-        digits = _ask("Decimals to round the joints to, or exact", "exact", _digits)
+    if given["exact"]:
+        digits = None
+    elif digits is None and interview:
+        digits = _ask("Decimals to round the joints to, or exact", str(DEFAULT_DECIMALS), _digits)
+    elif digits is None:
+        digits = default_decimals((sides[0], sides[1]))
     return Design(kind, sides[0], sides[1], height, crank, digits)
 
 
@@ -239,6 +253,20 @@ def _checked_output(output: str | None, force: bool) -> str | None:
     if path.exists() and not force:
         raise InputError(f"{output}: exists; give -o another path, or --force to overwrite it")
     return output
+
+
+def _require_sound_shape(design: Design) -> None:
+    """Refuse rounded joints whose exact robot has no finite list of poses: rounding would only hide that."""
+    from pkm_exact.templates.design import drawn
+    from pkm_exact.templates.model_text import model_text
+
+    if design.digits is None:
+        return
+    try:
+        exact = drawn(replace(design, digits=None))
+    except InputError:
+        return  # not exact in any metric, or no robot: that of the rounded joints is looked at below
+    _proved_at_home(exact, model_text(exact, "exact", "1"))
 
 
 def _proved_at_home(draft: Draft, text: str) -> str:

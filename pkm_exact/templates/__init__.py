@@ -4,3 +4,5 @@ from typing import Final
 
 MOST_DECIMALS: Final = 12
 """To which joints can be rounded."""
+DEFAULT_DECIMALS: Final = 6
+"""To which they are, where no ordinary coordinates are exact."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, JointValue, Slide, cosine_and_sine
-from pkm_exact.geometry.inverse import Matrix, Metric, distance_squared, rotation_of
+from pkm_exact.geometry.inverse import UNIT_METRIC, Matrix, Metric, distance_squared, rotation_of
 from pkm_exact.geometry.kinds import KINDS, Joints, Kind, knees
 from pkm_exact.geometry.planar_rotation import quarter_turn, turn_of, weight
 from pkm_exact.templates import MOST_DECIMALS
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _CRANKS: Final = ((-2, 0), (2, 0), (1, -1), (-1, 1), (1, 1), (-1, -1))
 """Outward along the sides 1-2, 3-4 and 5-6 of the base, in the metric (1, 3, 1): of length 2, 60 degrees apart."""
+_SIXTY_DEGREES: Final = cosine_and_sine(Fraction(15, 26))
+"""Nearly, by 0.04 degrees: in ordinary coordinates a rational crank has no rational length at 60 degrees."""
 
 
 @dataclass(frozen=True)
@@ -63,11 +65,6 @@ class Design:
             raise InputError(f"--crank: {shown(self.crank)} is not positive; give a length")
         if self.digits is not None and not 0 <= self.digits <= MOST_DECIMALS:
             raise InputError(f"--digits: {self.digits} is out of range; give 0 to {MOST_DECIMALS}")
-        if self.digits is not None and has_cranks(self.kind) and not KINDS[self.kind].motion.is_planar:
-            raise InputError(
-                f"--digits: the cranks of a {self.kind} robot turn along sides 60 degrees apart, which rounded numbers "
-                "cannot do exactly; leave it out"
-            )
 
 
 @dataclass(frozen=True)
@@ -176,5 +173,9 @@ def _chains(design: Design, metric: Metric) -> tuple[Chain, ...]:
                 "--base-sides and --platform-sides: exact cranks need triangles whose areas are rational; round the "
                 "joints with --digits 3, or choose sides such as 13,14,15"
             ) from None
-    half = design.crank / 2
-    return tuple(Crank((x * half, y * half, zero), (zero, zero, design.crank), one) for x, y in _CRANKS)
+    up, half = (zero, zero, design.crank), design.crank / 2
+    if metric != UNIT_METRIC:
+        return tuple(Crank((x * half, y * half, zero), up, one) for x, y in _CRANKS)
+    cosine, sine = (value * design.crank for value in _SIXTY_DEGREES)
+    steps = [(x * half, zero) if y == 0 else (x * cosine, y * sine) for x, y in _CRANKS]
+    return tuple(Crank((x, y, zero), up, one) for x, y in steps)

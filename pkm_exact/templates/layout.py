@@ -20,6 +20,7 @@ from pkm_exact.geometry.hexagons import HEXAGON_METRIC, semi_regular_hexagon
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.kinds import Joints
 from pkm_exact.geometry.surds import Surd
+from pkm_exact.templates import DEFAULT_DECIMALS
 
 _PI: Final = Fraction(31415926535897932384626433832795028841971693993751, 10**49)
 _TERMS: Final = 20  # of the sine's series, up to 60 degrees: the rest is below 10^-48
@@ -59,6 +60,22 @@ def joints_and_metric(sides: tuple[tuple[Fraction, ...], ...], digits: int | Non
         return places, metric
     rounded = [tuple(_rounded_joint(joint, metric, digits) for joint in joints) for joints in places]
     return rounded, UNIT_METRIC
+
+
+def default_decimals(sides: tuple[tuple[Fraction, ...], ...]) -> int | None:
+    """To how many decimals joints are rounded if nothing is asked for: none are where ordinary coordinates are exact.
+
+    Examples
+    --------
+    >>> triangles = tuple(map(Fraction, (6, 5, 5))), tuple(map(Fraction, (3, 4, 5)))
+    >>> default_decimals(triangles), default_decimals(((Fraction(2), Fraction(0)),) * 2)
+    (None, 6)
+    """
+    try:
+        _, metric = joints_and_metric(sides, None)
+    except InputError:
+        return DEFAULT_DECIMALS
+    return None if metric == UNIT_METRIC else DEFAULT_DECIMALS
 
 
 def sides_on_circle(radius: Fraction, degrees: Fraction) -> tuple[Fraction, Fraction]:

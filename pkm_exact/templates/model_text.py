@@ -55,7 +55,8 @@ def _head(draft: Draft, name: str, unit: str) -> Iterator[str]:
         n = draft.metric[1]
         yield f"# Coordinates with sqrt({n}) are exact in this metric: the ordinary y is sqrt({n}) times the y in this"
         yield f"# file, for {'joints and vectors' if draft.chains else 'joints and positions'}. x and z are ordinary."
-        yield _line(f"metric = [1, {n}, 1]", "leave it out, and every y is ordinary")
+        yield "# Take this line out when you put in joints from a drawing: their y is ordinary."
+        yield _line(f"metric = [1, {n}, 1]", "without it, every y is ordinary")
 
 
 def _base(draft: Draft) -> Iterator[str]:
@@ -85,9 +86,11 @@ def _joints(draft: Draft, joints: Joints, sides: tuple[Fraction, ...]) -> Iterat
     if len(sides) == 2 and draft.design.digits is None:
         yield "# A hexagon of equal angles: sides 1-2, 3-4, 5-6 have the first length, sides 2-3, 4-5, 6-1 the second."
         yield f"hexagon = {{ sides = [{_numbers(sides)}], height = 0 }}"
-        yield "# The same joint by joint, to move one: take out the line above, and the # below."
+        yield "# The same joint by joint, to move one (y in the metric): take out the line above, and the # below."
         yield from (f"# {row}" for row in rows)
     else:
+        if draft.design.digits is not None:
+            yield f"# Rounded to {draft.design.digits} decimals: what stands here is the robot."
         yield from rows
 
 
@@ -98,6 +101,8 @@ def _chains(draft: Draft) -> Iterator[str]:
     if isinstance(first, Crank):
         yield "[cranks]"
         yield "# From each base joint to the end of its crank, at the angle 0 ..."
+        if draft.metric == UNIT_METRIC and len(draft.chains) == 6:
+            yield "# (near the directions of the sides: their lengths must be exactly those of at_90, and rational)"
         yield from _vectors("at_0", draft, [chain.at_0 for chain in draft.chains if isinstance(chain, Crank)])
         yield "# ... and at 90 degrees: perpendicular to the first, and as long."
         yield from _vectors("at_90", draft, [chain.at_90 for chain in draft.chains if isinstance(chain, Crank)])
@@ -169,6 +174,8 @@ def _options(draft: Draft) -> str:
         words.append(f"--crank {_plain(design.crank)}")
     if design.digits is not None:
         words.append(f"--digits {design.digits}")
+    elif draft.metric != UNIT_METRIC:
+        words.append("--exact")
     return " ".join(words)
 
 
