@@ -1,0 +1,78 @@
+"""The certificates that the tests feed to the checkers, honest and forged ones, collected by running the tests."""
+
+from __future__ import annotations
+
+import sys
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+import pytest
+
+import pkm_exact.certify.check as first
+from pkm_exact.certify import pure as plain
+
+HERE = Path(__file__).parent
+FILES = (
+    "test_certificate_*.py",
+    "test_krawczyk_certificate.py",
+    "test_multiplicities.py",
+    "test_mutations.py",
+    "test_pure_checker.py",
+    "test_self_motion.py",
+    "test_tolerances.py",
+)
+WEAK = "test_any_json_in_place_of_an_entry_gets_a_verdict"
+"""Tests that do not ask for a certain verdict."""
+
+
+class Collector:
+    """A plugin of pytest that keeps what is checked, once each, with the name of the first test that does."""
+
+    def __init__(self) -> None:
+        self.found: dict[bytes, str] = {}
+        self.test = ""
+        self.failures = 0
+        first.check_bytes = self.kept(first.check_bytes)
+        plain.check_bytes = self.kept(plain.check_bytes)
+
+    def kept(self, check: Any) -> Any:
+        """A checker that keeps what it is given."""
+
+        def check_bytes(data: bytes) -> Any:
+            if self.test and WEAK not in self.test:
+                self.found.setdefault(data, self.test)
+            return check(data)
+
+        return check_bytes
+
+    def pytest_runtest_protocol(self, item: pytest.Item) -> None:
+        """A test begins."""
+        self.test = item.nodeid.partition("::")[2]
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """A test ends."""
+        self.failures += report.failed
+
+
+def collect(target: Path) -> int:
+    """Run the tests and write what they check to a ZIP file; the exit code."""
+    collector = Collector()
+    files = [str(path) for pattern in FILES for path in sorted(HERE.glob(pattern))]
+    options = ["-q", "-x", "-p", "no:cacheprovider", "-p", "no:xdist"]
+    code = pytest.main([*options, *files], plugins=[collector])
+    if code or collector.failures:
+        return int(code) or 1
+    target.parent.mkdir(parents=True, exist_ok=True)
+    with ZipFile(target.with_suffix(".part"), "w", ZIP_DEFLATED) as archive:
+        for data, test in collector.found.items():
+            name = f"{sha256(data).hexdigest()[:16]} {test[:120].replace('/', '|')}"
+            archive.writestr(ZipInfo(name), data, ZIP_DEFLATED, 1)
+    target.with_suffix(".part").replace(target)
+    print(f"{len(collector.found)} certificates")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(collect(Path(sys.argv[1])))

@@ -1,0 +1,167 @@
+"""Is any check of the checkers vacuous? Wrong versions of them, and whether a certificate of the tests shows each.
+
+``make checker-mutants`` makes all of them (``checker_mutations``), tries each on the certificates that the tests check
+(``checker_corpus``) until one gets another verdict, and prints those that survive. A mutant that no certificate can
+tell from the checker is listed in ``equivalent_mutants.toml``, with the reason. What was found is kept in
+``build/checker-mutants``: an interrupted run goes on where it was, and a later one begins with what was right before.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import pickle
+import subprocess
+import sys
+import time
+import tomllib
+from collections import Counter
+from collections.abc import Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from checker_mutations import PACKAGE, SOURCES, Mutant, mutants
+from mutant_runs import Example, Outcome, Reach, examples_in, measured, outcomes
+
+HERE = Path(__file__).parent
+BUILD = PACKAGE / "build" / "checker-mutants"
+EQUIVALENT = HERE / "equivalent_mutants.toml"
+
+Key = tuple[str, str, str]
+
+
+def equivalents() -> dict[Key, str]:
+    """The mutants that no certificate can tell from the checker, with the reasons."""
+    found: dict[Key, str] = {}
+    for group in tomllib.loads(EQUIVALENT.read_text(encoding="utf-8")).get("equivalent", []):
+        for place, was, becomes in group["mutants"]:
+            if (place, was, becomes) in found:
+                raise ValueError(f"{EQUIVALENT.name}: listed twice: {place}: {was} -> {becomes}")
+            found[place, was, becomes] = group["reason"]
+    return found
+
+
+def unmatched(every: Sequence[Mutant]) -> list[Key]:
+    """Entries of the list of equivalent mutants that are none any longer."""
+    keys = {mutant.key for mutant in every}
+    return [key for key in equivalents() if key not in keys]
+
+
+# Certificates
+
+
+def _fresh_corpus(again: bool) -> list[Example]:
+    """The certificates, collected anew if a test or the solver changed since, or if asked for."""
+    sources = [*HERE.glob("*.py"), *(PACKAGE / "pkm_exact").rglob("*.py")]
+    files = sorted(path for path in sources if path.name not in ("checker_mutants.py", "mutant_runs.py"))
+    state = sha256(b"".join(path.read_bytes() for path in files)).hexdigest()
+    path, note = BUILD / "corpus.zip", BUILD / "corpus.state"
+    if again or not path.exists() or not note.exists() or note.read_text() != state:
+        print("collecting the certificates that the tests check", flush=True)
+        subprocess.run([sys.executable, str(HERE / "checker_corpus.py"), str(path)], check=True)
+        note.write_text(state)
+    return examples_in(path)
+
+
+# What was found before
+
+
+class Journal:
+    """Outcomes, one a line; those of the same checker and the same certificates need not be found again."""
+
+    def __init__(self, path: Path, checker: str, examples: Sequence[Example]) -> None:
+        self.path = path
+        sources = b"".join(source.read_bytes() for source in SOURCES[checker])
+        self.checker = sha256(sources).hexdigest()[:16]
+        self.names = {example.name for example in examples}
+        self.corpus = sha256("\n".join(sorted(self.names)).encode()).hexdigest()[:16]
+        self.known: dict[Key, dict[str, Any]] = {}
+        if path.exists():
+            for line in path.read_text(encoding="utf-8").splitlines():
+                entry = json.loads(line)
+                self.known[tuple(entry["mutant"])] = entry  # type: ignore[index]
+
+    def outcome(self, mutant: Mutant) -> Outcome | None:
+        """What is still true of a mutant."""
+        entry = self.known.get(mutant.key)
+        if entry is None or entry["checker"] != self.checker or entry["line"] != mutant.line:
+            return None
+        if entry["killer"] is None:
+            return Outcome(None, entry["how"]) if entry["corpus"] == self.corpus else None
+        return Outcome(entry["killer"], entry["how"]) if entry["killer"] in self.names else None
+
+    def hint(self, mutant: Mutant) -> str | None:
+        """The certificate that told it from the checker, when it was last asked."""
+        return self.known.get(mutant.key, {}).get("killer")
+
+    def write(self, mutant: Mutant, outcome: Outcome) -> None:
+        """Keep an outcome."""
+        entry = {"mutant": mutant.key, "line": mutant.line, "killer": outcome.killer, "how": outcome.how}
+        entry |= {"checker": self.checker, "corpus": self.corpus}
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        with self.path.open("a", encoding="utf-8") as stream:
+            stream.write(json.dumps(entry) + "\n")
+
+
+# The run
+
+
+def _reach(checker: str, examples: list[Example], journal: Journal) -> Reach:
+    """What reaches what, from the last run if nothing has changed."""
+    path = BUILD / f"{checker}.reach"
+    state = f"{journal.checker} {journal.corpus}"
+    if path.exists():
+        known, reach = pickle.loads(path.read_bytes())  # noqa: S301 - our own, in build
+        if known == state:
+            return reach  # type: ignore[no-any-return]
+    reach = measured(checker, examples)
+    path.write_bytes(pickle.dumps((state, reach)))
+    return reach
+
+
+def run(checker: str, examples: list[Example], only: str) -> list[tuple[Mutant, Outcome]]:
+    """Those that survive, of the mutants of a checker that are not listed as equivalent."""
+    listed = equivalents()
+    chosen = [m for m in mutants(checker) if m.key not in listed and only in str(m)]
+    journal = Journal(BUILD / f"{checker}.jsonl", checker, examples)
+    known = [(mutant, found) for mutant in chosen if (found := journal.outcome(mutant)) is not None]
+    pending = [mutant for mutant in chosen if journal.outcome(mutant) is None]
+    reach = _reach(checker, examples, journal) if pending else Reach([])
+    start, found = time.monotonic(), list(known)
+    for number, (mutant, outcome) in enumerate(outcomes(pending, reach, journal.hint), 1):
+        journal.write(mutant, outcome)
+        found.append((mutant, outcome))
+        if outcome.survives:
+            print(f"survives: {mutant}  ({outcome.how})", flush=True)
+        if number % 200 == 0 and sys.stderr.isatty():
+            print(f"{checker}: {number} of {len(pending)}, {time.monotonic() - start:.0f} s", file=sys.stderr)
+    counts = Counter(
+        outcome.how.split(" certificates")[0] if not outcome.survives else "survive" for _, outcome in found
+    )
+    print(f"{checker} checker: {len(found)} mutants; " + ", ".join(f"{n} {how}" for how, n in counts.most_common()))
+    return [(mutant, outcome) for mutant, outcome in found if outcome.survives]
+
+
+def main(words: Sequence[str]) -> int:
+    """Exit code 1 if a mutant survives or the list of equivalent ones is not up to date."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--checker", choices=[*SOURCES], action="append", help="one of the checkers (default: both)")
+    parser.add_argument("--only", default="", metavar="TEXT", help="mutants whose description has this text")
+    parser.add_argument("--collect", action="store_true", help="run the tests again for their certificates")
+    options = parser.parse_args(words)
+    wrong = unmatched([mutant for checker in SOURCES for mutant in mutants(checker)])
+    for key in wrong:
+        print(f"{EQUIVALENT.name}: there is no such mutant: {key}")
+    examples = _fresh_corpus(options.collect)
+    survivors = [
+        survivor for checker in options.checker or SOURCES for survivor in run(checker, examples, options.only)
+    ]
+    for mutant, outcome in survivors:
+        print(f"{mutant}  ({outcome.how})")
+    print(f"{len(survivors)} survive; {len(equivalents())} are listed as equivalent")
+    return 1 if survivors or wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

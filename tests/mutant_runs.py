@@ -1,0 +1,287 @@
+"""Runs a checker in which something was changed, in a process of its own, on certificates whose verdict is known."""
+
+from __future__ import annotations
+
+import gc
+import importlib
+import os
+import resource
+import signal
+import sys
+import time
+from array import array
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from importlib.machinery import ModuleSpec
+from pathlib import Path
+from types import CodeType, FrameType, ModuleType
+from typing import Any
+from zipfile import ZipFile
+
+from checker_mutations import SOURCES, Mutant
+
+ROOTS = {"first": "pkm_exact.certify.check", "plain": "pkm_exact.certify.pure"}
+MEMORY = 2 << 30
+"""A mutant may take so many bytes more than the checker."""
+STATISTICS = Path("/proc/self/statm")
+"""Where Linux tells how much that is."""
+PATIENCE = 2.0, 10.0
+"""A mutant may take so many seconds of processor time, and so many times that of the checker, with a certificate."""
+
+LARGE = 1 << 20
+
+Answer = tuple[str, tuple[str, ...]]
+
+
+@dataclass
+class Example:
+    """A certificate in a ZIP file, what the checker says of it, and the processor time that this takes."""
+
+    name: str
+    archive: Path
+    answer: Answer = ("", ())
+    cost: float = 0.0
+    kept: bytes | None = None
+
+    @property
+    def data(self) -> bytes:
+        """The certificate; large ones are read when they are needed, so that memory is small and forks are quick."""
+        if self.kept is not None:
+            return self.kept
+        with ZipFile(self.archive) as archive:
+            data = archive.read(self.name)
+        if len(data) < LARGE:
+            self.kept = data
+        return data
+
+
+def examples_in(path: Path) -> list[Example]:
+    """The certificates in a ZIP file that ``checker_corpus`` wrote."""
+    with ZipFile(path) as archive:
+        return [Example(name, path) for name in archive.namelist()]
+
+
+def check(checker: str) -> Callable[[bytes], Answer]:
+    """The checker as it is now: the status, and what is proved of an accepted certificate."""
+    root = importlib.import_module(ROOTS[checker])
+
+    def answer(data: bytes) -> Answer:
+        verdict = root.check_bytes(data)
+        status = str(verdict.status)
+        return status, verdict.lines if status == "accepted" else ()
+
+    return answer
+
+
+# What reaches what
+
+
+@dataclass
+class Reach:
+    """Examples in the order in which they are tried, and which of them reach a line of a file."""
+
+    examples: list[Example]
+    by_line: dict[tuple[str, int], array[int]] = field(default_factory=dict)
+
+    def of(self, mutant: Mutant) -> list[int]:
+        """The examples that reach a mutant; all of them, if it is in a constant."""
+        if not mutant.function:
+            return list(range(len(self.examples)))
+        found: set[int] = set()
+        for line in mutant.lines:
+            found.update(self.by_line.get((str(mutant.path), line), ()))
+        return sorted(found)
+
+
+def measured(checker: str, examples: Sequence[Example]) -> Reach:
+    """Check all examples, note the answers and the time, and then again, note the lines that are reached.
+
+    Cheap ones are tried first, but of those that reach the same lines with the same answer only three at a time.
+    """
+    answer = check(checker)
+    files = {str(path) for path in SOURCES[checker]}
+    reached = []
+    for example in examples:
+        data = example.data
+        start = time.process_time()
+        example.answer = answer(data)
+        example.cost = time.process_time() - start
+        found = _traced(partial(answer, data), files)
+        reached.append({(code.co_filename, line) for code, lines in found.items() for line in lines})
+    seen: Counter[Any] = Counter()
+    ranks = [0] * len(examples)
+    for number in sorted(range(len(examples)), key=lambda number: examples[number].cost):
+        sort = examples[number].answer[0], frozenset(reached[number])
+        ranks[number] = seen[sort] // 3
+        seen[sort] += 1
+    order = sorted(range(len(examples)), key=lambda number: (ranks[number], examples[number].cost))
+    lines: dict[tuple[str, int], array[int]] = defaultdict(lambda: array("H"))
+    for place, number in enumerate(order):
+        for line in reached[number]:
+            lines[line].append(place)
+    return Reach([examples[number] for number in order], dict(lines))
+
+
+def _traced(call: Callable[[], Any], files: set[str]) -> dict[CodeType, set[int]]:
+    """The lines that are reached; a function whose lines are all reached is not traced any longer."""
+    left: dict[CodeType, set[int]] = {}
+    reached: dict[CodeType, set[int]] = {}
+
+    def local(frame: FrameType, event: str, _: Any) -> Any:
+        if event == "line":
+            reached[frame.f_code].add(frame.f_lineno)
+            left[frame.f_code].discard(frame.f_lineno)
+        return local
+
+    def enter(frame: FrameType, _event: str, _: Any) -> Any:
+        code = frame.f_code
+        if code.co_filename not in files:
+            return None
+        if code not in left:
+            left[code] = {line for _, _, line in code.co_lines() if line is not None}
+            reached[code] = {code.co_firstlineno}
+        return local if left[code] else None
+
+    sys.settrace(enter)
+    try:
+        call()
+    finally:
+        sys.settrace(None)
+    return reached
+
+
+# The change, in the process that is to be thrown away
+
+
+def install(mutant: Mutant) -> None:
+    """Put a mutant in place of the checker."""
+    code = mutant.code()
+    if mutant.function:
+        _replace(mutant, code)
+    else:
+        _import_again(mutant, code)
+
+
+def _replace(mutant: Mutant, code: CodeType) -> None:
+    """Give the function its new code, wherever it is referred to."""
+    target: Any = sys.modules[mutant.module]
+    for name in mutant.function.split("."):
+        code = next(entry for entry in code.co_consts if isinstance(entry, CodeType) and entry.co_name == name)
+        target = vars(target)[name]
+    while not hasattr(target, "__code__"):
+        if hasattr(target, "cache_clear"):
+            target.cache_clear()
+        target = next(
+            getattr(target, name) for name in ("__wrapped__", "fget", "func", "__func__") if hasattr(target, name)
+        )
+    target.__code__ = code
+
+
+def _import_again(mutant: Mutant, code: CodeType) -> None:
+    """Import the checker anew, with a changed module: its constants stand in many others."""
+
+    class Loader:
+        def find_spec(self, name: str, *_: Any) -> ModuleSpec | None:
+            return ModuleSpec(name, self) if name == mutant.module else None
+
+        def create_module(self, _: ModuleSpec) -> None:
+            return None
+
+        def exec_module(self, module: ModuleType) -> None:
+            exec(code, vars(module))  # noqa: S102 - a source file of the project
+
+    names = {
+        ".".join(path.relative_to(mutant.path.parents[len(mutant.module.split(".")) - 1]).with_suffix("").parts)
+        for path in SOURCES[mutant.checker]
+    }
+    for name in names | {name.removesuffix(".__init__") for name in names}:
+        sys.modules.pop(name, None)
+    sys.meta_path.insert(0, Loader())  # type: ignore[arg-type]
+
+
+# Outcomes
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a mutant: the example that tells it from the checker and how, or how many were tried in vain."""
+
+    killer: str | None
+    how: str
+
+    @property
+    def survives(self) -> bool:
+        """Whether no example tells it from the checker."""
+        return self.killer is None
+
+
+def outcome(mutant: Mutant, reach: Reach, first: str | None = None) -> Outcome:
+    """Try the examples that reach a mutant, cheapest first, the one named first before all."""
+    chosen = reach.of(mutant)
+    if first is not None:
+        chosen.sort(key=lambda number: reach.examples[number].name != first)
+    reader, writer = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(reader)
+        _try_all(mutant, [(number, reach.examples[number]) for number in chosen], writer)
+    os.close(writer)
+    with os.fdopen(reader) as stream:
+        *_, last = [["-1", "", ""], *(line.rstrip("\n").split("\t") for line in stream)]
+    _, status = os.waitpid(child, 0)
+    number, how = int(last[0]), last[1]
+    if how == "survives":
+        return Outcome(None, f"{len(chosen)} certificates")
+    if not how:
+        how = "takes too long" if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGPROF else "crashes"
+    if number < 0:
+        raise RuntimeError(f"{mutant}: {how} before a certificate is read")
+    return Outcome(reach.examples[number].name, how)
+
+
+def _try_all(mutant: Mutant, chosen: Sequence[tuple[int, Example]], writer: int) -> None:
+    """Tell which example is being tried, at last what came out; never returns."""
+    how, number = "survives", -1
+    try:
+        gc.disable()
+        if STATISTICS.exists():
+            pages = int(STATISTICS.read_text().split()[0])
+            resource.setrlimit(resource.RLIMIT_AS, (pages * resource.getpagesize() + MEMORY,) * 2)
+        signal.signal(signal.SIGPROF, signal.SIG_DFL)
+        try:
+            install(mutant)
+            answer = check(mutant.checker)
+        except Exception as error:
+            chosen, how, number = [], f"cannot be imported: {type(error).__name__}", chosen[0][0]
+        for number, example in chosen:
+            os.write(writer, f"{number}\t\n".encode())
+            least, times = PATIENCE
+            signal.setitimer(signal.ITIMER_PROF, least + times * example.cost)
+            how = _difference(answer, example)
+            if how != "survives":
+                break
+        os.write(writer, f"{number}\t{how}\n".encode())
+    finally:
+        os._exit(0)
+
+
+def _difference(answer: Callable[[bytes], Answer], example: Example) -> str:
+    try:
+        found = answer(example.data)
+    except BaseException as error:  # whatever is raised: a checker never raises
+        return f"raises {type(error).__name__}"
+    if found == example.answer:
+        return "survives"
+    return f"{example.answer[0]} became {found[0]}" if found[0] != example.answer[0] else "says something else"
+
+
+def outcomes(
+    chosen: Sequence[Mutant], reach: Reach, first: Callable[[Mutant], str | None] = lambda _: None
+) -> Iterator[tuple[Mutant, Outcome]]:
+    """What becomes of mutants, one after another."""
+    gc.collect()
+    gc.freeze()
+    for mutant in chosen:
+        yield mutant, outcome(mutant, reach, first(mutant))
