@@ -11,6 +11,7 @@ import copy
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from types import CodeType
 from typing import Any
@@ -97,9 +98,10 @@ def _future() -> ast.stmt:
     return ast.parse("from __future__ import annotations").body[0]
 
 
-def mutants(checker: str) -> list[Mutant]:
+@cache
+def mutants(checker: str) -> tuple[Mutant, ...]:
     """All mutants of a checker, in the order of its source."""
-    return [mutant for path in SOURCES[checker] for mutant in _of_file(checker, path)]
+    return tuple(mutant for path in SOURCES[checker] for mutant in _of_file(checker, path))
 
 
 def _of_file(checker: str, path: Path) -> Iterator[Mutant]:
@@ -166,7 +168,8 @@ def _text(node: ast.AST, old: ast.AST | None = None, new: ast.AST | None = None)
     if old is not None:
         memo: dict[int, Any] = {id(old): old}
         node = Replaced().visit(copy.deepcopy(node, memo))
-    return ast.unparse(node).splitlines()[0] if isinstance(node, ast.stmt) else ast.unparse(node)
+    written = ast.unparse(node).strip()
+    return written.splitlines()[0] if isinstance(node, ast.stmt) else written
 
 
 # Where
@@ -363,8 +366,8 @@ def _changed_constant(node: ast.Constant, parent: ast.AST) -> Iterator[ast.Const
     yield from _changed_value(node)
     is_pattern = isinstance(parent, ast.Call) and ast.unparse(parent.func) == "re.compile"
     if is_pattern and isinstance(node.value, str):
-        for found in re.finditer(r"(?<=[{,\-])[0-9](?=[\]},])|(?<=,)[0-9]+(?=})", node.value):
-            for step in (1, -1):
-                number = int(found.group()) + step
-                if number >= 0 and (number < 10 or found.group() != "9"):
-                    yield ast.Constant(node.value[: found.start()] + str(number) + node.value[found.end() :])
+        for found in re.finditer(r"(?<=[{,\[-])[0-9]+(?=[}\],-])", node.value):
+            start, end = found.span()
+            for number in (int(found.group()) + 1, int(found.group()) - 1):
+                if number >= 0 and (number <= 9 or node.value[end] != "]"):
+                    yield ast.Constant(f"{node.value[:start]}{number}{node.value[end:]}")

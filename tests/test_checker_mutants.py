@@ -1,0 +1,149 @@
+"""Wrong versions of the checkers are made as they should, and found out by certificates that show the difference."""
+
+import ast
+from hashlib import sha256
+from pathlib import Path
+from zipfile import ZipFile
+
+import checker_mutations
+import pytest
+from certificate_subjects import subject
+from certificate_tools import golden_bytes
+from checker_mutations import CERTIFY, SOURCES, Mutant, mutants
+from mutant_runs import Reach, examples_in, measured, outcome
+
+from pkm_exact.certify.build import canonical_bytes, sealed
+
+SAMPLE = '''
+LIMIT = 7
+NAME = re.compile(r"[a-f]{0,8}x[0-9]")
+
+def check(values, limit=3):
+    """Docs 5."""
+    for value in values:
+        if value < limit and not value == 4:
+            raise rejected(f"{value}: above {limit + 1}")
+    require(all(v > 0 for v in values if v), f"{1}")
+    record(values)
+    return any(values) or values[0] is None
+'''
+
+CHANGES = {
+    "": [
+        "LIMIT = 8",
+        "LIMIT = 6",
+        "NAME = re.compile('[a-f]{1,8}x[0-9]')",
+        "NAME = re.compile('[a-f]{0,9}x[0-9]')",
+        "NAME = re.compile('[a-f]{0,7}x[0-9]')",
+        "NAME = re.compile('[a-f]{0,8}x[1-9]')",
+        "NAME = re.compile('[a-f]{0,8}x[0-8]')",
+    ],
+    "for value in values:": ["for value in [*values][1:]:", "for value in [*values][:-1]:"],
+    "value < limit and (not value == 4)": [
+        "not (value < limit and (not value == 4))",
+        "False",
+        "not value == 4",
+        "value < limit",
+    ],
+    "value < limit": ["value <= limit", "value >= limit"],
+    "value == 4": ["value != 4", "value <= 4", "value >= 4", "value == 5", "value == 3"],
+    "require(all((v > 0 for v in values if v)), f'{1}')": ["pass"],
+    "all((v > 0 for v in values if v))": [
+        "not all((v > 0 for v in values if v))",
+        "any((v > 0 for v in values if v))",
+        "all((v > 0 for v in [*values][1:] if v))",
+        "all((v > 0 for v in [*values][:-1] if v))",
+    ],
+    "v > 0": ["v >= 0", "v <= 0", "v > 1", "v > -1"],
+    "record(values)": ["pass"],
+    "any(values) or values[0] is None": [
+        "not (any(values) or values[0] is None)",
+        "values[0] is None",
+        "any(values)",
+    ],
+    "any(values)": ["all(values)"],
+    "values[0] is None": ["values[0] is not None"],
+}
+
+
+def test_what_is_changed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "sample.py"
+    path.write_text(SAMPLE)
+    for name in ("CERTIFY", "PACKAGE"):
+        monkeypatch.setattr(checker_mutations, name, tmp_path)
+    found = list(checker_mutations._of_file("sample", path))
+    whole = ast.dump(ast.parse(SAMPLE))
+    for was, becomes in CHANGES.items():
+        expected = [m.becomes for m in found if (m.was == was if was else not m.function)]
+        assert sorted(expected) == sorted(becomes), was
+    assert [m.becomes for m in found if m.function and m.was not in CHANGES] == ["for v in values if True"]
+    assert all(m.code() for m in found)
+    assert whole == ast.dump(ast.parse(SAMPLE))
+
+
+def test_every_file_of_both_checkers_is_changed() -> None:
+    assert [path.name for path in SOURCES["plain"]] == sorted(p.name for p in CERTIFY.glob("pure*.py"))
+    changed = {mutant.path for checker in SOURCES for mutant in mutants(checker)}
+    without = {"__init__.py"}
+    assert changed == {path for files in SOURCES.values() for path in files if path.name not in without}
+
+
+@pytest.fixture(scope="module")
+def reaches(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Reach]:
+    """Of few certificates, for both checkers."""
+    planar = subject("planar, boxes")
+    contents = [planar, {**planar, "real_poses": 5}, subject("nothing known")]
+    content = [golden_bytes("3-rpr-triple"), *(canonical_bytes(sealed(content)) for content in contents), b"[]"]
+    path = tmp_path_factory.mktemp("examples") / "corpus.zip"
+    with ZipFile(path, "w") as archive:
+        for data in content:
+            archive.writestr(sha256(data).hexdigest(), data)
+    return {checker: measured(checker, examples_in(path)) for checker in SOURCES}
+
+
+def _named(checker: str, function: str, was: str, becomes: str) -> Mutant:
+    return next(m for m in mutants(checker) if m.key[0].endswith(function) and m.key[1:] == (was, becomes))
+
+
+KILLED = [
+    ("first", "spelling.py count", "number < 0", "number <= 0", "accepted became malformed"),
+    ("first", "study_motion.py", "PLANAR_LEGS = 3", "PLANAR_LEGS = 4", "accepted became"),
+    (
+        "first",
+        "claims.py check_claims",
+        "document.real_poses != len(document.poses)",
+        "False",
+        "rejected became accepted",
+    ),
+    ("plain", "pure.py a_number", "number >= 0", "number > 0", "accepted became malformed"),
+    ("plain", "pure.py", "PLANAR_NUMBER: Final = 6", "PLANAR_NUMBER: Final = 5", "accepted became rejected"),
+]
+
+
+@pytest.mark.parametrize(("checker", "function", "was", "becomes", "how"), KILLED)
+def test_a_difference_is_found(
+    checker: str, function: str, was: str, becomes: str, how: str, reaches: dict[str, Reach]
+) -> None:
+    found = outcome(_named(checker, function, was, becomes), reaches[checker])
+    assert not found.survives
+    assert found.how.startswith(how)
+    again = outcome(_named(checker, function, was, becomes), reaches[checker], found.killer)
+    assert again == found
+
+
+def test_what_changes_no_verdict_survives(reaches: dict[str, Reach]) -> None:
+    mutant = _named("plain", "pure.py", "MAX_PRODUCTS: Final = 5000", "MAX_PRODUCTS: Final = 5001")
+    assert outcome(mutant, reaches["plain"]).survives
+    unreached = next(m for m in mutants("first") if m.function == "read_tolerances")
+    assert outcome(unreached, reaches["first"]).survives
+
+
+def test_an_endless_loop_is_found_out(reaches: dict[str, Reach], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mutant_runs.PATIENCE", (0.2, 1.0))
+    mutant = next(m for m in mutants("plain") if m.function == "real_roots")
+    monkeypatch.setattr(Mutant, "code", lambda _: compile(ENDLESS, "endless", "exec"))
+    found = outcome(mutant, reaches["plain"])
+    assert (found.how, found.survives) == ("takes too long", False)
+
+
+ENDLESS = "def real_roots(h0):\n    while True:\n        pass"
