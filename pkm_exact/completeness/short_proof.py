@@ -1,0 +1,75 @@
+"""The short ways to prove that a list of isolated poses is complete: no elimination over Q.
+
+In this order: as many simple poses as some bound admits (``pose_bound``), all that ranks modulo a prime leave where
+nothing is at infinity (``modular_rank``), and, on all rigid motions, poses and points at infinity that fill the degree
+together, the section being finite (``finite_section``, ``infinity``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+
+from pkm_exact.completeness.closed_section import closed_section
+from pkm_exact.completeness.conditions import Conditions
+from pkm_exact.completeness.finite_section import is_finite
+from pkm_exact.completeness.infinity import PointsAtInfinity, points_at_infinity
+from pkm_exact.completeness.modular_rank import modular_rank
+from pkm_exact.completeness.pose_bound import pose_bound
+from pkm_exact.motions.motion_groups import SPATIAL
+
+
+class ShortRoute(StrEnum):
+    """Arguments by which nothing is missing from a list."""
+
+    REFINED_BEZOUT = "refined-bezout"
+    PRODUCT_BOUND = "product-bound"
+    MODULAR_RANK = "modular-rank"
+    COUNTING_AT_INFINITY = "counting-at-infinity"
+
+
+@dataclass(frozen=True)
+class ShortProof:
+    """That there is no pose beside those listed.
+
+    Attributes
+    ----------
+    route : ShortRoute
+    infinity : PointsAtInfinity or None
+        For counting at infinity.
+    """
+
+    route: ShortRoute
+    infinity: PointsAtInfinity | None = None
+
+
+def short_proof(
+    conditions: Conditions, distinct: int, total: int, primes: Iterator[int], limit_bits: int
+) -> ShortProof | None:
+    """A proof that the poses listed are all, or None if no short way closes.
+
+    Parameters
+    ----------
+    conditions : Conditions
+    distinct : int
+        Number of poses listed, proved to be distinct; where nothing is at infinity or the section is finite, each is
+        isolated.
+    total : int
+        The sum of numbers that are at most their multiplicities, 1 only at poses proved to be simple.
+    primes : iterator of int
+        To compute with.
+    limit_bits : int
+        For the points at infinity.
+    """
+    bound = pose_bound(conditions)
+    if distinct == total == bound.least:
+        return ShortProof(ShortRoute.PRODUCT_BOUND if bound.least < bound.degree else ShortRoute.REFINED_BEZOUT)
+    if modular_rank(closed_section(conditions), next(primes), total) == total:
+        return ShortProof(ShortRoute.MODULAR_RANK)
+    if conditions.motion != SPATIAL or not is_finite(conditions, next(primes)):
+        return None
+    found = points_at_infinity(conditions, primes, limit_bits)
+    if found is None or total + found.multiplicity != bound.degree:
+        return None
+    return ShortProof(ShortRoute.COUNTING_AT_INFINITY, found)
