@@ -18,7 +18,7 @@ from flint import fmpq, fmpq_mat, nmod_mat
 
 from pkm_exact import Policy, Robot, read_robot, solve
 from pkm_exact.algebra.modular_elimination import Elimination
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.formulations.base import over_integers, rational_ring
 from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, leg_hyperplane, motion_quadrics
 from pkm_exact.formulations.registry import formulation
@@ -26,7 +26,7 @@ from pkm_exact.geometry.rotation import quaternion_norm, scaled_rotation
 
 root = next(folder for folder in (Path.cwd(), *Path.cwd().parents) if (folder / "models").is_dir())
 policy = Policy()
-prime = next(primes_below(policy.prime_bits))
+prime = next(primes_from(policy.seed, policy.prime_bits))
 random = Random(policy.seed)
 euclidean = (1, 1, 1)
 print("Hilbert functions below are computed modulo the prime", prime)

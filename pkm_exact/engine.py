@@ -10,8 +10,10 @@ from itertools import islice
 
 from flint import fmpz_poly
 
+from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.claim import Claim
 from pkm_exact.claim_wording import DETECTED_NOTE, INCONSISTENT_NOTE, NO_SOLUTION_NOTE
+from pkm_exact.errors import InternalContradictionError
 from pkm_exact.failures.contradiction import attached
 from pkm_exact.final_checks import consistent
 from pkm_exact.formulations.registry import formulation_codes, formulation_for
@@ -21,9 +23,10 @@ from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width, in_order, pose_boxes, root_enclosures
 from pkm_exact.poses.completeness import CompletenessProof, prove_complete, prove_inconsistent
 from pkm_exact.poses.jacobian import pose_jacobians
+from pkm_exact.poses.modular_start import Start
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_representation import PoseRepresentation
-from pkm_exact.poses.search import PoseSearch, Start
+from pkm_exact.poses.search import PoseSearch
 from pkm_exact.poses.self_motion import (
     Mobility,
     SelfMotion,
@@ -102,13 +105,23 @@ class _Run:
             note = motion_note(motion, self.problem)
             result = self._result(Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, note)
             return self._with_isolated(replace(result, self_motion=motion), width)
-        start = self.search.started()
-        if start.poses is None:
+        for _ in range(self.policy.attempts):
+            start, representation = self.search.found()
+            if representation is None:
+                return self._without_list(start, exponent, width)
+            try:
+                proof = self._proof(start, representation)
+            except UnluckyPrimeError:
+                continue
+            return self._listed(start, representation, proof, width)
+        raise InternalContradictionError("there are more poses than any prime shows")
+
+    def _without_list(self, start: Start, exponent: int, width: Fraction) -> Solution:
+        """The answer where there are infinitely many solutions modulo two primes, or none."""
+        if start.count is None:
             result = self._result(Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, DETECTED_NOTE)
             return self._with_isolated(replace(result, statistics=self._statistics(start)), width)
-        if start.poses.count == 0:
-            return replace(self._without_solutions(exponent), statistics=self._statistics(start))
-        return self._listed(start, start.poses.count, width)
+        return replace(self._without_solutions(exponent), statistics=self._statistics(start))
 
     def _without_solutions(self, exponent: int) -> Solution:
         """The answer where there is no solution modulo a prime, not even a complex one."""
@@ -118,15 +131,29 @@ class _Run:
             return self._result(Claim.INCONSISTENT, exponent, INCONSISTENT_NOTE, proof)
         return self._result(Claim.NOT_PROVEN_COMPLETE, exponent, NO_SOLUTION_NOTE)
 
-    def _listed(self, start: Start, count: int, width: Fraction) -> Solution:
-        """All poses in boxes, where there are so many modulo a prime, and what is proved about their list."""
-        representation = self.search.representation(start)
+    def _proof(self, start: Start, representation: PoseRepresentation) -> CompletenessProof | None:
+        """What proves the list complete, if anything does.
+
+        Raises
+        ------
+        UnluckyPrimeError
+            If another prime shows other poses, or it is proved that there are more.
+        """
         self.stages.enter("completeness")
         proof = prove_complete(representation, self.problem, self.policy, self.stages.amount)
+        if proof is None and start.frame.at_next_prime().count != start.count:
+            raise UnluckyPrimeError("two primes have different poses")
+        return proof
+
+    def _listed(
+        self, start: Start, representation: PoseRepresentation, proof: CompletenessProof | None, width: Fraction
+    ) -> Solution:
+        """All poses in boxes, and what is proved about their list."""
         self.stages.enter("real roots and boxes")
         exponent, poses = pose_boxes(representation, self.problem.metric, width)
         self.stages.enter("Jacobians")
         poses, singular = self._with_jacobians(poses, representation, proof)
+        count = proof.total if proof else start.count or 0
         question = () if proof else (open_question(count, representation.univariate.degree),)
         self.stages.leave()
         return Solution(
@@ -135,12 +162,12 @@ class _Run:
             method="exact",
             claim=Claim.COMPLETE if proof else Claim.NOT_PROVEN_COMPLETE,
             completeness=proof,
-            complex_solutions=proof.total if proof else count,
+            complex_solutions=count,
             distinct_solutions=representation.univariate.degree,
             representation=representation,
             box_exponent=exponent,
             poses=poses,
-            notes=(*turn_notes(start.turn, start.attempt), *singular, *question),
+            notes=(*turn_notes(start.frame.turn, start.frame.attempt), *singular, *question),
             statistics=self._statistics(start),
         )
 
@@ -185,11 +212,11 @@ class _Run:
         for count in range(bound.dimension, 7):
             for extended in islice(extended_problems(self.problem, count, self.policy.seed), SELF_MOTION_ATTEMPTS):
                 search = PoseSearch(extended, formulation_codes()[0], self.policy, Stages())
-                start = search.started()
-                if start.poses is None:
+                start, representation = search.found()
+                if start.count is None:
                     break
-                if start.poses.count > 0:
-                    return SelfMotion(bound, extended.distances[legs:], search.representation(start))
+                if representation is not None:
+                    return SelfMotion(bound, extended.distances[legs:], representation)
             else:
                 return None
         return None
@@ -241,8 +268,8 @@ class _Run:
 
     def _statistics(self, start: Start) -> Statistics:
         return Statistics(
-            tuple(start.elimination.primes_used),
-            tuple(start.elimination.primes_unlucky),
+            tuple(start.frame.elimination.primes_used),
+            tuple(start.frame.elimination.primes_unlucky),
             self.search.retries,
             len(start.image.basis.elements),
             start.image.dimension,

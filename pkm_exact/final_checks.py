@@ -9,11 +9,13 @@ representation must vanish on the robot modulo a prime, boxes must lie apart and
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Final
 
 from flint import fmpq, fmpz_poly, nmod_mat, nmod_poly
 
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.claim import Claim, CompletenessRoute, RealMotion
+from pkm_exact.digests import digest
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import evaluate, pose_quadrics
@@ -30,6 +32,8 @@ from pkm_exact.poses.self_motion import SelfMotion
 from pkm_exact.roots.counting import roots_in_gaps
 from pkm_exact.solution import Solution
 
+OTHER_BITS: Final = 61
+"""Size of the primes used here: by default the engines have none of this size."""
 _PROVED = (Claim.COMPLETE, Claim.INCONSISTENT)
 
 
@@ -116,7 +120,8 @@ def _require_representation(representation: PoseRepresentation, problem: Forward
     This holds for every prime that does not divide the leading coefficient, if it holds over Q.
     """
     h = representation.univariate.polynomial
-    prime = next(prime for prime in primes_below(61) if int(h.leading_coefficient()) % prime)
+    usable = primes_from(digest(problem.digest, "representation"), OTHER_BITS)
+    prime = next(prime for prime in usable if int(h.leading_coefficient()) % prime)
     modulus, slope = _image(h, prime), _image(h.derivative(), prime)
     x = [_image(numerator, prime) for numerator in representation.univariate.numerator_polynomials]
     zero, unknown = nmod_poly([0], prime), nmod_poly([0, 1], prime)
@@ -135,7 +140,7 @@ def _image(polynomial: fmpz_poly, prime: int) -> nmod_poly:
 
 def _require_mobility(motion: SelfMotion, problem: ForwardProblem) -> None:
     """The rank of the legs modulo a prime, as quadrics, is at most the one over Q that is said."""
-    prime = next(primes_below(61))
+    prime = next(primes_from(digest(problem.digest, "mobility"), OTHER_BITS))
     quadrics = pose_quadrics(problem)[0 if problem.motion.is_planar else 1 :]
     places = sorted({place for quadric in quadrics for place in quadric})
     rows = [quadric.get(place, 0) % prime for quadric in quadrics for place in places]

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final
 
+from pkm_exact.digests import Data, digest
+
 SMALLEST_WIDTH: Final = Fraction(1, 2**4096)
 """Boxes narrower than this are refused: they would take for ever."""
 
@@ -19,7 +21,8 @@ class Policy:
     prime_bits : int
         Size of the primes; 62 bits is the largest that FLINT's word arithmetic takes at full speed.
     seed : int
-        Seed of every random choice (coefficients of separating forms, combinations of equations).
+        Seed of every random choice (primes, separating forms, combinations of equations). Where a choice may fail,
+        the data are joined to it (``seed_for``).
     lifting : {"newton", "multimodular"}
         How a representation modulo a prime becomes one over Q. "newton" lifts p-adically and needs simple
         solutions; "multimodular" repeats the elimination at many primes.
@@ -40,3 +43,13 @@ class Policy:
     lifting_bits: int = 1 << 17
     degree_limit: int = 40
     dimension_limit: int = 2000
+
+    def seed_for(self, *data: Data) -> int:
+        """The seed of a choice about these data: the same for the same data, and for others another.
+
+        Examples
+        --------
+        >>> Policy().seed_for(1, "form") == Policy().seed_for(1, "form") != Policy().seed_for(2, "form")
+        True
+        """
+        return digest(self.seed, *data)

@@ -199,7 +199,7 @@ EXACT: dict[str, Fault] = {
         "ModularPoses.distinct_poses",
         lambda n: n + 1,
     ),
-    "all poses but one are lost modulo a prime": (P, SEARCH, "modular_poses", _at_five),
+    "all poses but one are lost modulo a prime": (P, "pkm_exact.poses.modular_start", "modular_poses", _at_five),
 }
 """What is wrong: a robot, the module and function, and the change of its result."""
 

@@ -13,13 +13,13 @@ from pkm_exact.algebra.groebner import (
     apply,
     learn,
 )
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.algebra.quotient import normal_set
 from pkm_exact.algebra.reduction import FIRST_COMBINATIONS, new_rows, read_row, row_echelon, row_matrix
 from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring
 
 SMALL_PRIME = 32003
-BIG_PRIME = next(primes_below(62))
+BIG_PRIME = next(primes_from(1, 62))
 
 
 def _learn(polynomials: PolynomialSystem, prime: int, degree_limit: int = 30) -> GroebnerBasis:
@@ -81,7 +81,7 @@ def test_the_unit_ideal_is_seen() -> None:
     "polynomials", [katsura(4), cyclic(5), random_quadrics(3, 7)], ids=["katsura-4", "cyclic-5", "quadrics-3"]
 )
 def test_a_trace_gives_what_learning_gives(polynomials: PolynomialSystem) -> None:
-    primes = primes_below(62)
+    primes = primes_from(1, 62)
     trace = _learn(polynomials, next(primes)).trace
     assert trace is not None
     for _ in range(2):

@@ -5,11 +5,11 @@ from flint import nmod_mat
 from samples import cyclic, katsura, random_quadrics, system
 
 from pkm_exact.algebra.groebner import OutOfReachError, learn
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.algebra.quotient import QuotientAlgebra, quotient_algebra
 from pkm_exact.algebra.system import PolynomialSystem, modular_image
 
-PRIME = next(primes_below(62))
+PRIME = next(primes_from(1, 62))
 
 # The points (1, 2), (3, 4), (5, -7): y is the interpolation polynomial in x.
 POINTS = system("x y", "(x - 1)*(x - 3)*(x - 5)", "8*y - (-13*x**2 + 60*x - 31)")

@@ -14,8 +14,9 @@ from typing import Protocol
 
 from flint import fmpz, fmpz_mat, fmpz_poly, nmod_poly
 
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.algebra.reconstruction import common_fraction
+from pkm_exact.digests import digest
 
 FIRST_LENGTH = 2.25
 """Bits of modulus tried first, in lengths of h; general robots need a little less."""
@@ -92,7 +93,7 @@ def _images(found: CommonFractions, completion: Completion, modulus: int) -> Ite
     numerators = [fmpz_poly(list(numerator)) for numerator in found.numerators]
     width = len(found.eliminant) - 1
     failures = 0
-    for prime in primes_below(62):
+    for prime in primes_from(digest(modulus, found.eliminant), 62):
         if not (modulus % prime and found.scale % prime):
             continue
         inverse = pow(found.scale, -1, prime)

@@ -14,7 +14,7 @@ from math import gcd
 
 from flint import fmpz_mat
 
-from pkm_exact.algebra.groebner import Trace
+from pkm_exact.algebra.groebner import Trace, UnluckyPrimeError
 from pkm_exact.algebra.monomials import MonomialRing
 from pkm_exact.algebra.reduction import Row
 from pkm_exact.algebra.system import PolynomialSystem
@@ -49,22 +49,36 @@ class ExactBasis:
 
 
 def exact_basis(system: PolynomialSystem, trace: Trace, watch: Watch | None = None) -> ExactBasis:
-    """The elimination of ``trace`` over Q; ``watch`` gets how many matrices are done before each."""
+    """The elimination of ``trace`` over Q; ``watch`` gets how many matrices are done before each.
+
+    Raises
+    ------
+    UnluckyPrimeError
+        If the elimination takes another course over Q than modulo the prime where the trace was learned.
+    """
     ring = system.monomials
     generators = [
         tuple((ring.pack(tuple(map(int, exponents))), int(value)) for exponents, value in polynomial.to_dict().items())
         for polynomial in system.polynomials
     ]
     elements = echelon_form(generators)
+    _require_leading(elements, trace.start)
     steps = []
     for done, step in enumerate(trace.steps):
         if watch is not None:
             watch(Amount(done, len(trace.steps), "exact matrices", detail=f"{len(step.rows)} rows"))
         rows = [multiple(elements[index], monomial) for index, monomial in step.rows]
         known = [ring.unpack(element[0][0]) for element in elements]
-        elements += [row for row in echelon_form(rows) if not any_divides(known, ring.unpack(row[0][0]))]
+        new = [row for row in echelon_form(rows) if not any_divides(known, ring.unpack(row[0][0]))]
+        _require_leading(new, step.new)
+        elements += new
         steps.append(step.rows)
     return ExactBasis(ring, tuple(elements), tuple(steps))
+
+
+def _require_leading(elements: Sequence[ExactPolynomial], expected: Sequence[int]) -> None:
+    if [element[0][0] for element in elements] != list(expected):
+        raise UnluckyPrimeError("over Q other leading monomials appear than modulo the prime of the trace")
 
 
 def any_divides(divisors: Sequence[tuple[int, ...]], exponents: tuple[int, ...]) -> bool:

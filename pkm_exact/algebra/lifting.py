@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from math import log2
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from pkm_exact.algebra.completion import CommonFractions, complete, padded
+from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.newton import Equations, PadicRepresentation, lift
 from pkm_exact.algebra.reconstruction import common_fraction
 from pkm_exact.algebra.representation import UnivariateRepresentation, from_common_fractions
@@ -21,6 +22,8 @@ from pkm_exact.errors import ReconstructionError
 
 Acceptance: TypeAlias = Callable[[UnivariateRepresentation], bool]
 """Whether a representation over Q is right, exactly."""
+SKIPPED: Final = 12
+"""Primes with fewer solutions that are passed over, before those with more are suspected."""
 
 
 def lift_by_newton(
@@ -84,16 +87,21 @@ def lift_by_primes(
 
     Raises
     ------
+    UnluckyPrimeError
+        If some prime has more solutions than the others.
     ReconstructionError
         If ``limit_bits`` of precision do not suffice.
     """
     residues: list[int] = []
     modulus, count, attempt_at = 1, 0, 2
-    degree = -1
+    degree, skipped = -1, 0
     for image in images:
         if image.degree != degree:
-            if image.degree < degree:
-                continue  # the form separates less at this prime: unlucky
+            if image.degree < degree:  # the form separates less at this prime: unlucky
+                skipped += 1
+                if skipped > SKIPPED:
+                    raise UnluckyPrimeError(f"there are {degree} solutions at few primes only")
+                continue
             degree, residues, modulus, count, attempt_at = image.degree, [], 1, 0, 2
         prime = int(image.eliminant.modulus())
         vector = _image_vector(image)

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from pkm_exact.algebra import groebner
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.algebra.quotient import QuotientAlgebra, quotient_algebra
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.policy import Policy
@@ -37,7 +37,7 @@ class ModularImage:
 
 @dataclass
 class Elimination:
-    """The modular eliminations of one system: deterministic, each prime used once.
+    """The modular eliminations of one system: deterministic, each prime used once. The primes follow from the system.
 
     Attributes
     ----------
@@ -56,11 +56,17 @@ class Elimination:
     primes_unlucky: list[int] = field(init=False, default_factory=list)
 
     def __post_init__(self) -> None:
-        self._primes = primes_below(self.policy.prime_bits)
+        self._primes = primes_from(self.policy.seed_for(self.system.digest), self.policy.prime_bits)
 
     def image(self, *, record: bool = False) -> ModularImage:
-        """The image at the next prime, found from scratch; with ``record`` its trace is kept for ``following``."""
-        prime = next(self._primes)
+        """The image at the next prime, found from scratch; with ``record`` its trace is kept for ``following``.
+
+        Raises
+        ------
+        OutOfReachError
+            If a limit of the policy is met, or there is no further prime of its size.
+        """
+        prime = self._next_prime()
         ring = self.system.monomials
         basis = groebner.learn(
             self.system.modulo(prime),
@@ -75,17 +81,30 @@ class Elimination:
         return self._finished(prime, basis)
 
     def following(self) -> ModularImage:
-        """The image at the next lucky prime, along the recorded trace."""
-        if self._trace is None:
-            return self.image(record=True)
-        while True:
-            prime = next(self._primes)
+        """The image at the next lucky prime, along the recorded trace; a trace that no prime follows is recorded anew.
+
+        Raises
+        ------
+        OutOfReachError
+            As ``image``.
+        """
+        for _ in range(self.policy.attempts):
+            if self._trace is None:
+                break
+            prime = self._next_prime()
             try:
                 basis = groebner.apply(self._trace, self.system.modulo(prime), self.system.monomials, prime)
             except groebner.UnluckyPrimeError:
                 self.primes_unlucky.append(prime)
                 continue
             return self._finished(prime, basis)
+        return self.image(record=True)
+
+    def _next_prime(self) -> int:
+        prime = next(self._primes, None)
+        if prime is None:
+            raise groebner.OutOfReachError(f"there is no further prime of {self.policy.prime_bits} bits")
+        return prime
 
     def _finished(self, prime: int, basis: groebner.GroebnerBasis) -> ModularImage:
         self.primes_used.append(prime)

@@ -12,6 +12,8 @@ from random import Random
 
 from flint import fmpz, fmpz_mat
 
+from pkm_exact.digests import digest
+
 MARGIN_BITS = 32
 """Every numerator must be smaller than the modulus by this factor, or the reconstruction is not believed."""
 LATTICE_RESIDUES = 5
@@ -61,7 +63,7 @@ def _sample(values: Sequence[fmpz]) -> Sequence[fmpz]:
     """A few combinations of the residues, which together have the same common denominator, almost certainly."""
     if len(values) <= LATTICE_RESIDUES:
         return values
-    random = Random(len(values))
+    random = Random(digest(len(values), int(values[0])))
     weights = [[random.randrange(1, 1 << 8) for _ in values] for _ in range(LATTICE_RESIDUES)]
     combined = fmpz_mat(weights) * fmpz_mat([[value] for value in values])
     return [combined[row, 0] for row in range(LATTICE_RESIDUES)]

@@ -15,6 +15,7 @@ from random import Random
 from flint import nmod_mat
 
 from pkm_exact.algebra.system import ModularPolynomial
+from pkm_exact.digests import digest
 
 Row = tuple[int, int]
 """A row of a reduction matrix: index of a basis element and the monomial that multiplies it."""
@@ -95,7 +96,7 @@ def read_row(matrix: nmod_mat, row: int, columns: Sequence[int], start: int) -> 
 
 def _combinations(count: int, prime: int) -> Iterator[nmod_mat | None]:
     """Matrices of random combinations of ``count`` rows, more and more, and at last None for the rows themselves."""
-    random = Random(count)
+    random = Random(digest(prime, count))
     size = FIRST_COMBINATIONS
     while 2 * size < count:
         yield nmod_mat(size, count, [random.getrandbits(RANDOM_BITS) for _ in range(size * count)], prime)

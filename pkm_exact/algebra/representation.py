@@ -9,8 +9,9 @@ from math import gcd
 
 from flint import fmpz_mpoly, fmpz_poly, nmod_poly
 
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.algebra.system import PolynomialSystem
+from pkm_exact.digests import digest
 
 
 @dataclass(frozen=True)
@@ -96,7 +97,8 @@ def are_coprime(left: fmpz_poly, right: fmpz_poly) -> bool:
     >>> are_coprime(fmpz_poly([-1, 0, 1]), fmpz_poly([2, 1])), are_coprime(fmpz_poly([-1, 0, 1]), fmpz_poly([1, 1]))
     (True, False)
     """
-    prime = next(prime for prime in primes_below(62) if int(left.leading_coefficient()) % prime)
+    usable = primes_from(digest(map(int, left.coeffs())), 62)
+    prime = next(prime for prime in usable if int(left.leading_coefficient()) % prime)
     images = [nmod_poly([int(value) % prime for value in polynomial.coeffs()], prime) for polynomial in (left, right)]
     return int(images[0].gcd(images[1]).degree()) == 0 or int(left.gcd(right).degree()) == 0
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from flint import nmod_mat, nmod_poly
 
+from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.quotient import QuotientAlgebra
 
 
@@ -49,12 +50,21 @@ class ModularRepresentation:
         return bool(self.denominator == derivative * scale)
 
     def parts(self, fibre: int = 1) -> dict[int, ModularRepresentation]:
-        """The solutions of each multiplicity by themselves, multiplicities in multiples of ``fibre``."""
+        """The solutions of each multiplicity by themselves, multiplicities in multiples of ``fibre``.
+
+        Raises
+        ------
+        UnluckyPrimeError
+            If a multiplicity is none.
+        """
         derivative = self.eliminant.derivative()
         multiplicity = self.denominator * derivative.xgcd(self.eliminant)[1] % self.eliminant
         found: dict[int, ModularRepresentation] = {}
         rest, count = self.eliminant, 1
+        total = int(self.denominator[self.degree - 1])
         while rest.degree() > 0:
+            if count * fibre > total:
+                raise UnluckyPrimeError(f"solutions have no multiplicity in multiples of {fibre}")
             part = rest.gcd(multiplicity - count * fibre)
             if part.degree() > 0:
                 part = part / part.leading_coefficient()

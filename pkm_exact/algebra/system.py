@@ -10,6 +10,7 @@ from math import lcm
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 
 from pkm_exact.algebra.monomials import MonomialRing
+from pkm_exact.digests import digest
 
 ModularPolynomial = tuple[list[int], list[int]]
 """Packed monomials in decreasing order, and their non-zero coefficients in [1, p)."""
@@ -56,6 +57,12 @@ class PolynomialSystem:
     def monomials(self) -> MonomialRing:
         """The packed monomials of the ring."""
         return MonomialRing(len(self.unknowns))
+
+    @property
+    def digest(self) -> int:
+        """A number that follows from the polynomials and nothing else."""
+        terms = (sorted((*map(int, key), int(value)) for key, value in f.to_dict().items()) for f in self.polynomials)
+        return digest(self.unknowns, terms)
 
     def modulo(self, prime: int) -> list[ModularPolynomial]:
         """Images of the polynomials modulo ``prime``, zero images left out."""

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from itertools import count
 from random import Random
+from typing import Final
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.formulations.base import Expression, FormulatedProblem, PoseMap
@@ -18,20 +20,23 @@ Turn = tuple[int, int, int, int]
 
 
 NO_TURN: Turn = (1, 0, 0, 0)
+COMMON_TURNS: Final = 5
+"""Random rotations that are tried with every robot, before those that follow from its own data."""
 
 
-def candidate_turns(seed: int) -> Iterator[Turn]:
-    """Rotations of the platform frame to try: none, then random ones.
+def candidate_turns(seed: int, own: int) -> Iterator[Turn]:
+    """Rotations of the platform frame to try: none, then random ones, first by ``seed``, then by the robot's ``own``.
 
     Examples
     --------
-    >>> next(candidate_turns(0))
+    >>> next(candidate_turns(0, 1))
     (1, 0, 0, 0)
     """
     yield NO_TURN
-    random = Random(seed)
-    while True:
-        yield random.randint(1, 9), random.randint(1, 9), random.randint(1, 9), random.randint(1, 9)
+    for random, largest, number in ((Random(seed), 9, COMMON_TURNS), (Random(own), 99, None)):
+        for _ in count() if number is None else range(number):
+            x, y, z, w = (random.randint(1, largest) for _ in range(4))
+            yield x, y, z, w
 
 
 def turned_problem(problem: ForwardProblem, turn: Turn) -> ForwardProblem:

@@ -8,9 +8,11 @@ coordinate is sqrt(metric[i]) times the rational one. With ``metric = (1, 3, 1)`
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.distance import Distance
+from pkm_exact.digests import digest
 from pkm_exact.errors import InputError
 from pkm_exact.motions.motion import Motion
 from pkm_exact.motions.motion_groups import SPATIAL
@@ -73,3 +75,19 @@ class ForwardProblem:
         A hyperplane does not add to it; each cylinder, a quadric, doubles it.
         """
         return self.motion.degree << sum(len(found.squares(self.metric)) for found in self.constraints)
+
+    @property
+    def digest(self) -> int:
+        """A number that follows from metric, motion and constraints, and from nothing else, not even their names.
+
+        Random choices about the problem start from it.
+        """
+        return _digest(self)
+
+
+@lru_cache(maxsize=16)
+def _digest(problem: ForwardProblem) -> int:
+    """The same; every step of a solve asks for it."""
+    metric, constraints = problem.metric, problem.constraints
+    squares = [(x.linear, x.root, x.factor) for found in constraints for x in found.squares(metric)]
+    return digest(metric, problem.motion.name, [found.forms(metric) for found in constraints], squares)

@@ -159,10 +159,8 @@ def _turns(problem: ForwardProblem, motion: SelfMotion, pose: NumericPose, polic
     further = _further_legs(problem, motion.mobility.dimension, pose, policy.seed)
     extended = replace(problem, constraints=(*problem.distances, *further))
     search = PoseSearch(extended, formulation_codes()[0], policy, Stages())
-    start = search.started()
-    if start.poses is None or start.poses.count == 0:
-        return False
-    return _has_real_root(search.representation(start))
+    representation = search.found()[1]
+    return representation is not None and _has_real_root(representation)
 
 
 def _has_real_root(representation: PoseRepresentation) -> bool:

@@ -16,10 +16,13 @@ counts the distinct ones (``algebra.exact_quotient``), and there must be as many
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
+from pkm_exact.algebra.groebner import Trace, UnluckyPrimeError
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.quotient import standard_monomials
 from pkm_exact.claim import CompletenessRoute
@@ -59,7 +62,13 @@ class CompletenessProof:
 def prove_complete(
     representation: PoseRepresentation, problem: ForwardProblem, policy: Policy, watch: Watch | None = None
 ) -> CompletenessProof | None:
-    """A proof that a verified representation is complete, or None if none of those known here applies."""
+    """A proof that a verified representation is complete, or None if none of those known here applies.
+
+    Raises
+    ------
+    UnluckyPrimeError
+        If it is proved that there are more poses.
+    """
     degree = representation.univariate.degree
     if (
         len(problem.distances) == 6
@@ -68,9 +77,16 @@ def prove_complete(
         and are_isolated(representation, problem, policy)
     ):
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)
-    basis = eliminate_exactly(problem, policy, watch)
-    bound = None if basis is None else solution_bound(basis, policy)
-    if basis is None or bound is None:
+    proofs = (_by_elimination(basis, representation, problem, policy) for basis in bases(problem, policy, watch))
+    return next((proof for proof in proofs if proof is not None), None)
+
+
+def _by_elimination(
+    basis: ExactBasis, representation: PoseRepresentation, problem: ForwardProblem, policy: Policy
+) -> CompletenessProof | None:
+    """The proof that an elimination over Q gives, or None if it gives none."""
+    degree, bound = representation.univariate.degree, solution_bound(basis, policy)
+    if bound is None:
         return None
     require(bound >= degree, "there is room for fewer solutions than were verified", bound=bound, verified=degree)
     if bound == degree:
@@ -81,6 +97,8 @@ def prove_complete(
         if quotient is None:
             return None
         rank = quotient.distinct_solutions
+        if rank > degree:
+            raise UnluckyPrimeError(f"there are {rank} poses, and {degree} of them were found")
         require(rank == degree, "the trace form counts other solutions than were verified", rank=rank, verified=degree)
         found = exact_multiplicities(representation, problem, quotient, policy)
     total = total_of(found)
@@ -90,17 +108,28 @@ def prove_complete(
 
 def prove_inconsistent(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> CompletenessProof | None:
     """A proof that no complex pose exists, by an elimination over Q that ends in a constant; None if it does not."""
-    basis = eliminate_exactly(problem, policy, watch)
-    return _elimination_proof(basis, 0) if basis is not None and solution_bound(basis, policy) == 0 else None
+    found = (solution_bound(basis, policy) == 0 and basis for basis in bases(problem, policy, watch))
+    return next((_elimination_proof(basis, 0) for basis in found if basis), None)
 
 
-def eliminate_exactly(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> ExactBasis | None:
-    """The elimination over Q of the poses' ideal, along a trace modulo a prime; None if that is not finite there."""
+def bases(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> Iterator[ExactBasis]:
+    """Eliminations over Q of the poses' ideal, along traces modulo primes at which it is finite.
+
+    What one trace does not prove, another may, if its prime was unlucky; but a prime that gives a trace a second time
+    shows that it is the robot's. None follows.
+    """
     system = SE3().formulate(problem).system
-    image = Elimination(system, policy).image(record=True)
-    if image.algebra is None or image.basis.trace is None:
-        return None
-    return exact_basis(system, image.basis.trace, watch)
+    elimination = Elimination(system, policy)
+    traces: list[Trace | None] = []
+    for _ in range(policy.attempts):
+        image = elimination.image(record=True)
+        trace = None if image.algebra is None else image.basis.trace
+        if trace in traces:
+            return
+        traces.append(trace)
+        if trace is not None:
+            with suppress(UnluckyPrimeError):
+                yield exact_basis(system, trace, watch)
 
 
 def solution_bound(basis: ExactBasis, policy: Policy) -> int | None:

@@ -5,20 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import count
 from random import Random
+from typing import Final
 
 from flint import fmpq_mpoly, nmod_mat
 
+from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.quotient import QuotientAlgebra
 from pkm_exact.algebra.rur import ModularRepresentation, distinct_values, modular_representation
 from pkm_exact.algebra.system import modular_image
-from pkm_exact.failures.contradiction import require
 from pkm_exact.formulations.base import FormulatedProblem, integer_multiple
 from pkm_exact.geometry.study import translation_coordinates
 from pkm_exact.poses.study_equations import Chart, dependent_coordinate
 
 Form = tuple[int, ...]
 """Coefficients of a linear form on the Study coordinates (e0, .., e3, f0, .., f3)."""
+
+COMMON_CHOICES: Final = 2
+"""Random charts, and pairs of forms, that are tried with every robot, before those that follow from its own data."""
 
 
 @dataclass(frozen=True)
@@ -40,10 +45,17 @@ class ModularPoses:
 
     @property
     def count(self) -> int:
-        """Number of poses with multiplicity."""
-        count, rest = divmod(self.algebra.dimension, self.formulated.fibre)
-        require(rest == 0, "not every pose is covered equally often", dimension=self.algebra.dimension)
-        return count
+        """Number of poses with multiplicity.
+
+        Raises
+        ------
+        UnluckyPrimeError
+            If the solutions do not fall into poses.
+        """
+        number, rest = divmod(self.algebra.dimension, self.formulated.fibre)
+        if rest:
+            raise UnluckyPrimeError(f"modulo {self.algebra.prime} not every pose is covered equally often")
+        return number
 
     @cached_property
     def position(self) -> tuple[nmod_mat, ...]:
@@ -94,7 +106,13 @@ class ModularPoses:
 def modular_poses(
     formulated: FormulatedProblem, algebra: QuotientAlgebra | None, metric: tuple[int, int, int]
 ) -> ModularPoses | None:
-    """The poses among the solutions of the first branch; None if there are infinitely many solutions."""
+    """The poses among the solutions of the first branch; None if there are infinitely many solutions.
+
+    Raises
+    ------
+    UnluckyPrimeError
+        If the prime divides a denominator.
+    """
     if algebra is None:
         return None
     for condition in formulated.conditions:
@@ -106,42 +124,48 @@ def _element(formulated: FormulatedProblem, algebra: QuotientAlgebra, polynomial
     branch = formulated.branches[0]
     cleared, denominator = integer_multiple(branch.unknowns, polynomial)
     image = modular_image(cleared, branch.monomials, algebra.prime)
+    if denominator % algebra.prime == 0:
+        raise UnluckyPrimeError(f"a coordinate of the poses has the denominator {algebra.prime}")
     return algebra.element(image) * pow(denominator, -1, algebra.prime)
 
 
-def candidate_charts(seed: int) -> Iterator[Chart]:
-    """Charts to try: the coordinate ones, then random ones. The last non-zero weight is 1.
+def candidate_charts(seed: int, own: int) -> Iterator[Chart]:
+    """Charts to try: the coordinate ones, then random ones, first by ``seed``, then by the robot's ``own``.
+
+    The last non-zero weight is 1.
 
     Examples
     --------
     >>> from itertools import islice
-    >>> list(islice(candidate_charts(0), 4))
+    >>> list(islice(candidate_charts(0, 1), 4))
     [(1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)]
     """
     yield from ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))
-    random = Random(seed)
-    while True:
-        yield random.randrange(-9, 10), random.randrange(-9, 10), random.randrange(-9, 10), 1
+    for random, size, number in ((Random(seed), 9, COMMON_CHOICES), (Random(own), 99, None)):
+        for _ in count() if number is None else range(number):
+            x, y, z = (random.randrange(-size, size + 1) for _ in range(3))
+            yield x, y, z, 1
 
 
-def candidate_forms(chart: Chart, seed: int) -> Iterator[Form]:
+def candidate_forms(chart: Chart, seed: int, own: int) -> Iterator[Form]:
     """Separating forms to try: quaternion coordinates, which give the shortest eliminants, then random combinations.
 
-    The coordinate that the chart determines gets coefficient 0.
+    These are drawn first by ``seed``, then by the robot's ``own``. The coordinate that the chart determines gets
+    coefficient 0.
     """
     free = [k for k in range(4) if k != dependent_coordinate(chart)]
     for k in reversed(free):
         yield tuple(int(index == k) for index in range(8))
     random = Random(seed)
-    size = 3
-    while True:
+    for number in count():
+        if number == COMMON_CHOICES:
+            random = Random(own)
         for indices in (free, [*free, 4, 5, 6, 7]):
             form = [0] * 8
             for index in indices:
-                form[index] = random.randrange(-size, size + 1)
+                form[index] = random.randrange(-3 - 2 * number, 4 + 2 * number)
             if any(form):
                 yield tuple(form)
-        size += 2
 
 
 def _combination(scalars: Sequence[int], values: Sequence[nmod_mat]) -> nmod_mat:

@@ -26,7 +26,7 @@ from typing import TypeAlias
 from flint import fmpz_poly, nmod_mat, nmod_poly
 
 from pkm_exact.algebra.exact_quotient import ExactQuotient
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, SE3
 from pkm_exact.geometry.problem import ForwardProblem
@@ -77,8 +77,9 @@ def exact_multiplicities(
     """
     factors = [factor for factor, _ in representation.univariate.primitive_polynomial.factor()[1]]
     names = SE3().formulate(problem).system.unknowns
-    random = Random(policy.seed)
-    for prime in islice(primes_below(policy.prime_bits), policy.attempts):
+    seed = policy.seed_for(problem.digest, "multiplicities")
+    random = Random(seed)
+    for prime in islice(primes_from(seed, policy.prime_bits), policy.attempts):
         weights = {name: random.randrange(1, prime) for name in names}
         found = _modulo(representation, problem.metric, factors, quotient, weights, prime)
         if found is not None:

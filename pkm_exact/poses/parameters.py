@@ -24,13 +24,14 @@ class Parameters:
 
 def choose_parameters(poses: ModularPoses, problem: ForwardProblem, policy: Policy) -> Parameters | None:
     """The first chart that misses no pose, and the first form that takes as many values as there are poses."""
-    for chart in islice(candidate_charts(policy.seed), policy.attempts):
+    own = policy.seed_for(problem.digest, poses.algebra.prime)
+    for chart in islice(candidate_charts(policy.seed, own), policy.attempts):
         coordinates = poses.coordinates(chart)
         if coordinates is None:
             continue
-        count = poses.distinct_poses(coordinates, policy.seed)
+        count = poses.distinct_poses(coordinates, own)
         require(0 < count <= poses.count, "more distinct poses than poses", distinct=count, poses=poses.count)
-        for form in islice(candidate_forms(chart, policy.seed), policy.attempts):
+        for form in islice(candidate_forms(chart, policy.seed, own), policy.attempts):
             modular = poses.representation(coordinates, form, free_coordinates(chart, problem))
             if modular.degree == count:
                 return Parameters(chart, form, modular)

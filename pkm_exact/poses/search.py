@@ -1,60 +1,37 @@
 """From a problem to all its poses over Q, verified: formulation, elimination, separating form, lifting.
 
-Modulo a prime first: a Groebner basis of the formulation, and the poses in its quotient algebra. Then a chart, a form
-that separates them, and the univariate representation, lifted to Q and verified there exactly. A choice that turns out
-unlucky is made again, as often as the policy allows.
+Modulo a prime first: a Groebner basis of the formulation, and the poses in its quotient algebra (``modular_start``).
+Then a chart, a form that separates them, and the univariate representation, lifted to Q and verified there exactly. A
+choice that turns out unlucky is made again, as often as the policy allows. A prime, too: at one that divides a
+coordinate, or a difference of two, there are other poses, which lift to no representation over Q. So while a lift takes
+longer than expected, further primes are asked whether they have as many poses.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
+from functools import cached_property
+from typing import Final
 
-from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
+from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.lifting import Acceptance, lift_by_newton, lift_by_primes
-from pkm_exact.algebra.modular_elimination import Elimination, ModularImage
 from pkm_exact.algebra.representation import UnivariateRepresentation, union
 from pkm_exact.algebra.rur import ModularRepresentation
-from pkm_exact.errors import InternalContradictionError
-from pkm_exact.formulations.base import FormulatedProblem
-from pkm_exact.formulations.registry import formulation as formulation_of
-from pkm_exact.formulations.registry import formulation_codes, formulation_for
-from pkm_exact.formulations.turned import Turn, candidate_turns, formulate_turned
+from pkm_exact.errors import InternalContradictionError, ReconstructionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.expected_size import expected_bits
-from pkm_exact.poses.modular import ModularPoses, modular_poses
+from pkm_exact.poses.modular_start import Start, StartSearch
 from pkm_exact.poses.parameters import Parameters, choose_parameters
 from pkm_exact.poses.pose_representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.study_equations import StudyEquations, free_coordinates
 from pkm_exact.stages import Amount, Stages
 
-
-@dataclass(frozen=True)
-class Start:
-    """Where the search begins: the poses modulo a prime.
-
-    Attributes
-    ----------
-    formulated : FormulatedProblem
-    turn : quaternion of 4 int
-        By which the platform frame was turned.
-    attempt : int
-        Number of frames tried before this one.
-    elimination : Elimination
-    image : ModularImage
-        At the first prime.
-    poses : ModularPoses or None
-        None if they are infinitely many.
-    """
-
-    formulated: FormulatedProblem
-    turn: Turn
-    attempt: int
-    elimination: Elimination
-    image: ModularImage
-    poses: ModularPoses | None
+DOUBT: Final = 2
+"""A lift is in doubt at so many times the bits that are expected, and again at twice as many."""
+LEAST_DOUBT: Final = 2048
+"""Below so many bits a lift is not in doubt: to finish costs less than to ask."""
 
 
 @dataclass
@@ -68,122 +45,127 @@ class PoseSearch:
         Of the formulation.
     policy : Policy
     stages : Stages
-    retries : int
-        Choices that failed and were made again.
+    failures : int
+        Representations that failed.
     """
 
     problem: ForwardProblem
     code: str
     policy: Policy
     stages: Stages
-    retries: int = 0
+    failures: int = 0
 
-    def started(self) -> Start:
-        """The poses modulo a prime, in a platform frame in which the formulation has coordinates for all of them.
+    @cached_property
+    def starts(self) -> StartSearch:
+        """The search modulo primes."""
+        return StartSearch(self.problem, self.code, self.policy, self.stages)
 
-        Raises
-        ------
-        OutOfReachError
-            If there is no such frame among those tried, or a limit of the policy is met.
-        """
-        formulation = formulation_for(self.code, self.problem)
-        expected: int | None = None
-        for attempt, turn in enumerate(islice(candidate_turns(self.policy.seed), self.policy.attempts)):
-            self.stages.enter("formulation")
-            formulated = formulate_turned(formulation, self.problem, turn)
-            self.stages.enter("Groebner basis")
-            elimination = Elimination(formulated.branches[0], self.policy, self.stages.amount)
-            image = self._confirmed_image(elimination)
-            poses = modular_poses(formulated, image.algebra, self.problem.metric)
-            if formulated.is_chart and attempt == 0:
-                expected = self._reference_count()
-            count = None if poses is None else poses.count
-            if not formulated.is_chart or count == expected:
-                return Start(formulated, turn, attempt, elimination, image, poses)
-            self.retries += 1
-        raise OutOfReachError(
-            f"{self.code} misses poses in every frame of the platform that was tried: they have no finite coordinates"
-        )
+    @property
+    def retries(self) -> int:
+        """Choices that failed and were made again."""
+        return self.failures + self.starts.retries
 
-    def _reference_count(self) -> int | None:
-        """Number of poses by the formulation that misses none, to see whether a chart does; None if infinite."""
-        formulated = formulation_of(formulation_codes()[0]).formulate(self.problem)
-        return self._confirmed_image(Elimination(formulated.system, self.policy, self.stages.amount)).dimension
+    def found(self) -> tuple[Start, PoseRepresentation | None]:
+        """The poses modulo a prime and their representation over Q; None if there are none, or infinitely many.
 
-    def _confirmed_image(self, elimination: Elimination) -> ModularImage:
-        """The image at the first prime, or, if it has no solution or infinitely many, at one of two that agree."""
-        image = elimination.image()
-        for _ in range(self.policy.attempts):
-            if image.dimension:
-                return image
-            second = elimination.image()
-            if second.dimension == image.dimension:
-                return image
-            self.retries += 1
-            image = second
-        raise InternalContradictionError("the number of solutions differs from prime to prime")
-
-    def representation(self, start: Start) -> PoseRepresentation:
-        """The verified representation of all poses over Q.
+        Called again, it begins again, at other primes.
 
         Raises
         ------
         OutOfReachError, ReconstructionError
             If a limit of the policy is met.
         InternalContradictionError
-            If none passes verification.
+            If no representation passes verification.
         """
-        poses = start.poses
-        for attempt in range(self.policy.attempts):
-            self.stages.enter("separating form")
-            chosen = None if poses is None else choose_parameters(poses, self.problem, self.policy)
-            if chosen is not None:
-                lifted = self._lifted(start, chosen, attempt)
-                if lifted is not None:
-                    return lifted
-            self.retries += 1
-            self.stages.enter("Groebner basis")
-            image = self._confirmed_image(start.elimination)
-            poses = modular_poses(start.formulated, image.algebra, self.problem.metric)
+        for _ in range(self.policy.attempts):
+            start = self.starts.started()
+            if not start.count:
+                return start, None
+            try:
+                return start, self.representation(start)
+            except UnluckyPrimeError:
+                self.failures += 1
         raise InternalContradictionError(
             f"no representation of the poses passed verification in {self.policy.attempts} attempts"
         )
 
-    def _lifted(self, start: Start, chosen: Parameters, attempt: int) -> PoseRepresentation | None:
-        """The poses of each multiplicity over Q, verified, and all of them together; None after an unlucky choice."""
-        equations = StudyEquations(self.problem, chosen.chart, self.policy.seed + attempt)
+    def representation(self, start: Start) -> PoseRepresentation:
+        """The verified representation of all poses over Q.
+
+        Raises
+        ------
+        UnluckyPrimeError
+            If a choice was a bad one: then other primes are to be tried.
+        OutOfReachError, ReconstructionError
+            If a limit of the policy is met.
+        """
+        self.stages.enter("separating form")
+        chosen = None if start.poses is None else choose_parameters(start.poses, self.problem, self.policy)
+        if chosen is None:
+            raise UnluckyPrimeError("no chart and form that were tried show all poses")
+        try:
+            lifted = self._lifted(start, chosen)
+        except ReconstructionError:
+            self._require_agreement(start, chosen)
+            raise
+        if lifted is None:
+            raise UnluckyPrimeError("the representation did not pass verification")
+        return lifted
+
+    def _lifted(self, start: Start, chosen: Parameters) -> PoseRepresentation | None:
+        """The poses of each multiplicity over Q, verified, and all of them together; None if these are not."""
+        prime = start.image.prime
+        equations = StudyEquations(self.problem, chosen.chart, self.policy.seed_for(self.problem.digest, prime))
         form = [chosen.form[k] for k in equations.free]
         bits = self.policy.lifting_bits
-        images = _further_images(start, chosen, self.problem)
+        images = _further_images(start, chosen, self.problem, self.policy.attempts)
         parts = []
-        try:
-            if self.policy.lifting == "multimodular":
-                accept, watch = self._acceptance(chosen, "lifting by primes"), self._watch(chosen.modular)
-                parts.append(lift_by_primes(form, images, bits, accept, watch))
-                return pose_representation(chosen.chart, self.problem, parts[0])
-            for multiplicity, modular in chosen.modular.parts(start.formulated.fibre).items():
-                watch = self._watch(modular)
-                if multiplicity == 1:
-                    accept = self._acceptance(chosen, "p-adic lifting")
-                    parts.append(lift_by_newton(equations, form, modular, bits, accept, watch))
-                else:
-                    accept = self._acceptance(chosen, "lifting by primes")
-                    some = _parts(images, multiplicity, start, self.policy.attempts)
-                    parts.append(lift_by_primes(form, some, bits, accept, watch))
-        except UnluckyPrimeError:
-            return None
+        if self.policy.lifting == "multimodular":
+            stage = "lifting by primes"
+            accept, watch = self._acceptance(chosen, stage), self._watch(chosen.modular, start, chosen, stage)
+            return pose_representation(chosen.chart, self.problem, lift_by_primes(form, images, bits, accept, watch))
+        for multiplicity, modular in chosen.modular.parts(start.frame.formulated.fibre).items():
+            stage = "p-adic lifting" if multiplicity == 1 else "lifting by primes"
+            accept, watch = self._acceptance(chosen, stage), self._watch(modular, start, chosen, stage)
+            if multiplicity == 1:
+                parts.append(lift_by_newton(equations, form, modular, bits, accept, watch))
+            else:
+                some = _parts(images, multiplicity, start, self.policy.attempts)
+                parts.append(lift_by_primes(form, some, bits, accept, watch))
         self.stages.enter("verification")
         lifted = pose_representation(chosen.chart, self.problem, union(parts))
         return lifted if len(parts) == 1 or lifted.is_verified(self.problem) else None
 
-    def _watch(self, modular: ModularRepresentation) -> Callable[[int], None]:
-        """Says how far the lifting of some solutions has come, of an estimate while there is more to do."""
+    def _watch(
+        self, modular: ModularRepresentation, start: Start, chosen: Parameters, stage: str
+    ) -> Callable[[int], None]:
+        """Says how far the lifting of some solutions has come, of an estimate, and asks other primes if it is long."""
         expected = expected_bits(self.problem, modular.degree)
+        doubtful = max(DOUBT * expected, LEAST_DOUBT)
 
         def watch(bits: int) -> None:
+            nonlocal doubtful
             self.stages.amount(Amount(bits, expected if bits < expected else None, "bits", "about"))
+            if bits > doubtful:
+                doubtful *= 2
+                self._require_agreement(start, chosen)
+                self.stages.enter(stage)
 
         return watch
+
+    def _require_agreement(self, start: Start, chosen: Parameters) -> None:
+        """The next prime has as many poses of each multiplicity, in the chart and form chosen.
+
+        Raises
+        ------
+        UnluckyPrimeError
+            If it has not: one of the two is unlucky.
+        """
+        self.stages.enter("Groebner basis")
+        fibre = start.frame.formulated.fibre
+        other = _represented(start.frame.at_next_prime(), chosen, ())
+        if other is None or _degrees(other, fibre) != _degrees(chosen.modular, fibre):
+            raise UnluckyPrimeError("two primes have different poses")
 
     def _acceptance(self, chosen: Parameters, stage: str) -> Acceptance:
         """Enters the stage, and tells whether what it lifts are poses, exactly."""
@@ -199,13 +181,37 @@ class PoseSearch:
         return accept
 
 
-def _further_images(start: Start, chosen: Parameters, problem: ForwardProblem) -> Iterator[ModularRepresentation]:
-    """The representation in the chosen chart and form at one prime after another."""
-    while True:
-        poses = modular_poses(start.formulated, start.elimination.following().algebra, problem.metric)
-        coordinates = None if poses is None else poses.coordinates(chosen.chart)
-        if poses is not None and coordinates is not None:
-            yield poses.representation(coordinates, chosen.form, free_coordinates(chosen.chart, problem))
+def _degrees(modular: ModularRepresentation, fibre: int) -> dict[int, int]:
+    """How many solutions have each multiplicity."""
+    return {multiplicity: part.degree for multiplicity, part in modular.parts(fibre).items()}
+
+
+def _represented(start: Start, chosen: Parameters, wanted: Sequence[int]) -> ModularRepresentation | None:
+    """The wanted coordinates in the chart and form chosen; None if the chart does not show all poses, or none is."""
+    coordinates = start.poses.coordinates(chosen.chart) if start.poses and start.count else None
+    return start.poses.representation(coordinates, chosen.form, wanted) if start.poses and coordinates else None
+
+
+def _further_images(
+    start: Start, chosen: Parameters, problem: ForwardProblem, misses_allowed: int
+) -> Iterator[ModularRepresentation]:
+    """The representation in the chosen chart and form at one prime after another.
+
+    Raises
+    ------
+    UnluckyPrimeError
+        If it has no image at too many of them, one after another: the first prime was the unlucky one.
+    """
+    wanted = free_coordinates(chosen.chart, problem)
+    misses = 0
+    while misses <= misses_allowed:
+        image = _represented(start.frame.at_next_prime(along_trace=True), chosen, wanted)
+        if image is None:
+            misses += 1
+            continue
+        misses = 0
+        yield image
+    raise UnluckyPrimeError("the chart misses poses at all primes but the first")
 
 
 def _parts(
@@ -220,7 +226,7 @@ def _parts(
     """
     misses = 0
     for image in images:
-        part = image.parts(start.formulated.fibre).get(multiplicity)
+        part = image.parts(start.frame.formulated.fibre).get(multiplicity)
         if part is not None:
             yield part
             continue

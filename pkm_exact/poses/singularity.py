@@ -19,7 +19,7 @@ from math import lcm
 from flint import fmpq_poly, fmpz_poly, nmod_poly
 
 from pkm_exact.algebra.newton import is_regular
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.geometry.study import evaluate, motion_quadrics
@@ -64,14 +64,15 @@ def are_isolated(
     """
     h = representation.univariate.polynomial
     looked_at = h if factor is None else factor
-    usable = (prime for prime in primes_below(policy.prime_bits) if int(h.leading_coefficient()) % prime)
+    seed = policy.seed_for(problem.digest, "regularity")
+    usable = (prime for prime in primes_from(seed, policy.prime_bits) if int(h.leading_coefficient()) % prime)
     for attempt, prime in enumerate(islice(usable, policy.attempts)):
         eliminant = nmod_poly([int(value) % prime for value in looked_at.coeffs()], prime)
         slope = nmod_poly([int(value) % prime for value in h.derivative().coeffs()], prime)
         divisor, inverse, _ = slope.xgcd(eliminant)
         if divisor.degree() != 0:
             continue
-        equations = StudyEquations(problem, representation.chart, policy.seed + attempt)
+        equations = StudyEquations(problem, representation.chart, seed + attempt)
         numerators = [representation.univariate.numerators[k] for k in equations.free]
         point = [
             nmod_poly([value % prime for value in numerator], prime) * inverse % eliminant for numerator in numerators
