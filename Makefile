@@ -35,6 +35,9 @@ check-style: $(VENV)/.installed-test
 	@$(BIN)/ruff format --check $(SOURCES)
 	@$(BIN)/mypy
 
+# Processes of tests must not compile the package each time, whatever the user has set.
+test test-slow: export PYTHONDONTWRITEBYTECODE =
+
 test: check-style
 	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile
 

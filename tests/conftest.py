@@ -1,5 +1,6 @@
 """Settings of the whole suite: property tests are deterministic and not timed, so a busy machine cannot fail them."""
 
+import gc
 import re
 from pathlib import Path
 
@@ -8,6 +9,18 @@ from hypothesis import settings
 
 settings.register_profile("suite", deadline=None, derandomize=True)
 settings.load_profile("suite")
+
+
+def pytest_collection_finish() -> None:
+    """Thousands of tests and the libraries that they load stay to the end: no collection of garbage looks at them."""
+    gc.collect()
+    gc.freeze()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_sessionfinish() -> None:
+    """What is left over then is looked at once."""
+    gc.unfreeze()
 
 
 @pytest.fixture

@@ -3,35 +3,22 @@
 import json
 from copy import deepcopy
 from fractions import Fraction
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import jsonschema
 import pytest
-from certificate_tools import check_resealed, last_line
+from certificate_tools import boxed_certificate, check_resealed, golden, last_line
 from flint import arb, ctx
 
-from pkm_exact import Robot, certificate, read_robot, solve
+from pkm_exact import Robot, certificate, solve
 from pkm_exact.certify.build import canonical_bytes
 from pkm_exact.certify.check import Status
 from pkm_exact.certify.checker.krawczyk import Box, Equations, _place, narrowed
 from pkm_exact.constraints.distance import Distance
-from pkm_exact.numeric_engine import solve_krawczyk
 
 MODELS = Path(__file__).parent.parent / "models"
 SCHEMA = Path(__file__).parent.parent / "pkm_exact" / "certify" / "certificate-1.schema.json"
-
-
-@cache
-def _made(name: str) -> dict[str, Any]:
-    robot = read_robot(MODELS / f"{name}.toml")
-    configuration = robot.configuration()
-    return certificate(robot, configuration.name, solve_krawczyk(robot.problem(configuration)))
-
-
-def _certificate(name: str) -> dict[str, Any]:
-    return deepcopy(_made(name))
 
 
 def _rejected(content: dict[str, Any], reason: str) -> None:
@@ -41,7 +28,7 @@ def _rejected(content: dict[str, Any], reason: str) -> None:
 
 @pytest.mark.parametrize("name", ["mourrain-l", "rolland-6-6", "3-rrr", "3-rpr-merlet-p", "hexa"])
 def test_it_is_accepted_small_and_fits_the_schema(name: str) -> None:
-    content = _certificate(name)
+    content = boxed_certificate(name)
     verdict = check_resealed(content)
     assert verdict.status is Status.ACCEPTED, verdict
     assert (content["method"], content["claim"]) == ("krawczyk", "complete")
@@ -52,17 +39,15 @@ def test_it_is_accepted_small_and_fits_the_schema(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["mourrain-l", "rolland-6-6", "3-rrr"])
 def test_poses_are_those_of_the_exact_engine(name: str) -> None:
-    robot = read_robot(MODELS / f"{name}.toml")
-    configuration = robot.configuration()
-    exact = certificate(robot, configuration.name, solve(robot.problem(configuration)))
-    numeric = _certificate(name)
+    exact = golden(name)
+    numeric = boxed_certificate(name)
     for one, other in zip(exact["poses"], numeric["poses"], strict=True):
         assert one["position"] == other["position"]
         assert one["rotation"] == other["rotation"]
 
 
 def test_a_pose_dropped_with_its_box_and_its_counts_leaves_the_list_incomplete() -> None:
-    content = _certificate("mourrain-l")
+    content = boxed_certificate("mourrain-l")
     content["krawczyk"]["real"].pop()
     content["poses"].pop()
     content |= {"real_poses": 3, "complex_solutions": 39, "distinct_solutions": 39}
@@ -72,13 +57,13 @@ def test_a_pose_dropped_with_its_box_and_its_counts_leaves_the_list_incomplete()
 
 
 def test_a_solution_is_not_counted_twice() -> None:
-    content = _certificate("mourrain-l")
+    content = boxed_certificate("mourrain-l")
     content["krawczyk"]["complex"][1] = content["krawczyk"]["complex"][0]
     _rejected(content, "boxes")
 
 
 def test_a_conjugate_box_is_the_same_solution_again() -> None:
-    content = _certificate("mourrain-l")
+    content = boxed_certificate("mourrain-l")
     box = deepcopy(content["krawczyk"]["complex"][0])
     box["centre"] = [[real, hex(-int(imaginary, 16))] for real, imaginary in box["centre"]]
     content["krawczyk"]["complex"][1] = box
@@ -86,7 +71,7 @@ def test_a_conjugate_box_is_the_same_solution_again() -> None:
 
 
 def test_a_real_solution_is_not_listed_as_complex() -> None:
-    content = _certificate("mourrain-l")
+    content = boxed_certificate("mourrain-l")
     box = content["krawczyk"]["real"].pop()
     box["centre"] = [[value, "0x0"] for value in box["centre"]]
     content["krawczyk"]["complex"].append(box)
@@ -96,7 +81,7 @@ def test_a_real_solution_is_not_listed_as_complex() -> None:
 
 
 def test_a_moved_box_is_rejected() -> None:
-    content = _certificate("mourrain-l")
+    content = boxed_certificate("mourrain-l")
     centre = content["krawczyk"]["real"][0]["centre"]
     for units in (1, 3, 8, -1):
         changed = deepcopy(content)
@@ -105,20 +90,20 @@ def test_a_moved_box_is_rejected() -> None:
 
 
 def test_boxes_of_another_robot_are_rejected() -> None:
-    content, other = _certificate("mourrain-l"), _certificate("linapod-n")
+    content, other = boxed_certificate("mourrain-l"), boxed_certificate("linapod-n")
     content["krawczyk"] = other["krawczyk"]
     _rejected(content, "boxes")
 
 
 def test_boxes_are_in_the_order_of_the_poses() -> None:
-    content = _certificate("mourrain-l")
+    content = boxed_certificate("mourrain-l")
     real = content["krawczyk"]["real"]
     real[0], real[1] = real[1], real[0]
     _rejected(content, "real poses")
 
 
 def test_the_exact_method_lists_no_boxes_beside_a_complete_list() -> None:
-    content = _certificate("mourrain-l")
+    content = boxed_certificate("mourrain-l")
     content["method"] = "exact"
     _rejected(content, "method")
 
@@ -138,7 +123,7 @@ def test_isolated_poses_beside_a_self_motion_are_listed_and_checked() -> None:
 
 def test_the_image_contains_the_solution_and_shrinks() -> None:
     """The only zero of the equations near a box lies in the Krawczyk image of any box around it."""
-    content = _certificate("mourrain-l")
+    content = boxed_certificate("mourrain-l")
     robot, lengths = content["robot"], content["configuration"]["lengths_squared"]
     legs = [
         Distance(tuple(map(Fraction, a)), tuple(map(Fraction, b)), Fraction(s))  # type: ignore[arg-type]

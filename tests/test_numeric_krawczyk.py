@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
-from samples import MODELS, random_placed, random_vector, shipped, solved
+from samples import MODELS, boxed, random_placed, random_vector, shipped, solved
 
 from pkm_exact.claim import CompletenessRoute
 from pkm_exact.engine import solve
@@ -235,7 +235,7 @@ def test_newton_refines_to_the_same_box_on_every_grid() -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_shipped_robots_have_the_poses_of_the_exact_engine(name: str) -> None:
-    numeric, exact = solve_krawczyk(shipped(name)), solved(name)
+    numeric, exact = boxed(name), solved(name)
     assert_same_answer(numeric, exact)
     if numeric.method == "krawczyk":
         assert numeric.completeness_route is CompletenessRoute.REFINED_BEZOUT
@@ -247,7 +247,7 @@ def test_shipped_robots_have_the_poses_of_the_exact_engine(name: str) -> None:
 
 
 def test_the_general_robots_need_no_exact_engine() -> None:
-    assert {name: solve_krawczyk(shipped(name)).method for name in (GENERAL, "dietmaier", "3-rpr-merlet-p")} == {
+    assert {name: boxed(name).method for name in (GENERAL, "dietmaier", "3-rpr-merlet-p")} == {
         GENERAL: "krawczyk",
         "dietmaier": "krawczyk",
         "3-rpr-merlet-p": "krawczyk",

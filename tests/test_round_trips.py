@@ -88,9 +88,18 @@ def _check_round_trip(shape: str, seed: int, metric: tuple[int, int, int]) -> No
     assert _holds(solution, robot)
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-@settings(max_examples=1)
-@given(seed=seeds, metric=st.sampled_from(METRICS))
+@pytest.mark.parametrize(
+    ("shape", "seed", "metric"),
+    [
+        ("general", 1, (1, 3, 1)),
+        ("planar", 1, (1, 3, 1)),
+        ("planar", 2, (1, 1, 1)),
+        ("similar", 1, (1, 3, 1)),
+        ("similar", 2, (1, 1, 1)),
+        ("coincident", 1, (1, 3, 1)),
+        ("symmetric", 1, (1, 3, 1)),
+    ],
+)
 def test_the_known_pose_is_found(shape: str, seed: int, metric: tuple[int, int, int]) -> None:
     _check_round_trip(shape, seed, metric)
 

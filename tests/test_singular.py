@@ -58,6 +58,7 @@ def test_euler_angles_at_gimbal_lock_are_solved_in_a_turned_frame() -> None:
     assert "turned by the quaternion" in note
 
 
+@pytest.mark.slow
 def test_another_convention_has_its_gimbal_lock_elsewhere() -> None:
     assert holds(robot_at(GIMBAL_LOCK, (1, 2, 5)), "AFD1:zxz", (1, 2, 5)) == ()
 

@@ -18,7 +18,7 @@ from certificate_tools import at, check_resealed, last_line, with_entry
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
-from samples import MODELS, random_placed, shipped, solved
+from samples import MODELS, boxed, random_placed, shipped, solved, tolerant
 from tolerance_tools import errors_of, exact_robot, poses_near, robots_with
 
 from pkm_exact import InputError, read_robot, solve
@@ -38,16 +38,6 @@ ROLLAND = MODELS[[path.stem for path in MODELS].index("rolland-6-6")]
 PLANAR = MODELS[[path.stem for path in MODELS].index("3-rrr")]
 NEGLIGIBLE = 1e-10
 """Rounding errors of the sampled poses, in times the size of a robot."""
-
-
-@cache
-def numeric(name: str) -> Solution:
-    return solve_krawczyk(shipped(name))
-
-
-@cache
-def analysed(name: str, tolerance: str) -> ToleranceResult:
-    return tolerance_boxes(shipped(name), Tolerances.uniform(tolerance), numeric(name))
 
 
 def require_samples_inside(result: ToleranceResult, solution: Solution, count: int, seed: int) -> None:
@@ -74,7 +64,7 @@ def _centroids(result: ToleranceResult, poses: Any) -> Any:
 
 
 def test_a_micrometre_on_the_reference_robot() -> None:
-    result = analysed("rolland-6-6", "0.001")
+    result = tolerant("rolland-6-6", "0.001")
     assert [box.pose for box in result.boxes] == list(range(1, 17))
     assert result.is_proved
     for box in result.boxes:
@@ -82,12 +72,12 @@ def test_a_micrometre_on_the_reference_robot() -> None:
         assert box.fraction == 1
         assert box.bounds.position_error.hi < Fraction(1, 4)
         assert box.bounds.position_error.hi < Fraction(6, 5) * box.bounds.position_error.lo
-    require_samples_inside(result, numeric("rolland-6-6"), 60, 1)
+    require_samples_inside(result, boxed("rolland-6-6"), 60, 1)
 
 
 @pytest.mark.slow
 def test_ten_thousand_robots_have_their_poses_in_the_boxes() -> None:
-    require_samples_inside(analysed("rolland-6-6", "0.001"), numeric("rolland-6-6"), 10_000, 2)
+    require_samples_inside(tolerant("rolland-6-6", "0.001"), boxed("rolland-6-6"), 10_000, 2)
 
 
 @pytest.mark.parametrize(
@@ -95,15 +85,29 @@ def test_ten_thousand_robots_have_their_poses_in_the_boxes() -> None:
     [("ssm-exact", "0.001"), ("mssm", "0.01"), ("hexa", "0.01"), ("3-rrr", "0.0002"), ("3-prr", "0.0001")],
 )
 def test_robots_within_tolerance_have_their_poses_in_the_boxes(name: str, tolerance: str) -> None:
-    solution = solved(name) if name in ("ssm-exact", "mssm") else numeric(name)
+    solution = solved(name) if name in ("ssm-exact", "mssm") else boxed(name)
     result = tolerance_boxes(shipped(name), Tolerances.uniform(tolerance), solution)
     assert result.is_proved
     require_samples_inside(result, solution, 100, 3)
 
 
-@hypothesis_settings(max_examples=12)
-@given(st.integers(0, 10**6), st.sampled_from([(1, 1, 1), (1, 3, 1)]), st.integers(3, 7))
+ANY_ROBOT = given(st.integers(0, 10**6), st.sampled_from([(1, 1, 1), (1, 3, 1)]), st.integers(3, 7))
+
+
+@hypothesis_settings(max_examples=5)
+@ANY_ROBOT
 def test_random_robots(seed: int, metric: tuple[int, int, int], digits: int) -> None:
+    require_a_random_robot_to_be_enclosed(seed, metric, digits)
+
+
+@pytest.mark.slow
+@hypothesis_settings(max_examples=100)
+@ANY_ROBOT
+def test_many_random_robots(seed: int, metric: tuple[int, int, int], digits: int) -> None:
+    require_a_random_robot_to_be_enclosed(seed, metric, digits)
+
+
+def require_a_random_robot_to_be_enclosed(seed: int, metric: tuple[int, int, int], digits: int) -> None:
     random = Random(seed)
     placed = random_placed(random, [Fraction(random.randint(1, 5)) for _ in range(4)], metric)
     solution = solve_krawczyk(placed.problem)
@@ -117,7 +121,7 @@ def test_random_robots(seed: int, metric: tuple[int, int, int], digits: int) -> 
 @pytest.mark.parametrize(("name", "tolerance"), [("rolland-6-6", "0.001"), ("3-rrr", "0.0001")])
 def test_the_greatest_error_is_attained(name: str, tolerance: str) -> None:
     """The robots that move the pose most, to first order, come as far as the lower bound says, and no farther."""
-    result, solution = analysed(name, tolerance), numeric(name)
+    result, solution = tolerant(name, tolerance), boxed(name)
     problem = result.problem
     for box, pose in list(zip(result.boxes, solution.poses, strict=True))[:4]:
         assert box.bounds is not None
@@ -145,7 +149,7 @@ def _extreme_errors(problem: ForwardProblem, pose: Any) -> tuple[Any, Any, Any]:
 
 
 def test_completeness_holds_for_sampled_robots() -> None:
-    result = analysed("3-rrr", "0.0001")
+    result = tolerant("3-rrr", "0.0001")
     assert result.is_complete
     assert result.proved_solutions == 6
     for seed in range(5):
@@ -166,20 +170,20 @@ def test_completeness_holds_for_sampled_robots() -> None:
 
 
 def test_completeness_of_a_spatial_robot() -> None:
-    assert analysed("dietmaier", "1/10000000000000").is_complete
-    assert not analysed("rolland-6-6", "0.001").is_complete
-    assert analysed("rolland-6-6", "1/1000000000000000").is_complete
+    assert tolerant("dietmaier", "1/10000000000000").is_complete
+    assert not tolerant("rolland-6-6", "0.001").is_complete
+    assert tolerant("rolland-6-6", "1/1000000000000000").is_complete
 
 
 def test_a_tolerance_too_large_is_not_proved_but_a_fraction_is() -> None:
-    result = analysed("3-rrr", "0.001")
+    result = tolerant("3-rrr", "0.001")
     assert not result.is_complete
     failed = [box for box in result.boxes if not box.is_proved]
     assert failed
     for box in failed:
         assert 0 < box.fraction < 1
         assert box.dominant is not None
-        again = tolerance_boxes(result.problem, result.tolerances.scaled(box.fraction), numeric("3-rrr"))
+        again = tolerance_boxes(result.problem, result.tolerances.scaled(box.fraction), boxed("3-rrr"))
         assert again.boxes[box.pose - 1].is_proved
 
 
@@ -194,7 +198,7 @@ def test_a_singular_pose_has_no_box() -> None:
 
 
 def test_the_dominant_datum_moves_the_pose_most() -> None:
-    result, solution = analysed("3-prr", "0.0001"), numeric("3-prr")
+    result, solution = tolerant("3-prr", "0.0001"), boxed("3-prr")
     problem, legs = result.problem, len(result.problem.distances)
     for box, pose in zip(result.boxes, solution.poses, strict=True):
         moves: dict[str, float] = {}
@@ -213,7 +217,7 @@ def test_the_dominant_datum_moves_the_pose_most() -> None:
 
 
 def test_smaller_tolerances_have_smaller_boxes() -> None:
-    wide, narrow = analysed("rolland-6-6", "0.001"), analysed("rolland-6-6", "0.0005")
+    wide, narrow = tolerant("rolland-6-6", "0.001"), tolerant("rolland-6-6", "0.0005")
     for a, b in zip(wide.boxes, narrow.boxes, strict=True):
         assert a.bounds is not None
         assert b.bounds is not None
@@ -223,7 +227,7 @@ def test_smaller_tolerances_have_smaller_boxes() -> None:
 
 def test_the_solution_must_be_that_of_the_problem() -> None:
     with pytest.raises(ValueError, match="not one of this problem"):
-        tolerance_boxes(shipped("3-prr"), Tolerances.uniform(1), numeric("3-rrr"))
+        tolerance_boxes(shipped("3-prr"), Tolerances.uniform(1), boxed("3-rrr"))
 
 
 # Certificates
@@ -232,7 +236,7 @@ def test_the_solution_must_be_that_of_the_problem() -> None:
 @cache
 def certificate_of(path: Path, tolerance: str) -> dict[str, Any]:
     robot = read_robot(path)
-    return tolerance_certificate(robot, robot.configuration().name, analysed(path.stem, tolerance))
+    return tolerance_certificate(robot, robot.configuration().name, tolerant(path.stem, tolerance))
 
 
 @pytest.mark.parametrize(
@@ -328,7 +332,7 @@ def test_far_frames_do_not_matter() -> None:
     result = tolerance_boxes(problem, Tolerances.uniform("0.001"), solution)
     assert result.is_proved
     errors = sorted(box.bounds.rotation_error.hi for box in result.boxes if box.bounds)
-    near = sorted(box.bounds.rotation_error.hi for box in analysed("rolland-6-6", "0.001").boxes if box.bounds)
+    near = sorted(box.bounds.rotation_error.hi for box in tolerant("rolland-6-6", "0.001").boxes if box.bounds)
     assert all(abs(a / b - 1) < Fraction(1, 1000) for a, b in zip(errors, near, strict=True))
     assert check_bytes(canonical_bytes(tolerance_certificate(there, None, result))).status == "accepted"
 
