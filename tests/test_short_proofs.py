@@ -25,7 +25,7 @@ from mechanisms import (
 
 import pkm_exact
 from pkm_exact.algebra.modular_elimination import Elimination
-from pkm_exact.algebra.primes import primes_below
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.completeness.closed_section import closed_section
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.finite_section import is_finite
@@ -42,7 +42,7 @@ BITS = 1 << 15
 
 
 def _primes() -> Any:
-    return primes_below(62)
+    return primes_from(1, 62)
 
 
 def _robot(name: str) -> Conditions:
@@ -88,11 +88,11 @@ def _infinity(name: str) -> PointsAtInfinity:
 def test_mechanisms_close_by_their_route(problem: Any, number: int, route: str) -> None:
     conditions = Conditions.of(problem)
     counted = Elimination(closed_section(conditions).system, Policy()).image().dimension
-    proof = short_proof(conditions, number, number, _primes(), BITS)
+    proof = short_proof(conditions, number, number, Policy())
     assert counted == number
     assert proof is not None
     assert proof.route == ShortRoute(route)
-    assert short_proof(conditions, number - 1, number - 1, _primes(), BITS) is None
+    assert short_proof(conditions, number - 1, number - 1, Policy()) is None
 
 
 @pytest.mark.parametrize("name", ["hexaglide", "mssm", "ssm-exact", "ssm-rounded", "tssm", "linuxcnc-hexapod"])
@@ -106,10 +106,10 @@ def test_robots_with_symmetries_close_by_counting(name: str) -> None:
 
 def test_where_no_short_way_closes() -> None:
     equal_heights = Conditions.of(pssc((Fraction(0),) * 3))
-    assert short_proof(equal_heights, 24, 24, _primes(), BITS) is None
+    assert short_proof(equal_heights, 24, 24, Policy()) is None
     similar = _robot("similar-planar-s")
     assert not is_finite(similar, next(_primes()))
-    assert short_proof(similar, 8, 8, _primes(), BITS) is None
+    assert short_proof(similar, 8, 8, Policy()) is None
 
 
 # Bounds
@@ -152,7 +152,7 @@ def test_contradictions_of_linear_algebra_are_empty() -> None:
     section = closed_section(other)
     assert section.is_empty
     assert modular_rank(section, next(_primes()), 40) == 0
-    proof = short_proof(other, 0, 0, _primes(), BITS)
+    proof = short_proof(other, 0, 0, Policy())
     assert proof is not None
     assert proof.route == ShortRoute.MODULAR_RANK
 
@@ -198,7 +198,7 @@ def test_singular_points_have_a_greater_tangent_space(name: str) -> None:
     h = found.univariate
     prime, root = next(
         (p, int(-factor[0] / factor[1]))
-        for p in primes_below(31)
+        for p in primes_from(1, 31)
         for factor, _ in nmod_poly([value % p for value in h.eliminant], p).factor()[1]
         if factor.degree() == 1
     )

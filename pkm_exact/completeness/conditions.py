@@ -8,9 +8,10 @@ from math import lcm
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from pkm_exact.completeness.rigid_motions import IntegerForm, Quadric
+from pkm_exact.completeness.rigid_motions import Quadric
 from pkm_exact.constraints.constraint import SquareForm
 from pkm_exact.constraints.form import SIZE, integral
+from pkm_exact.digests import digest
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.problem import ForwardProblem
@@ -31,7 +32,7 @@ class Conditions:
     motion : Motion
     """
 
-    forms: tuple[IntegerForm, ...]
+    forms: tuple[tuple[int, ...], ...]
     quadrics: tuple[Quadric, ...]
     metric: tuple[int, int, int]
     motion: Motion
@@ -44,7 +45,13 @@ class Conditions:
         squares = [square for constraint in problem.constraints for square in constraint.squares(metric)]
         return cls(tuple(forms), tuple(map(quadric_of, squares)), metric, problem.motion)
 
-    def with_forms(self, further: Sequence[IntegerForm]) -> Conditions:
+    @property
+    def digest(self) -> int:
+        """A number that follows from all of them, for choices that are not to be foreseen."""
+        quadrics = [[(i, j, value) for (i, j), value in sorted(quadric.items())] for quadric in self.quadrics]
+        return digest(self.forms, quadrics, self.metric, self.motion.name)
+
+    def with_forms(self, further: Sequence[Sequence[int]]) -> Conditions:
         """The same with further linear forms."""
         return Conditions((*self.forms, *map(tuple, further)), self.quadrics, self.metric, self.motion)
 

@@ -13,12 +13,13 @@ from pkm_exact.algebra.graded_quotient import hilbert_function
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.rigid_motions import restricted, variety_quadrics
 from pkm_exact.constraints.form import SIZE
+from pkm_exact.digests import digest
 
 LAST_DEGREE = 6
 """Tried, besides one for each further quadric; on rigid motions 5 suffices whenever the section is finite."""
 
 
-def is_finite(conditions: Conditions, prime: int, seed: int = 0) -> bool:
+def is_finite(conditions: Conditions, prime: int) -> bool:
     """Whether it is proved that all rigid motions on the conditions, finite or at infinity, are finitely many points.
 
     Examples
@@ -30,7 +31,7 @@ def is_finite(conditions: Conditions, prime: int, seed: int = 0) -> bool:
     >>> is_finite(Conditions((*at_infinity, (*[0] * 10, 1, 2, *[0] * 5)), (), (1, 1, 1), SPATIAL), 101)
     True
     """
-    random = Random(seed)
+    random = Random(digest(conditions.digest, prime))
     further = [random.randrange(prime) for _ in range(SIZE)]
     quadrics = [*variety_quadrics(conditions.metric), *conditions.quadrics]
     size, equations = restricted(quadrics, [*conditions.forms, further], prime)

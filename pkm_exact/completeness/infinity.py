@@ -22,6 +22,7 @@ from pkm_exact.algebra.rur import ModularRepresentation, squarefree_part
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.rigid_motions import Quadric, boundary_quadrics, restricted, variety_quadrics, zero_space
 from pkm_exact.constraints.form import SIZE
+from pkm_exact.digests import digest
 from pkm_exact.errors import ReconstructionError
 
 LAST_DEGREE = 8
@@ -69,7 +70,7 @@ def points_at_infinity(conditions: Conditions, primes: Iterator[int], limit_bits
     section = _Section.at(conditions, next(primes))
     if section is None or not section.dimension:
         return None
-    random = Random(section.dimension)
+    random = Random(conditions.digest)
     distinct = section.distinct
     for size in range(1, 12):
         chart = _random_form(random, size)
@@ -183,7 +184,7 @@ class _Section:
     @property
     def distinct(self) -> int:
         """Number of points: the values of a form chosen at random."""
-        random = Random(self.prime)
+        random = Random(digest(self.prime, self.dimension))
         chart, form = ([random.randrange(self.prime) for _ in range(SIZE - 1)] for _ in range(2))
         image = self.representation(chart, form)
         return -1 if image is None else image.degree

@@ -7,17 +7,18 @@ together, the section being finite (``finite_section``, ``infinity``).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
+from pkm_exact.algebra.primes import primes_from
 from pkm_exact.completeness.closed_section import closed_section
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.finite_section import is_finite
 from pkm_exact.completeness.infinity import PointsAtInfinity, points_at_infinity
 from pkm_exact.completeness.modular_rank import modular_rank
-from pkm_exact.completeness.pose_bound import pose_bound
+from pkm_exact.completeness.pose_bound import form_rank, pose_bound
 from pkm_exact.motions.motion_groups import SPATIAL
+from pkm_exact.policy import Policy
 
 
 class ShortRoute(StrEnum):
@@ -44,9 +45,7 @@ class ShortProof:
     infinity: PointsAtInfinity | None = None
 
 
-def short_proof(
-    conditions: Conditions, distinct: int, total: int, primes: Iterator[int], limit_bits: int
-) -> ShortProof | None:
+def short_proof(conditions: Conditions, distinct: int, total: int, policy: Policy) -> ShortProof | None:
     """A proof that the poses listed are all, or None if no short way closes.
 
     Parameters
@@ -57,19 +56,23 @@ def short_proof(
         isolated.
     total : int
         The sum of numbers that are at most their multiplicities, 1 only at poses proved to be simple.
-    primes : iterator of int
-        To compute with.
-    limit_bits : int
-        For the points at infinity.
+    policy : Policy
+        For primes, and how far points at infinity are lifted.
     """
+    primes = primes_from(policy.seed_for(conditions.digest), policy.prime_bits)
     bound = pose_bound(conditions)
     if distinct == total == bound.least:
         return ShortProof(ShortRoute.PRODUCT_BOUND if bound.least < bound.degree else ShortRoute.REFINED_BEZOUT)
     if modular_rank(closed_section(conditions), next(primes), total) == total:
         return ShortProof(ShortRoute.MODULAR_RANK)
-    if conditions.motion != SPATIAL or not is_finite(conditions, next(primes)):
+    if conditions.motion != SPATIAL or not _is_square(conditions) or not is_finite(conditions, next(primes)):
         return None
-    found = points_at_infinity(conditions, primes, limit_bits)
+    found = points_at_infinity(conditions, primes, policy.lifting_bits)
     if found is None or total + found.multiplicity != bound.degree:
         return None
     return ShortProof(ShortRoute.COUNTING_AT_INFINITY, found)
+
+
+def _is_square(conditions: Conditions) -> bool:
+    """Whether the forms alone, or as many forms as the quadrics leave freedoms, cut the motions: then counts add up."""
+    return not conditions.quadrics or form_rank(conditions) + len(conditions.quadrics) == conditions.motion.dimension
