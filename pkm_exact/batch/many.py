@@ -22,9 +22,11 @@ from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_jointed_robot
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.indices.index import Output
+from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.interactive.facade import exact_length, exact_width
 from pkm_exact.policy import Policy
-from pkm_exact.poses.arrays import UNKNOWN_SIGN, rotations_of
+from pkm_exact.poses.arrays import array_value, rotations_of
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.poses.pose import Interval, Pose
 
@@ -39,18 +41,22 @@ Record: TypeAlias = np.void
 ROW: Final = np.dtype(
     [("claim", "U32"), ("method", "U8"), ("count", "i8"), ("complex_solutions", "i8"), ("note", object)]
 )
-POSE: Final = np.dtype(
-    [
-        ("row", "i8"),
-        ("position", "f8", (3,)),
-        ("position_half_width", "f8", (3,)),
-        ("rotation", "f8", (3, 3)),
-        ("rotation_half_width", "f8", (3, 3)),
-        ("quaternion", "f8", (4,)),
-        ("quaternion_half_width", "f8", (4,)),
-        ("det_sign", "i1"),
-    ]
-)
+
+
+def pose_dtype() -> np.dtype[np.void]:
+    """The type of an entry of ``ManySolutions.poses``."""
+    return np.dtype(
+        [
+            ("row", "i8"),
+            ("position", "f8", (3,)),
+            ("position_half_width", "f8", (3,)),
+            ("rotation", "f8", (3, 3)),
+            ("rotation_half_width", "f8", (3, 3)),
+            ("quaternion", "f8", (4,)),
+            ("quaternion_half_width", "f8", (4,)),
+            *((index.name, "i8" if index.is_integer else "f8") for index in shown_in(Output.ARRAYS)),
+        ]
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +70,8 @@ class ManySolutions:
         ``complex_solutions``; ``note``, which says why the exact engine answered, or what the error is.
     poses : structured array, one entry per real pose
         ``row`` from 0, then ``position`` (3), ``rotation`` (3, 3) and ``quaternion`` (4, real part first), each with
-        its ``.._half_width``: the exact value lies within it of the midpoint. ``det_sign`` of the leg Jacobian, 0 at a
-        singular pose, 2 if it was not decided.
+        its ``.._half_width``: the exact value lies within it of the midpoint. Then the indices: ``det_sign`` of the leg
+        Jacobian, 0 at a singular pose, 2 if it was not decided; ``condition``, infinite or nan then.
     """
 
     rows: NDArray[Record]
@@ -167,7 +173,7 @@ def solve_many(
         poses.append(found)
         if progress is not None:
             progress(number + 1)
-    return ManySolutions(rows, np.concatenate([np.zeros(0, POSE), *poses]))
+    return ManySolutions(rows, np.concatenate([np.zeros(0, pose_dtype()), *poses]))
 
 
 def _table(robot: Robot, lengths: Any, doubles_are_exact: bool) -> list[list[object]]:
@@ -216,22 +222,22 @@ def _problem(
 def _row(solver: RowSolver, number: int, problem: ForwardProblem | str) -> tuple[tuple[Any, ...], NDArray[Record]]:
     """The entries of one row and of its poses."""
     if isinstance(problem, str):
-        return (ERROR, "", 0, 0, problem), np.zeros(0, POSE)
+        return (ERROR, "", 0, 0, problem), np.zeros(0, pose_dtype())
     try:
         solution = solver.solution(problem)
-        poses = np.array([_entry(number, pose) for pose in solution.poses], POSE)
+        poses = np.array([_entry(number, pose) for pose in solution.poses], pose_dtype())
     except PkmExactError as error:
-        return (ERROR, "", 0, 0, f"lengths, row {number + 1}: {error}"), np.zeros(0, POSE)
+        return (ERROR, "", 0, 0, f"lengths, row {number + 1}: {error}"), np.zeros(0, pose_dtype())
     notes = "; ".join(solution.notes)
     return (solution.claim.value, solution.method, len(poses), solution.complex_solutions, notes), poses
 
 
 def _entry(number: int, pose: Pose) -> tuple[Any, ...]:
     """A pose as an entry of the array ``poses``."""
-    sign = UNKNOWN_SIGN if pose.jacobian is None else pose.jacobian.det_sign
+    indices = (array_value(index, pose) for index in shown_in(Output.ARRAYS))
     rotation = [_balls(row) for row in pose.rotation]
     matrices = [middles for middles, _ in rotation], [widths for _, widths in rotation]
-    return (number, *_balls(pose.position), *matrices, *_balls(pose.quaternion), sign)
+    return (number, *_balls(pose.position), *matrices, *_balls(pose.quaternion), *indices)
 
 
 def _balls(intervals: Iterable[Interval]) -> tuple[tuple[float, ...], tuple[float, ...]]:

@@ -19,12 +19,11 @@ from pkm_exact.errors import PkmExactError
 from pkm_exact.files import write_whole
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.poses.pose_spelling import pose_entry
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.poses.isolated_solutions import IsolatedSolutions
-    from pkm_exact.poses.pose import Pose
-    from pkm_exact.roots.interval import Interval
     from pkm_exact.solution import Solution
 
 FORMAT: Final = "pkm_exact certificate"
@@ -82,7 +81,7 @@ def _content(robot: Machine, configuration_name: str | None, solution: Solution)
         "elimination": _elimination(solution),
         "krawczyk": None if solution.isolated is None else _isolated(solution.isolated),
         "box_exponent": solution.box_exponent if solution.poses else 0,
-        "poses": [_pose(pose) for pose in solution.poses],
+        "poses": [pose_entry(pose) for pose in solution.poses],
         "notes": list(solution.notes),
     }
 
@@ -215,17 +214,3 @@ def _coefficients(values: Iterable[int]) -> list[str]:
     while texts and texts[-1] == "0x0":
         texts.pop()
     return texts
-
-
-def _pose(pose: Pose) -> dict[str, Any]:
-    return {
-        "parameter": None if pose.parameter is None else _ends(pose.parameter),
-        "position": [_ends(interval) for interval in pose.position],
-        "rotation": [[_ends(interval) for interval in row] for row in pose.rotation],
-        "quaternion": [_ends(interval) for interval in pose.quaternion],
-        "multiplicity": pose.multiplicity,
-    }
-
-
-def _ends(interval: Interval) -> list[str]:
-    return _texts((interval.lo, interval.hi))

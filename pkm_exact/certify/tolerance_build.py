@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.certify.build import robot_entry, sealed
+from pkm_exact.poses.pose_spelling import ends
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
@@ -82,4 +83,4 @@ def _texts(values: Iterable[object]) -> list[str]:
 
 
 def _all_ends(intervals: Iterable[Interval]) -> list[list[str]]:
-    return [_texts((interval.lo, interval.hi)) for interval in intervals]
+    return [ends(interval) for interval in intervals]

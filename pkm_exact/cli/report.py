@@ -10,15 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.modes import assembly_modes
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.indices.index import Output
+from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.interactive.display import headline
 from pkm_exact.motions.motion import Motion
 from pkm_exact.poses.planar_coordinates import planar_coordinates
+from pkm_exact.poses.pose_spelling import ends, pose_entry
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
-    from pkm_exact.poses.jacobian import LegJacobian
-    from pkm_exact.poses.pose import Interval, Pose
+    from pkm_exact.poses.pose import Pose
     from pkm_exact.solution import Solution
 
 
@@ -78,33 +80,16 @@ def constraint_values(problem: ForwardProblem) -> dict[str, str]:
 
 
 def _pose(pose: Pose, motion: Motion) -> dict[str, Any]:
-    entry: dict[str, Any] = {
-        "parameter": None if pose.parameter is None else _bounds(pose.parameter),
-        "position": [_bounds(c) for c in pose.position],
-        "rotation": [[_bounds(entry) for entry in row] for row in pose.rotation],
-        "quaternion": [_bounds(q) for q in pose.quaternion],
-        "multiplicity": pose.multiplicity,
-        "jacobian": _jacobian(pose.jacobian),
-    }
+    entry = pose_entry(pose) | {"jacobian": _jacobian(pose)}
     if motion.is_planar:
-        entry["planar"] = {name: _bounds(value) for name, value in planar_coordinates(pose).items()}
+        entry["planar"] = {name: ends(value) for name, value in planar_coordinates(pose).items()}
     return entry
 
 
-def _jacobian(jacobian: LegJacobian | None) -> dict[str, Any] | None:
-    if jacobian is None:
+def _jacobian(pose: Pose) -> dict[str, Any] | None:
+    if pose.jacobian is None:
         return None
-    return {
-        "det_sign": jacobian.det_sign,
-        "rank": jacobian.rank,
-        "sigma_min": _bounds(jacobian.sigma_min),
-        "condition": None if jacobian.condition is None else _bounds(jacobian.condition),
-        "length": str(jacobian.length),
-    }
-
-
-def _bounds(interval: Interval) -> list[str]:
-    return [str(interval.lo), str(interval.hi)]
+    return {index.name: index.exact(pose) for index in shown_in(Output.JSON)} | {"length": str(pose.jacobian.length)}
 
 
 def as_rows(solution: Solution) -> Iterator[list[str]]:
@@ -112,9 +97,12 @@ def as_rows(solution: Solution) -> Iterator[list[str]]:
     names = ["t", "x", "y", "z"]
     names += [f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
     names += [f"q{k}" for k in range(4)]
-    yield ["pose", "claim", "multiplicity", *(f"{name}_{end}" for name in names for end in ("lo", "hi"))]
+    indices = shown_in(Output.CSV)
+    further = [column for index in indices for column in index.columns]
+    yield ["pose", "claim", "multiplicity", *(f"{name}_{end}" for name in names for end in ("lo", "hi")), *further]
     for number, pose in enumerate(solution.poses, 1):
-        parameter = ["", ""] if pose.parameter is None else _bounds(pose.parameter)
+        parameter = ["", ""] if pose.parameter is None else ends(pose.parameter)
         entries = [*pose.position, *(entry for row in pose.rotation for entry in row), *pose.quaternion]
-        bounds = [end for entry in entries for end in _bounds(entry)]
-        yield [str(number), str(solution.claim), str(pose.multiplicity), *parameter, *bounds]
+        bounds = [end for entry in entries for end in ends(entry)]
+        measured = [field for index in indices for field in index.fields(pose)]
+        yield [str(number), str(solution.claim), str(pose.multiplicity), *parameter, *bounds, *measured]

@@ -7,7 +7,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from pkm_exact.cli.modes import assembly_modes, summary
-from pkm_exact.interactive.display import HEADER, PLANAR_HEADER, pose_cells
+from pkm_exact.interactive.display import pose_cells, pose_header
 from pkm_exact.roots.interval import decimal as decimal
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def print_table(robot: Machine, configuration: str | None, solution: Solution, h
     rotation = "angle [degrees]" if planar else "unit quaternion (scalar first)"
     sys.stdout.write(f"\nassembly modes: {summary(assembly_modes(solution.poses))}\n")
     sys.stdout.write(f"position [{robot.unit}], {rotation}, right to one unit of the last digit\n")
-    print_rows(rows, PLANAR_HEADER if planar else HEADER)
+    print_rows(rows, pose_header(solution.problem.motion))
 
 
 def _details(robot: Machine, solution: Solution) -> list[str]:
@@ -73,12 +73,12 @@ def print_rows(rows: list[tuple[str, ...]], header: tuple[str, ...]) -> None:
         sys.stdout.write(plain(rows, header))
 
 
-def plain(rows: list[tuple[str, ...]], header: tuple[str, ...] = HEADER) -> str:
+def plain(rows: list[tuple[str, ...]], header: tuple[str, ...]) -> str:
     """The rows under the header, right-aligned.
 
-    >>> print(plain([("1", "0.5", "-12", "0", "1", "0", "0", "0", "+", "3.5")]), end="")
-         x    y  z  q0  q1  q2  q3  det J  cond J
-    1  0.5  -12  0   1   0   0   0      +     3.5
+    >>> print(plain([("1", "0.5", "-12")], ("", "x", "y")), end="")
+         x    y
+    1  0.5  -12
     """
     table = [header, *rows]
     widths = [max(len(row[i]) for row in table) for i in range(len(header))]

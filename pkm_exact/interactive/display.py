@@ -18,6 +18,8 @@ from pkm_exact.claim_wording import meaning
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.geometry.robot import Robot, jointed
+from pkm_exact.indices.index import Output
+from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.motions.motion import Motion
 from pkm_exact.roots.interval import decimal
 from pkm_exact.wording import counted, printable
@@ -30,8 +32,8 @@ if TYPE_CHECKING:
     from pkm_exact.poses.pose import Pose
     from pkm_exact.solution import Solution
 
-HEADER: Final = ("", "x", "y", "z", "q0", "q1", "q2", "q3", "det J", "cond J")
-PLANAR_HEADER: Final = ("", "x", "y", "theta", "det J", "cond J")
+_COORDINATES: Final = ("x", "y", "z", "q0", "q1", "q2", "q3")
+_PLANAR_COORDINATES: Final = ("x", "y", "theta")
 
 _COUNTED: Final = (Claim.COMPLETE, Claim.NOT_PROVEN_COMPLETE)
 _ROWS: Final = 40
@@ -52,11 +54,24 @@ def headline(solution: Solution) -> str:
     return f"{count}; {words}{route}"
 
 
+def pose_header(motion: Motion) -> tuple[str, ...]:
+    """The headings of a table of poses.
+
+    Examples
+    --------
+    >>> from pkm_exact.motions.motion_groups import PLANAR
+    >>> pose_header(PLANAR)
+    ('', 'x', 'y', 'theta', 'det J', 'cond J')
+    """
+    coordinates = _PLANAR_COORDINATES if motion.is_planar else _COORDINATES
+    return "", *coordinates, *(index.heading for index in shown_in(Output.TABLE))
+
+
 def pose_cells(number: int, pose: Pose, motion: Motion) -> tuple[str, ...]:
-    """A pose as a row of a table, under ``HEADER`` or ``PLANAR_HEADER``: decimals right to one unit of the last."""
+    """A pose as a row of a table, under ``pose_header``: decimals right to one unit of the last."""
     multiple = "" if pose.multiplicity == 1 else f" (x{pose.multiplicity or '?'})"
     coordinates = _planar(pose) if motion.is_planar else tuple(decimal(c) for c in (*pose.position, *pose.quaternion))
-    return f"{number}{multiple}", *coordinates, *_jacobian(pose)
+    return f"{number}{multiple}", *coordinates, *(index.text(pose) for index in shown_in(Output.TABLE))
 
 
 def _planar(pose: Pose) -> tuple[str, ...]:
@@ -65,16 +80,6 @@ def _planar(pose: Pose) -> tuple[str, ...]:
     bounds = planar_coordinates(pose)
     angle = angle_in_degrees(bounds["cos"], bounds["sin"])
     return decimal(bounds["x"]), decimal(bounds["y"]), "?" if angle is None else decimal(angle)
-
-
-def _jacobian(pose: Pose) -> tuple[str, str]:
-    """Sign of the determinant of the leg Jacobian, and its condition number."""
-    if pose.jacobian is None:
-        return "?", "?"
-    if pose.jacobian.condition is None:
-        return "0", "singular"
-    condition = pose.jacobian.condition.midpoint
-    return "+" if pose.jacobian.det_sign > 0 else "-", f"{Decimal(condition.numerator) / condition.denominator:.4g}"
 
 
 def solution_html(solution: Solution, robot: Machine | None, configuration: str | None) -> str:
@@ -88,7 +93,7 @@ def solution_html(solution: Solution, robot: Machine | None, configuration: str 
         rotation = "angle theta [degrees]" if planar else "unit quaternion, scalar first"
         unit = "the robot's unit" if robot is None else robot.unit
         rows = [pose_cells(number, pose, solution.problem.motion) for number, pose in enumerate(solution.poses, 1)]
-        parts.append(_table(PLANAR_HEADER if planar else HEADER, rows))
+        parts.append(_table(pose_header(solution.problem.motion), rows))
         parts.append(_paragraph(f"position [{unit}], {rotation}; right to one unit of the last digit"))
         parts.append(_picture(solution, robot, configuration))
     parts += [_paragraph(f"note: {note}") for note in solution.notes]

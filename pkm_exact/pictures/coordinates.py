@@ -36,7 +36,7 @@ class Placed:
 
     coordinates: tuple[float, ...]
     det_sign: int | None
-    condition: float | None
+    jacobian: LegJacobian | None
 
 
 def problem_of(document: Document) -> ForwardProblem:
@@ -105,8 +105,8 @@ def _is_fine(value: arb) -> bool:
     return bool(value.is_finite() and value.rad() * arb(2) ** DOUBLE_BITS < 1 + abs(value.mid()))
 
 
-def _jacobians(document: Document, enclosures: _Enclosures) -> list[tuple[int | None, float | None]]:
-    """Sign of the determinant of the leg Jacobian and its condition number: 0 and None at a multiple solution.
+def _jacobians(document: Document, enclosures: _Enclosures) -> list[tuple[int | None, LegJacobian | None]]:
+    """Sign of the determinant of the leg Jacobian, and what is certified of it: 0 and None at a multiple solution.
 
     None twice where it is not proved whether the solution is simple.
     """
@@ -117,10 +117,6 @@ def _jacobians(document: Document, enclosures: _Enclosures) -> list[tuple[int | 
 
     found = dict(zip(simple, pose_jacobians(of_simple, problem_of(document), [None] * len(simple)), strict=True))
     return [
-        _shown(found[index]) if index in found else (None if pose.multiplicity is None else 0, None)
+        (found[index].det_sign, found[index]) if index in found else (None if pose.multiplicity is None else 0, None)
         for index, pose in enumerate(document.poses)
     ]
-
-
-def _shown(jacobian: LegJacobian) -> tuple[int, float | None]:
-    return jacobian.det_sign, None if jacobian.condition is None else float(jacobian.condition.midpoint)

@@ -22,6 +22,7 @@ from pkm_exact.wording import printable, shown
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Configuration, Robot
     from pkm_exact.pictures.coordinates import Placed
+    from pkm_exact.poses.jacobian import LegJacobian
     from pkm_exact.solution import Solution
 
 Point: TypeAlias = tuple[float, float, float]
@@ -54,8 +55,8 @@ class PoseView:
         The platform joints in the fixed frame, one per leg.
     det_sign : int or None
         Certified sign of the determinant of the leg Jacobian; 0 at a singular pose, None where it is not decided.
-    condition : float or None
-        Its condition number; None at a singular pose or where it is not decided.
+    jacobian : LegJacobian or None
+        What is certified of it; None at a singular pose or where it is not decided.
     multiplicity : int or None
         None where it is not proved.
     knees : tuple of points
@@ -69,9 +70,14 @@ class PoseView:
     quaternion: tuple[float, float, float, float]
     platform: tuple[Point, ...]
     det_sign: int | None
-    condition: float | None
+    jacobian: LegJacobian | None
     multiplicity: int | None
     knees: tuple[Point, ...] = ()
+
+    @property
+    def condition(self) -> float | None:
+        """Condition number of the leg Jacobian; None at a singular pose or where it is not decided."""
+        return None if self.jacobian is None or self.jacobian.condition is None else float(self.jacobian.condition)
 
 
 @dataclass(frozen=True)
@@ -250,7 +256,7 @@ def _view(
         quaternion=(x[12], x[13], x[14], x[15]),
         platform=tuple(moved(position, rotation, joint) for joint in platform),
         det_sign=place.det_sign,
-        condition=place.condition,
+        jacobian=place.jacobian,
         multiplicity=listed["multiplicity"],
         knees=knees,
     )

@@ -6,16 +6,19 @@ value provably lies within it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib import import_module
-from math import inf, nan
+from math import nan
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pkm_exact.errors import PkmExactError
+from pkm_exact.indices.index import Index, Output
+from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.poses.pose import Pose
 from pkm_exact.roots.interval import Interval
 
@@ -23,9 +26,8 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from scipy.spatial.transform import Rotation
 
-UNKNOWN_SIGN: Final = 2
-"""In place of the sign of a determinant that was not decided, in arrays, which have no room for None."""
 UNKNOWN_MULTIPLICITY: Final = 0
+"""In place of a multiplicity that is not proved, in arrays, which have no room for None."""
 _NAMES: Final = ("x", "y", "z", "qw", "qx", "qy", "qz")
 
 
@@ -42,13 +44,10 @@ class PoseArrays:
         Scalar first; scipy wants it last, and ``to_scipy`` puts it there.
     position_half_width, rotation_half_width, quaternion_half_width : arrays
         Of the same shapes: the exact value lies within it of the midpoint.
-    det_sign : (n,) array of int
-        Of the leg Jacobian; 0 at a singular pose, 2 where it is not certified.
-    condition : (n,) array
-        Midpoint of the bounds of the Jacobian's condition number; infinity at a singular pose, nan where it is not
-        certified.
     multiplicity : (n,) array of int
         0 where it is not proved.
+    indices : mapping of str to (n,) array
+        Of every index that is shown at poses: integers, or midpoints of enclosures with nan where nothing is certified.
     """
 
     position: NDArray[np.float64]
@@ -57,9 +56,18 @@ class PoseArrays:
     position_half_width: NDArray[np.float64]
     rotation_half_width: NDArray[np.float64]
     quaternion_half_width: NDArray[np.float64]
-    det_sign: NDArray[np.int64]
-    condition: NDArray[np.float64]
     multiplicity: NDArray[np.int64]
+    indices: Mapping[str, NDArray[Any]]
+
+    @property
+    def det_sign(self) -> NDArray[np.int64]:
+        """Sign of the determinant of the leg Jacobian (n,): 0 at a singular pose, 2 where it is not certified."""
+        return self.indices["det_sign"]
+
+    @property
+    def condition(self) -> NDArray[np.float64]:
+        """Condition number of the leg Jacobian (n,): infinite at a singular pose, nan where it is not certified."""
+        return self.indices["condition"]
 
     @property
     def transform(self) -> NDArray[np.float64]:
@@ -89,7 +97,6 @@ def arrays_of(poses: Sequence[Pose]) -> PoseArrays:
     entries = [[entry for row in pose.rotation for entry in row] for pose in poses]
     rotation, rotation_half_width = _balls(entries, (3, 3))
     quaternion, quaternion_half_width = _balls([pose.quaternion for pose in poses], (4,))
-    signs = [UNKNOWN_SIGN if pose.det_sign is None else pose.det_sign for pose in poses]
     return PoseArrays(
         position,
         rotation,
@@ -97,16 +104,16 @@ def arrays_of(poses: Sequence[Pose]) -> PoseArrays:
         position_half_width,
         rotation_half_width,
         quaternion_half_width,
-        np.array(signs, dtype=np.int64),
-        np.array([_condition(pose) for pose in poses], dtype=np.float64),
         np.array([pose.multiplicity or UNKNOWN_MULTIPLICITY for pose in poses], dtype=np.int64),
+        {index.name: _values(index, poses) for index in shown_in(Output.ARRAYS)},
     )
 
 
 def arrays_of_pose(pose: Pose) -> PoseArrays:
     """The arrays of one pose, without the first axis."""
     whole = arrays_of([pose])
-    return replace(whole, **{name: getattr(whole, name)[0] for name in whole.__dataclass_fields__})
+    arrays = {name: getattr(whole, name)[0] for name in whole.__dataclass_fields__ if name != "indices"}
+    return replace(whole, **arrays, indices={name: values[0] for name, values in whole.indices.items()})
 
 
 def _balls(
@@ -122,10 +129,16 @@ def _balls(
     return balls[..., 0].copy(), balls[..., 1].copy()
 
 
-def _condition(pose: Pose) -> float:
-    if pose.jacobian is None:
-        return nan
-    return inf if pose.jacobian.condition is None else float(pose.jacobian.condition)
+def _values(index: Index, poses: Sequence[Pose]) -> NDArray[Any]:
+    return np.array([array_value(index, pose) for pose in poses], dtype=np.int64 if index.is_integer else np.float64)
+
+
+def array_value(index: Index, pose: Pose) -> float:
+    """The value of an index as arrays have it."""
+    number = index.number(pose)
+    if number is not None:
+        return number
+    return nan if index.undecided is None else index.undecided
 
 
 def rotations_of(quaternions: NDArray[np.float64], what: str) -> Rotation:
@@ -150,19 +163,22 @@ def frame_of(arrays: PoseArrays) -> DataFrame:
         If pandas is not installed.
     """
     pandas = required("pandas", "to_frame", "pip install pandas")
+    nullable = partial(pandas.array, dtype="Int64")
     columns = dict(zip(_NAMES, np.concatenate([arrays.position, arrays.quaternion], axis=1).T, strict=True))
     frame: DataFrame = pandas.DataFrame(
         columns
         | {
-            "det_sign": pandas.array(arrays.det_sign, dtype="Int64"),
-            "condition": arrays.condition,
-            "multiplicity": pandas.array(arrays.multiplicity, dtype="Int64"),
-            "half_width": arrays.half_width,
-        },
+            index.name: pandas.array(arrays.indices[index.name], dtype="Int64")
+            if index.is_integer
+            else arrays.indices[index.name]
+            for index in shown_in(Output.ARRAYS)
+        }
+        | {"multiplicity": nullable(arrays.multiplicity), "half_width": arrays.half_width},
         index=pandas.RangeIndex(1, len(arrays.position) + 1, name="pose"),
     )
-    frame.loc[(frame["det_sign"] == UNKNOWN_SIGN).fillna(False), "det_sign"] = pandas.NA
-    frame.loc[(frame["multiplicity"] == UNKNOWN_MULTIPLICITY).fillna(False), "multiplicity"] = pandas.NA
+    unknown = {index.name: index.undecided for index in shown_in(Output.ARRAYS) if index.is_integer}
+    for name, value in (unknown | {"multiplicity": UNKNOWN_MULTIPLICITY}).items():
+        frame.loc[(frame[name] == value).fillna(False), name] = pandas.NA
     return frame
 
 

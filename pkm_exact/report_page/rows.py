@@ -8,6 +8,8 @@ from fractions import Fraction
 from math import floor, log10
 from typing import TYPE_CHECKING, Any, Final
 
+from pkm_exact.indices.index import Index, Output
+from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.report_page.numerals import bound, distance, in_unit, shortened
 from pkm_exact.roots.interval import Interval, decimal
 
@@ -15,8 +17,6 @@ if TYPE_CHECKING:
     from pkm_exact.pictures.scene import PoseView, Scene
 
 QUATERNION: Final = ("q0", "q1", "q2", "q3")
-_SIGNS: Final = {1: "+", -1: "-", 0: "0", None: "?"}
-_SIGN_WORDS: Final = {1: "positive", -1: "negative", 0: "0 (singular)", None: "not decided"}
 _SHORT_QUATERNION: Final = 5
 _SHORT_SIGNIFICANT: Final = 7
 
@@ -149,7 +149,7 @@ def certified_rows(document: Mapping[str, Any], scene: Scene) -> PoseRows:
     """The rows of a pose certificate."""
     columns = (*_coordinate_columns(scene), *_common_columns(scene))
     names = ("x", "y", "theta") if scene.motion.is_planar else ("x", "y", "z")
-    plain = ("pose", *names, *QUATERNION, "error", "det_sign", "condition", "multiplicity")
+    plain = ("pose", *names, *QUATERNION, "error", *(index.name for index in shown_in(Output.PAGE)), "multiplicity")
     rows = tuple(_row(document, entry, view, scene) for entry, view in zip(document["poses"], scene.poses, strict=True))
     return PoseRows(columns, rows, plain, ("pose", "claim", "multiplicity", "t_lo", "t_hi"))
 
@@ -163,8 +163,7 @@ def _coordinate_columns(scene: Scene) -> list[Column]:
 
 def _common_columns(scene: Scene) -> list[Column]:
     return [
-        Column("det J", "sign of the determinant of the leg Jacobian"),
-        Column("cond J", "condition number of the leg Jacobian"),
+        *(Column(index.heading, index.meaning) for index in shown_in(Output.PAGE)),
         Column("mult.", "multiplicity of the solution"),
         Column("box ±", f"half width of the box of the position{in_unit(scene.unit)}"),
     ]
@@ -188,19 +187,18 @@ def _row(document: Mapping[str, Any], entry: Mapping[str, Any], view: PoseView, 
         texts, intervals = ([*texts, place[2]], [*intervals, angle]) if angle else (texts, intervals)
     error = bound(distance(texts, intervals))
     multiplicity = str(view.multiplicity)
-    sign = "" if view.det_sign is None else str(view.det_sign)
-    condition = _condition(view)
+    indices = shown_in(Output.PAGE)
     parameter = entry["parameter"] or ["", ""]
     return Row(
         view.number,
-        (*coordinates, *_common_cells(view, condition, box)),
-        _lines(view, scene, box, place, condition),
-        f"det J is {_SIGN_WORDS[view.det_sign]}, condition number {condition.full}.",
+        (*coordinates, *_common_cells(view, box)),
+        _lines(view, scene, box, place),
+        f"{', '.join(f'{index.heading} is {index.in_words(view)}' for index in indices)}.",
         position,
         quaternion,
         tuple(tuple(map(decimal, row)) for row in box.rotation),
         box.bounds,
-        (str(view.number), *place, *quaternion, error, sign, condition.full, multiplicity),
+        (str(view.number), *place, *quaternion, error, *(_plain(index, view) for index in indices), multiplicity),
         (str(view.number), document["claim"], multiplicity, *parameter),
     )
 
@@ -211,26 +209,23 @@ def _angle(box: Box) -> Interval | None:
     return angle_in_degrees(box.rotation[0][0], box.rotation[1][0])
 
 
-def _condition(view: PoseView) -> Cell:
-    """Sorted as infinite at a singular pose."""
-    if view.condition is not None:
-        return Cell(f"{view.condition:.4g}", f"{view.condition:.4g}", view.condition)
-    return Cell("singular", "singular", float("inf")) if view.det_sign == 0 else Cell("?", "?", None)
+def _plain(index: Index, view: PoseView) -> str:
+    """An index for a program: an integer as it is, nothing where it is not decided."""
+    value = index.value(view)
+    return index.text(view) if not index.is_integer else "" if value is None else str(value)
 
 
-def _common_cells(view: PoseView, condition: Cell, box: Box) -> list[Cell]:
-    sign, multiplicity = _SIGNS[view.det_sign], view.multiplicity
+def _common_cells(view: PoseView, box: Box) -> list[Cell]:
+    multiplicity = view.multiplicity
+    texts = ((index.text(view), index.number(view)) for index in shown_in(Output.PAGE))
     return [
-        Cell(sign, sign, view.det_sign),
-        condition,
+        *(Cell(text, text, number) for text, number in texts),
         Cell(str(multiplicity or "?"), str(multiplicity or "?"), multiplicity),
         half_width(box.position),
     ]
 
 
-def _lines(
-    view: PoseView, scene: Scene, box: Box, place: Sequence[str], condition: Cell
-) -> tuple[tuple[str, str], ...]:
+def _lines(view: PoseView, scene: Scene, box: Box, place: Sequence[str]) -> tuple[tuple[str, str], ...]:
     lines = [(f"position{in_unit(scene.unit)}", f"({', '.join(place[:2] if scene.motion.is_planar else place)})")]
     if scene.motion.is_planar:
         lines.append(("angle [degrees]", place[2] or "not decided"))
@@ -240,7 +235,6 @@ def _lines(
     return (
         *lines,
         ("half widths of the box", widths),
-        ("det J", _SIGN_WORDS[view.det_sign]),
-        ("condition number of J", condition.full),
+        *((index.heading, index.in_words(view)) for index in shown_in(Output.PAGE)),
         ("multiplicity", "not proved" if view.multiplicity is None else str(view.multiplicity)),
     )

@@ -110,7 +110,7 @@ def _view(entry: Mapping[str, Any], platform: Sequence[Point]) -> PoseView:
         quaternion=(q0, q1, q2, q3),
         platform=tuple(moved((x, y, z), rotation, joint) for joint in platform),
         det_sign=None,
-        condition=None,
+        jacobian=None,
         multiplicity=None,
     )
 

@@ -6,8 +6,11 @@ import json
 from hashlib import sha256
 from typing import Any
 
+from pkm_exact.indices.index import Index, Output
+from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.poses.pose import Pose
-from pkm_exact.roots.interval import decimal
+from pkm_exact.poses.pose_spelling import pose_decimals
+from pkm_exact.roots.interval import Interval, decimal
 from pkm_exact.solution import Solution
 from pkm_exact.sweep.lengths import LengthRow
 
@@ -45,8 +48,12 @@ def _line(row: LengthRow, content: dict[str, Any]) -> bytes:
 def _pose(pose: Pose) -> dict[str, Any]:
     """Decimals as strings: the last digit is right to within one unit."""
     return {
-        "position": [decimal(value) for value in pose.position],
-        "quaternion": [decimal(value) for value in pose.quaternion],
-        "det_sign": None if pose.jacobian is None else pose.jacobian.det_sign,
+        **pose_decimals(pose),
+        **{index.name: _short(index, pose) for index in shown_in(Output.SWEEP)},
         "multiplicity": pose.multiplicity,
     }
+
+
+def _short(index: Index, pose: Pose) -> str | int | None:
+    value = index.value(pose)
+    return decimal(value) if isinstance(value, Interval) else value

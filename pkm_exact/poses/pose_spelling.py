@@ -1,0 +1,39 @@
+"""The one spelling of a pose: exact bounds for certificates and JSON, decimals for what people read."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pkm_exact.poses.pose import Pose
+from pkm_exact.roots.interval import Interval, decimal
+
+
+def ends(interval: Interval) -> list[str]:
+    """Both ends, exactly.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> ends(Interval(Fraction(0), Fraction(1, 2)))
+    ['0', '1/2']
+    """
+    return [str(interval.lo), str(interval.hi)]
+
+
+def pose_entry(pose: Pose) -> dict[str, Any]:
+    """A pose as certificates and JSON output have it: the bounds of its box, and its multiplicity if it is proved."""
+    return {
+        "parameter": None if pose.parameter is None else ends(pose.parameter),
+        "position": [ends(value) for value in pose.position],
+        "rotation": [[ends(value) for value in row] for row in pose.rotation],
+        "quaternion": [ends(value) for value in pose.quaternion],
+        "multiplicity": pose.multiplicity,
+    }
+
+
+def pose_decimals(pose: Pose) -> dict[str, list[str]]:
+    """Position and quaternion as decimals whose last digit is right to within one unit."""
+    return {
+        "position": [decimal(value) for value in pose.position],
+        "quaternion": [decimal(value) for value in pose.quaternion],
+    }
