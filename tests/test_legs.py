@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import Crank, Slide, cosine_and_sine
-from pkm_exact.geometry.inverse import dot
+from pkm_exact.geometry.inverse import dot, rotation_of
+from pkm_exact.geometry.ordinary_pose import model_quaternion, ordinary_rotation, quaternion_of
 from pkm_exact.geometry.reader import read_robot, robot_from_toml
 from pkm_exact.geometry.surds import Surd, quadratic_roots
 from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, SlideMode, working_modes
@@ -126,13 +127,71 @@ def _answer(words: list[str], capsys: Capture) -> dict:
 def test_rotations_in_three_ways_give_the_same(capsys: Capture) -> None:
     for model in (ROLLAND, GLIDE):
         g = read_robot(model).metric[1]
-        place = [model, "--position", "1/2,-3,650"]
+        place = [model, "--in-metric", "--position", "1/2,-3,650"]
         first = _answer([*place, "--quaternion", "4,0,0,2"], capsys)
         norm = 16 * g + 4
         c, s = Fraction(16 * g - 4, norm), Fraction(16, norm)
         matrix = f"{c},{-s * g},0,{s},{c},0,0,0,1"
         assert _answer([*place, "--cayley", "0,0,1/2"], capsys) == first
         assert _answer([*place, "--matrix", matrix], capsys) == first
+
+
+def test_poses_are_ordinary_and_never_rounded_silently(capsys: Capture) -> None:
+    """In the metric (1, 3, 1) a rational y is no pose of the model; the nearest one is taken only if asked for."""
+    place = [GLIDE, "--position", "1/2,-3,650", "--quaternion", "4,0,0,2"]
+    assert main(["legs", *place]) == 2
+    out, err = capsys.readouterr()
+    note, error = err.splitlines()
+    assert (out, "the ordinary y is sqrt(3) times the y in the file" in note) == ("", True)
+    assert "--position: in the model's metric [1, 3, 1] these numbers are not rational" in error
+    assert main(["legs", GLIDE, "--position", "1/2,0,650", "--quaternion", "4,0,0,2"]) == 2
+    assert "--quaternion: in the model's metric" in capsys.readouterr().err
+    near = _answer([*place, "--nearest", "1e-12"], capsys)
+    assert near["nearest"] == "1/1000000000000"
+    position = [_value(text) for text in near["pose"]["position"]]
+    rotation = [[_value(text) for text in row] for row in near["pose"]["rotation"]]
+    assert position == pytest.approx([0.5, -3, 650], abs=1e-12)
+    assert rotation[0] == pytest.approx([0.6, -0.8, 0], abs=1e-12)
+    assert _answer([GLIDE, "--position", "1/2,0,650", "--quaternion", "4,0,2,0"], capsys)["nearest"] is None
+
+
+def test_the_same_pose_in_both_coordinates(capsys: Capture) -> None:
+    half_turn = _answer([GLIDE, "--position", "1/2,0,650", "--matrix", "-1,0,0,0,1,0,0,0,-1"], capsys)
+    assert _answer([GLIDE, "--in-metric", "--position", "1/2,0,650", "--quaternion", "0,0,1,0"], capsys) == half_turn
+    turned = _answer([GLIDE, "--in-metric", "--position", "1/2,5,650", "--quaternion", "1,0,0,1"], capsys)["pose"]
+    assert turned["position"] == ["1/2", "5*sqrt(3)", "650"]
+    assert turned["rotation"][0] == ["1/2", "-1/2*sqrt(3)", "0"], "by 60 degrees: tan(30 degrees) is 1 / sqrt(3)"
+    assert _answer([ROLLAND, "--position", "1,2,3", "--quaternion", "9,1,0,-1"], capsys) == _answer(
+        [ROLLAND, "--in-metric", "--position", "1,2,3", "--quaternion", "9,1,0,-1"], capsys
+    )
+
+
+def _value(text: str) -> float:
+    p, _, root = text.rpartition("*sqrt(")
+    return float(Fraction(p)) * float(root[:-1]) ** 0.5 if p else float(Fraction(text))
+
+
+@given(
+    st.tuples(small, small, small, small).filter(any),
+    st.sampled_from([(1, 3, 1), (2, 5, 7), (1, 1, 1), (4, 9, 1)]),
+    st.integers(1, 12),
+)
+def test_a_quaternion_in_a_metric_is_as_near_as_asked_for(
+    quaternion: tuple[Fraction, ...], metric: tuple[int, int, int], digits: int
+) -> None:
+    q0, q1, q2, q3 = quaternion
+    wanted = rotation_of((q0, q1, q2, q3))
+    exact, near = (model_quaternion((q0, q1, q2, q3), metric, width) for width in (None, Fraction(1, 10**digits)))
+    assert near is not None
+    if exact is not None:
+        assert near == exact
+    for row, ordinary in zip(wanted, ordinary_rotation(rotation_of(near, metric), metric), strict=True):
+        for x, y in zip(row, ordinary, strict=True):
+            low, high = y.enclosure(Fraction(1, 10**20))
+            assert max(abs(low - x), abs(high - x)) <= (Fraction(1, 10**digits) if exact is None else 10**-20)
+    assert [x * quaternion_of(wanted)[k] for k in range(4) for x in quaternion] == [
+        quaternion_of(wanted)[i] * quaternion[k] for k in range(4) for i in range(4)
+    ], "the same up to scale"
 
 
 def test_lengths_are_those_of_a_posed_configuration(capsys: Capture) -> None:

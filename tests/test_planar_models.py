@@ -261,7 +261,7 @@ WRONG = [
         "--cos-sin: the squares of cosine and sine sum to 2, not to 1",
     ),
     (
-        ["legs", str(MODELS / "mssm.toml"), "--position", "1,2", "--cos-sin", "1,0"],
+        ["legs", str(MODELS / "6-6p.toml"), "--position", "1,2", "--cos-sin", "1,0"],
         "but a 6-UPS robot is spatial; give",
     ),
 ]

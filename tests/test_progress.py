@@ -317,6 +317,6 @@ def test_a_terminal_sees_the_stages_of_a_verbose_run() -> None:
 
 
 def test_a_pipe_sees_nothing() -> None:
-    command = [sys.executable, "-m", "pkm_exact.cli.main", "solve", "models/mssm.toml", "-v"]
+    command = [sys.executable, "-m", "pkm_exact.cli.main", "solve", "models/mourrain-l.toml", "-v"]
     done = subprocess.run(command, capture_output=True, cwd=ROOT)
     assert (done.returncode, done.stderr) == (0, b"")

@@ -305,7 +305,7 @@ def test_a_rejected_certificate_has_no_page(tmp_path: Path, capsys: Capture) -> 
         ("good.json", "good.json", [], "is the certificate itself; give -o another path"),
         ("good.json", "nowhere/page.html", [], "does not exist; create it or give -o another path"),
         ("good.json", ".", [], "is a directory"),
-        ("good.json", "page.html", ["--model", str(ROOT / "models" / "hexa.toml")], "is not one of the model"),
+        ("good.json", "page.html", ["--model", str(ROOT / "models" / "6-6p.toml")], "is not one of the model"),
         ("good.json", "page.html", ["--model", "no.toml"], "no.toml"),
         ("good.json", "model.toml", ["--model", "model.toml"], "is the model file itself"),
         ("tolerance.json", "page.html", ["--model", str(ROOT / "models" / "3-rrr.toml")], "leave it out"),

@@ -32,6 +32,16 @@ def width(context: click.Context, _option: click.Parameter, value: str) -> Fract
     return number
 
 
+def nearest(context: click.Context, _option: click.Parameter, value: str | None) -> Fraction | None:
+    """The number that --nearest denotes; None if it is not given."""
+    if value is None:
+        return None
+    number = _number(context, value, "--nearest")
+    if number > 1 or number < SMALLEST_WIDTH:
+        raise click.UsageError(f"--nearest: {shown(value)} is out of range, give a number from 2^-4096 to 1.", context)
+    return number
+
+
 def lengths(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[Fraction, ...] | None:
     """The numbers that --lengths denotes; the robot says how many there must be."""
     if value is None:

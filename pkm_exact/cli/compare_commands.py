@@ -50,9 +50,9 @@ def compare(
     """
     if configuration is not None and lengths is not None:
         raise click.UsageError("--configuration and --lengths exclude each other.")
-    from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.cli.model_reading import announced_model
 
-    robot = read_robot(model)
+    robot = announced_model(model)
     chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     if output is not None:
         arguments.require_other_file(Path(output), model, "--json")
@@ -75,7 +75,13 @@ def compare(
             raise InputError(f"{model}: {error}") from None
     if output is not None:
         entry = configuration_object(robot, name, problem)
-        content = {"model": model, "configuration": entry, "unit": robot.unit, **comparison.as_object()}
+        content = {
+            "model": model,
+            "configuration": entry,
+            "unit": robot.unit,
+            "metric": list(map(str, robot.metric)),
+            **comparison.as_object(),
+        }
         arguments.write_output(output, (json.dumps(content, indent=1) + "\n").encode("utf-8"), "--json")
     print_comparison(robot, name, comparison)
     return ExitCode.DONE if comparison.solution.is_complete else ExitCode.WEAKER_CLAIM

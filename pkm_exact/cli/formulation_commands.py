@@ -57,9 +57,9 @@ def formulations(
       certify-poses formulations models/mourrain-l.toml --only SE3,AFD4,AFD5
       certify-poses formulations models/rolland-6-6.toml --timeout 60 --json formulations.json
     """
-    from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.cli.model_reading import announced_model
 
-    robot = read_robot(model)
+    robot = announced_model(model)
     chosen, problem = arguments.chosen_problem(robot, model, configuration)
     if output is not None:
         arguments.require_other_file(Path(output), model, "--json")
@@ -72,8 +72,8 @@ def formulations(
     with Progress(verbose=False) as progress:
         rows = compare_formulations(problem, codes, seconds=timeout, progress=progress)
     if output is not None:
-        name = chosen.name if chosen else None
-        content = {"model": model, "configuration": name, "rows": [row.as_object() for row in rows]}
+        name, metric = chosen.name if chosen else None, list(map(str, robot.metric))
+        content = {"model": model, "configuration": name, "metric": metric, "rows": [row.as_object() for row in rows]}
         arguments.write_output(output, (json.dumps(content, indent=1) + "\n").encode("utf-8"), "--json")
     print_tables(_title(robot, chosen), rows)
     return ExitCode.DONE if all(row.agrees for row in rows) else ExitCode.WEAKER_CLAIM
@@ -113,9 +113,9 @@ def export(
       certify-poses export models/mourrain-l.toml --to msolve -o mourrain-l.ms
       certify-poses export models/mourrain-l.toml --to singular --formulation AFD5
     """
-    from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.cli.model_reading import announced_model
 
-    robot = read_robot(model)
+    robot = announced_model(model)
     chosen, problem = arguments.chosen_problem(robot, model, configuration)
     if output is not None:
         arguments.require_other_file(Path(output), model, "-o")

@@ -11,7 +11,7 @@ import click
 
 from pkm_exact.cli import arguments
 from pkm_exact.cli.main import ExitCode
-from pkm_exact.errors import InputError
+from pkm_exact.errors import InputError, InternalContradictionError
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
@@ -32,6 +32,13 @@ _PLANAR: Final = ("--half-tangent", "--cos-sin")
 @click.option("--matrix", metavar="R11,..,R33", help="Its rotation matrix row by row, checked exactly.")
 @click.option("--half-tangent", metavar="T", help="A planar robot's rotation: the tangent of half its angle.")
 @click.option("--cos-sin", metavar="C,S", help="Or cosine and sine of its angle, checked exactly.")
+@click.option(
+    "--nearest",
+    callback=arguments.nearest,
+    metavar="W",
+    help="Where the model's metric has no such pose exactly: take one that differs by at most W in any coordinate.",
+)
+@click.option("--in-metric", is_flag=True, help="The pose is in the coordinates of the file, as a pose in it is.")
 @click.option(
     "--width",
     callback=arguments.width,
@@ -56,19 +63,21 @@ def legs(
     matrix: str | None,
     half_tangent: str | None,
     cos_sin: str | None,
+    nearest: Fraction | None,
+    in_metric: bool,
     width: Fraction,
     layout: str,
 ) -> int:
     """Print what the legs of the robot in the file MODEL must be for its platform to stand at a pose.
 
     Leg lengths where these are actuated; else every crank angle or slide position, all working modes. Coordinates are
-    those of the file, with respect to its metric. In the table, a line to copy into a configuration comes first if the
-    values are rational.
+    ordinary ones, as in every output. In the table, a line to copy into a configuration comes first if the values are
+    rational.
 
     \b
     Examples:
       certify-poses legs models/rolland-6-6.toml --position 0,0,650 --quaternion 9,1,0,-1
-      certify-poses legs models/hexa.toml --position 0,0,650 --cayley 1/9,0,-1/9 --format json
+      certify-poses legs models/hexa.toml --position 0,0,650 --cayley 0,1/9,0 --format json
       certify-poses legs models/3-rpr-merlet-p.toml --position 5,9/2 --half-tangent 1/3
     """
     words = {
@@ -83,6 +92,8 @@ def legs(
         raise click.UsageError(
             "give exactly one of --quaternion, --cayley and --matrix; of --half-tangent and --cos-sin if it is planar."
         )
+    if in_metric and nearest is not None:
+        raise click.UsageError("--in-metric and --nearest exclude each other: a pose of the file is exact.")
     # Before the file is read: what is wrong with the words is said first.
     option, text, count = given[0]
     origin = _numbers(position, "--position", 2 if option in _PLANAR else 3)
@@ -91,17 +102,44 @@ def legs(
         raise click.UsageError("--quaternion: all four numbers are 0, give one that is not.")
 
     from pkm_exact.cli.legs_report import as_object, as_text
-    from pkm_exact.geometry.reader import read_jointed_robot
+    from pkm_exact.cli.model_reading import announced_robot
 
-    robot = read_jointed_robot(model, "legs")
+    robot = announced_robot(model, "legs")
     _require_kind(option, robot, model)
-    rotation = _rotation(option, values, robot.metric)
+    if in_metric:
+        place, rotation, used = _vector(origin), _rotation(option, values, robot.metric), None
+    else:
+        place, rotation, used = _in_model(_vector(origin), option, values, robot.metric, nearest)
     if layout == "json":
-        answer: dict[str, Any] = as_object(robot, _vector(origin), rotation, width)
+        answer: dict[str, Any] = as_object(robot, place, rotation, width, used)
         sys.stdout.write(json.dumps(answer, indent=1) + "\n")
     else:
-        sys.stdout.write(as_text(robot, _vector(origin), rotation, width))
+        sys.stdout.write(as_text(robot, place, rotation, width, used))
     return ExitCode.DONE
+
+
+def _in_model(
+    position: Vector, option: str, values: list[Fraction], metric: Metric, nearest: Fraction | None
+) -> tuple[Vector, Matrix, Fraction | None]:
+    """An ordinary pose in the coordinates of the model, and by how much it may be off; None if it is exact."""
+    from pkm_exact.geometry.inverse import rotation_of
+    from pkm_exact.geometry.ordinary_pose import model_position, model_quaternion, quaternion_of
+
+    ordinary = quaternion_of(_rotation(option, values, (1, 1, 1)))
+    place, quaternion = model_position(position, metric), model_quaternion(ordinary, metric)
+    used = None if place is not None and quaternion is not None else nearest
+    for found, where in ((place, "--position"), (quaternion, option)):
+        if found is None and nearest is None:
+            raise InputError(
+                f"{where}: in the model's metric [{', '.join(map(str, metric))}] these numbers are not rational, so "
+                "that no pose of it is exactly there; give --nearest 1e-9 to take one that near, or --in-metric with a "
+                "pose in the coordinates of the file"
+            )
+    place = place or model_position(position, metric, nearest)
+    quaternion = quaternion or model_quaternion(ordinary, metric, nearest)
+    if place is None or quaternion is None:
+        raise InternalContradictionError("a pose near the given one was not found")
+    return place, rotation_of(quaternion, metric), used
 
 
 def _numbers(text: str, option: str, count: int) -> list[Fraction]:
@@ -157,6 +195,10 @@ def _rotation(option: str, values: list[Fraction], metric: Metric) -> Matrix:
     return rotation_of((e0, e1, e2, e3), metric)
 
 
+def _in(metric: Metric) -> str:
+    return "" if set(metric) == {1} else f" in the metric {', '.join(map(str, metric))}"
+
+
 def _require_rotation(matrix: Matrix, metric: Metric) -> None:
     """Refuse a matrix R unless R^T G R = G and det R = 1."""
     from pkm_exact.geometry.inverse import dot
@@ -167,8 +209,8 @@ def _require_rotation(matrix: Matrix, metric: Metric) -> None:
             product, wanted = dot(columns[i], columns[j], metric), metric[i] if i == j else 0
             if product != wanted:
                 raise InputError(
-                    f"--matrix: not a rotation in the metric {', '.join(map(str, metric))}: columns {j + 1} and "
-                    f"{i + 1} have the product {shown(product)} instead of {wanted}; give an exact rotation matrix"
+                    f"--matrix: not a rotation{_in(metric)}: columns {j + 1} and {i + 1} have the product "
+                    f"{shown(product)} instead of {wanted}; give an exact rotation matrix"
                 )
     (a, b, c), (d, e, f), (x, y, z) = matrix
     if a * (e * z - f * y) - b * (d * z - f * x) + c * (d * y - e * x) != 1:

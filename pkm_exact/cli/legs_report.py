@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import prod
 from typing import Any, Final
 
+from pkm_exact.cli.report import robot_object
 from pkm_exact.cli.table import decimal
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import Crank
 from pkm_exact.geometry.inverse import Matrix, distance_squared
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.ordinary_pose import OrdinaryMatrix, ordinary_position, ordinary_rotation
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.surds import Surd
 from pkm_exact.geometry.working_modes import (
@@ -39,16 +41,23 @@ def joint_modes(robot: Robot, position: Vector, rotation: Matrix) -> list[tuple[
     return [working_modes(c, a, platform_point(b, position, rotation), robot.metric) for c, a, b in chains]
 
 
-def as_object(robot: Robot, position: Vector, rotation: Matrix, width: Fraction) -> dict[str, Any]:
-    """The answer as a JSON object: every number exact, as "p", "p/q" or "p + q*sqrt(n)", and with bounds."""
+def as_object(
+    robot: Robot, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None
+) -> dict[str, Any]:
+    """The answer as a JSON object: every number exact, as "p", "p/q" or "p + q*sqrt(n)", and with bounds.
+
+    The pose is in ordinary coordinates; ``nearest`` is by how much it may differ from the one that was asked for.
+    """
+    place, rows = ordinary_position(position, robot.metric), ordinary_rotation(rotation, robot.metric)
     answer: dict[str, Any] = {
-        "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
+        "robot": robot_object(robot),
         "metric": list(map(str, robot.metric)),
-        "pose": {"position": list(map(str, position)), "rotation": [list(map(str, row)) for row in rotation]},
+        "pose": {"position": list(map(str, place)), "rotation": [list(map(str, row)) for row in rows]},
+        "nearest": None if nearest is None else str(nearest),
     }
     if KINDS[robot.kind].motion.is_planar:
         names = ("x", "y", "cos", "sin")
-        answer["pose"]["planar"] = dict(zip(names, map(str, _planar(robot, position, rotation)), strict=True))
+        answer["pose"]["planar"] = dict(zip(names, map(str, _planar(place, rows)), strict=True))
     if not robot.chains:
         squares = lengths_squared(robot, position, rotation)
         lengths = [_number(Surd.root_of(square), width) for square in squares]
@@ -74,15 +83,18 @@ def _number(value: Surd, width: Fraction) -> dict[str, Any]:
     return {"exact": str(value), "bounds": list(map(str, value.enclosure(width)))}
 
 
-def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction) -> str:
+def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None) -> str:
     """The answer as a headline, a line for a configuration if there is one, and a table."""
+    ordinary, entries = ordinary_position(position, robot.metric), ordinary_rotation(rotation, robot.metric)
     if KINDS[robot.kind].motion.is_planar:
-        x, y, c, s = _planar(robot, position, rotation)
+        x, y, c, s = _planar(ordinary, entries)
         place = f"position ({x}, {y}), cosine and sine ({c}, {s})"
     else:
-        rows = "; ".join(", ".join(map(str, row)) for row in rotation)
-        place = f"position ({', '.join(map(str, position))}), rotation matrix ({rows})"
+        rows = "; ".join(", ".join(map(str, row)) for row in entries)
+        place = f"position ({', '.join(map(str, ordinary))}), rotation matrix ({rows})"
     lines = [f"{robot.name} ({robot.kind}), {place}"]
+    if nearest is not None:
+        lines.append(f"the pose is off by at most {nearest} from the one given, which the metric does not have exactly")
     if robot.chains:
         lines += _chain_lines(robot, joint_modes(robot, position, rotation), width)
     else:
@@ -94,9 +106,9 @@ def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction) -
     return "".join(f"{line}\n" for line in lines)
 
 
-def _planar(robot: Robot, position: Vector, rotation: Matrix) -> tuple[Fraction, Fraction, Fraction, Fraction]:
-    """A planar pose as x, y, c, s in the coordinates of the file (``geometry.planar_rotation``)."""
-    return position[0], position[1], rotation[0][0], rotation[1][0] / robot.metric[0]
+def _planar(position: Sequence[Surd], rotation: OrdinaryMatrix) -> tuple[Surd, Surd, Surd, Surd]:
+    """A planar pose as x, y, cosine and sine."""
+    return position[0], position[1], rotation[0][0], rotation[1][0]
 
 
 def _chain_lines(robot: Robot, modes: list[tuple[Mode, ...]], width: Fraction) -> Iterator[str]:

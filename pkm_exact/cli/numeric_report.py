@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from math import atan2, degrees
 from typing import TYPE_CHECKING, Any
 
-from pkm_exact.cli.report import configuration_object
+from pkm_exact.cli.report import configuration_object, robot_object
 from pkm_exact.cli.table import print_rows
 from pkm_exact.motions.motion import Motion
 
@@ -66,7 +66,7 @@ def _angle(pose: NumericPose) -> float:
 def as_object(robot: Robot, configuration: str | None, solution: UncertifiedSolution) -> dict[str, Any]:
     """The solution as a JSON object; unlike bounds of certified poses, coordinates are numbers and not strings."""
     return {
-        "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
+        "robot": robot_object(robot),
         "configuration": configuration_object(robot, configuration, solution.problem),
         "method": solution.method,
         "claim": solution.claim,

@@ -146,7 +146,7 @@ def _figure(
     size: tuple[float, float] | None,
 ) -> tuple[Figure, str]:
     """The figure, and what it shows in one line."""
-    from pkm_exact.geometry.reader import read_jointed_robot
+    from pkm_exact.cli.model_reading import announced_robot
     from pkm_exact.pictures import captions
     from pkm_exact.pictures.camera import DEFAULT_VIEW, View
     from pkm_exact.pictures.roots import roots_figure
@@ -155,7 +155,7 @@ def _figure(
 
     if roots:
         return roots_figure(document, size=size), "the roots of the eliminant"
-    scene = scene_of(document, None if model is None else read_jointed_robot(model, "--model"))
+    scene = scene_of(document, None if model is None else announced_robot(model, "--model"))
     seen = DEFAULT_VIEW if view is None else View(*view)
     if pose is not None:
         return pose_figure(scene, pose, view=seen, size=size, ghosts=overlay), f"pose {pose} of {len(scene.poses)}"

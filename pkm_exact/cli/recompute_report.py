@@ -10,10 +10,10 @@ from pathlib import Path
 from pkm_exact.certify.certificate import content_of
 from pkm_exact.cli.check_command import worst
 from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.model_reading import announced_robot
 from pkm_exact.errors import InputError, InternalError, PkmExactError
 from pkm_exact.failures.failure_report import reported
 from pkm_exact.files import write_whole
-from pkm_exact.geometry.reader import read_jointed_robot
 from pkm_exact.interactive.progress import Progress
 from pkm_exact.recomputation import Outcome, Recomputation, recompute
 from pkm_exact.stages import Prefixed
@@ -64,7 +64,7 @@ def _outcome(path: Path, models: Path | None, *, update: bool) -> tuple[ExitCode
 
 def _recomputed(path: Path, models: Path | None) -> Recomputation:
     data = content_of(path)
-    robot = None if models is None else read_jointed_robot(_model_of(path, models), "--recompute")
+    robot = None if models is None else announced_robot(_model_of(path, models), "--recompute")
     name = printable(str(path))
     with Progress(verbose=False) as progress:
         progress(name)

@@ -39,7 +39,7 @@ def report(robot: Machine, configuration: str | None, solution: Solution, layout
 def as_object(robot: Machine, configuration: str | None, solution: Solution) -> dict[str, Any]:
     """The solution as a JSON object: bounds are exact rationals as strings, assembly modes indices of poses."""
     return {
-        "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
+        "robot": robot_object(robot),
         "configuration": configuration_object(robot, configuration, solution.problem),
         "formulation": solution.formulation,
         "method": solution.method,
@@ -53,6 +53,12 @@ def as_object(robot: Machine, configuration: str | None, solution: Solution) -> 
         "assembly_modes": assembly_modes(solution.poses),
         "notes": list(solution.notes),
     }
+
+
+def robot_object(robot: Machine) -> dict[str, Any]:
+    """Who it is. Joints, vectors and knees are given by file and certificate in the metric, poses never are."""
+    metric = list(map(str, robot.metric))
+    return {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source, "metric": metric}
 
 
 def configuration_object(robot: Machine, name: str | None, problem: ForwardProblem) -> dict[str, Any]:

@@ -55,10 +55,10 @@ def report(certificate: str, output: str, model: str | None) -> int:
 
 
 def _page(document: dict[str, object], lines: tuple[str, ...], certificate: str, model: str | None) -> str:
-    from pkm_exact.geometry.reader import read_jointed_robot
+    from pkm_exact.cli.model_reading import announced_robot
     from pkm_exact.report_page.page import report_page
 
-    robot = None if model is None else read_jointed_robot(model, "--model")
+    robot = None if model is None else announced_robot(model, "--model")
     try:
         return report_page(document, lines, Path(certificate).name, robot)
     except InputError as error:

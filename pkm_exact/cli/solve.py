@@ -97,10 +97,10 @@ def solve(
         raise click.UsageError("--configuration and --lengths exclude each other.")
     require_fitting(click.get_current_context(), method)
     tolerance_report.require_fitting(click.get_current_context(), tolerance, method, layout)
-    from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.geometry.robot import jointed
 
-    robot = read_robot(model)
+    robot = announced_model(model)
     chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     name = chosen.name if chosen else None
     tolerances = (

@@ -69,10 +69,10 @@ def track(model: str, path: str, number: int, width: Fraction, output: str, verb
     target = Path(output)
     if target.suffix.lower() not in _SUFFIXES:
         raise click.UsageError(f"-o: {printable(output)} ends neither in .csv nor in .json; give it one of these.")
+    from pkm_exact.cli.model_reading import announced_robot
     from pkm_exact.geometry.path_reader import read_path
-    from pkm_exact.geometry.reader import read_jointed_robot
 
-    robot = read_jointed_robot(model, "track")
+    robot = announced_robot(model, "track")
     joints = read_path(path, robot)
     arguments.require_other_file(target, model, "-o")
     arguments.require_other_file(target, path, "-o", "the file of the path")

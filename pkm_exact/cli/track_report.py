@@ -10,6 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pkm_exact.cli.report import robot_object
 from pkm_exact.files import write_whole
 from pkm_exact.geometry.path_reader import TIME, joint_names
 
@@ -98,7 +99,7 @@ def written(
         write_whole(target, text.getvalue().encode("ascii"))
         return
     content = {
-        "robot": {"name": robot.name, "kind": robot.kind, "unit": robot.unit, "source": robot.source},
+        "robot": robot_object(robot),
         "start_pose": number,
         "start_proved": records[0]["start_proved"],
         "rows": len(joints.rows),
