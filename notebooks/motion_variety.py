@@ -20,7 +20,7 @@ from pkm_exact import Policy, Robot, read_robot, solve
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.formulations.base import over_integers, rational_ring
-from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, leg_hyperplane, motion_quadrics
+from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, hyperplane, motion_quadrics
 from pkm_exact.formulations.registry import formulation
 from pkm_exact.geometry.rotation import quaternion_norm, scaled_rotation
 
@@ -305,8 +305,7 @@ print("distinct complex poses:", symmetric.distinct_solutions, "  argument:", sy
 # %%
 def describe(name, problem):
     forms, count, system = section(problem)
-    weights = [fmpq(g) for g in problem.metric]
-    rank = fmpq_mat([leg_hyperplane(leg, weights) for leg in problem.distances]).rank()
+    rank = fmpq_mat([hyperplane(form) for form in problem.forms]).rank()
     coranks = [macaulay_corank(forms, count, degree) for degree in DEGREES[:2]]
     finite = Elimination(system, policy).image().dimension
     print(f"{name}: rank of the hyperplanes {rank}, coranks {coranks}, finite solutions {finite}")

@@ -55,6 +55,8 @@ DETECTED_NOTE: Final = (
     "poses, real or complex, or solutions run together at infinity"
 )
 INCONSISTENT_NOTE: Final = "no pose, real or complex, has these leg lengths"
+INCONSISTENT_CONSTRAINTS_NOTE: Final = "no pose, real or complex, meets all these constraints"
+"""The same where some constraint is no leg."""
 NO_SOLUTION_NOTE: Final = (
     "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
 )

@@ -1,4 +1,4 @@
-"""The exact engine: from a robot with given leg lengths to all its poses, each step in the order of the pipeline."""
+"""The exact engine: from a robot with locked actuators to all its poses, each step in the order of the pipeline."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ from flint import fmpz_poly
 
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.claim import Claim
-from pkm_exact.claim_wording import DETECTED_NOTE, INCONSISTENT_NOTE, NO_SOLUTION_NOTE
+from pkm_exact.claim_wording import DETECTED_NOTE, NO_SOLUTION_NOTE
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.failures.contradiction import attached
 from pkm_exact.final_checks import consistent
 from pkm_exact.formulations.registry import formulation_codes, formulation_for
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.notes import isolated_note, motion_note, open_question, singular_notes, turn_notes
+from pkm_exact.notes import inconsistent_note, isolated_note, motion_note, open_question, singular_notes, turn_notes
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width, in_order, pose_boxes, root_enclosures
 from pkm_exact.poses.completeness import CompletenessProof, prove_complete, prove_inconsistent
@@ -52,12 +53,12 @@ def solve(
     policy: Policy | None = None,
     progress: Progress | None = None,
 ) -> Solution:
-    """All real poses of a robot whose leg lengths are given, each in a box, and what is proved about the list.
+    """All real poses of a robot whose actuators are locked, each in a box, and what is proved about the list.
 
     Parameters
     ----------
     problem : ForwardProblem
-        Exact geometry and squared leg lengths.
+        Exact constraints, the motions and the metric.
     formulation : str
         Code of the formulation whose Groebner basis is used.
     width : Fraction
@@ -128,7 +129,7 @@ class _Run:
         self.stages.enter("completeness")
         proof = prove_inconsistent(self.problem, self.policy, self.stages.amount)
         if proof is not None:
-            return self._result(Claim.INCONSISTENT, exponent, INCONSISTENT_NOTE, proof)
+            return self._result(Claim.INCONSISTENT, exponent, inconsistent_note(self.problem), proof)
         return self._result(Claim.NOT_PROVEN_COMPLETE, exponent, NO_SOLUTION_NOTE)
 
     def _proof(self, start: Start, representation: PoseRepresentation) -> CompletenessProof | None:
@@ -208,15 +209,16 @@ class _Run:
 
     def _witnessed(self, bound: Mobility) -> SelfMotion | None:
         """A pose, found by joining legs until finitely many are left, or None if there seems to be none."""
-        legs = len(self.problem.distances)
-        for count in range(bound.dimension, 7):
+        given = len(self.problem.constraints)
+        for count in range(bound.dimension, self.problem.motion.dimension + 1):
             for extended in islice(extended_problems(self.problem, count, self.policy.seed), SELF_MOTION_ATTEMPTS):
                 search = PoseSearch(extended, formulation_codes()[0], self.policy, Stages())
                 start, representation = search.found()
                 if start.count is None:
                     break
                 if representation is not None:
-                    return SelfMotion(bound, extended.distances[legs:], representation)
+                    further = tuple(leg for leg in extended.constraints[given:] if isinstance(leg, Distance))
+                    return SelfMotion(bound, further, representation)
             else:
                 return None
         return None
@@ -247,7 +249,7 @@ class _Run:
             for pose, place, jacobian in zip(poses, places, jacobians, strict=True)
         }
         ordered = in_order(known)
-        return ordered, singular_notes([known[pose] for pose in ordered], len(self.problem.distances))
+        return ordered, singular_notes([known[pose] for pose in ordered], self.problem)
 
     def _result(self, claim: Claim, exponent: int, note: str, proof: CompletenessProof | None = None) -> Solution:
         """A solution without a representation of poses."""

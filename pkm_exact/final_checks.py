@@ -18,10 +18,11 @@ from pkm_exact.claim import Claim, CompletenessRoute, RealMotion
 from pkm_exact.digests import digest
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import evaluate, pose_quadrics
+from pkm_exact.geometry.study import evaluate, linear_quadrics, motion_quadrics, pose_quadrics, pose_quartics
 from pkm_exact.numeric.box_consistency import require_sound_boxes
 from pkm_exact.poses.completeness import CompletenessProof
 from pkm_exact.poses.pose_consistency import (
+    has_degree_zero,
     require_apart,
     require_consistent_jacobians,
     require_degree_zero,
@@ -130,8 +131,13 @@ def _require_representation(representation: PoseRepresentation, problem: Forward
     form = sum((weight * value for weight, value in zip(representation.separating_form, x, strict=True)), zero)
     require((form - unknown * slope) % modulus == zero, "a separating form has other values", prime=prime)
     products = [[x[k] * x[m] % modulus if k <= m else zero for m in range(8)] for k in range(8)]
-    for number, quadric in enumerate(pose_quadrics(problem)):
-        require(evaluate(quadric, products) == zero, "solutions are not on the robot", equation=number, prime=prime)
+    values = [evaluate(quadric, products) for quadric in pose_quadrics(problem)]
+    norm = evaluate(motion_quadrics(problem.metric)[-1], products)
+    for quartic in pose_quartics(problem):
+        linear, root = (evaluate(quadric, products) if quadric else zero for quadric in (quartic.linear, quartic.root))
+        values.append(quartic.value(linear, root, norm))
+    for number, value in enumerate(values):
+        require(value % modulus == zero, "solutions are not on the robot", equation=number, prime=prime)
 
 
 def _image(polynomial: fmpz_poly, prime: int) -> nmod_poly:
@@ -141,7 +147,7 @@ def _image(polynomial: fmpz_poly, prime: int) -> nmod_poly:
 def _require_mobility(motion: SelfMotion, problem: ForwardProblem) -> None:
     """The rank of the legs modulo a prime, as quadrics, is at most the one over Q that is said."""
     prime = next(primes_from(digest(problem.digest, "mobility"), OTHER_BITS))
-    quadrics = pose_quadrics(problem)[0 if problem.motion.is_planar else 1 :]
+    quadrics = linear_quadrics(problem)[problem.motion.has_study_condition :]
     places = sorted({place for quadric in quadrics for place in quadric})
     rows = [quadric.get(place, 0) % prime for quadric in quadrics for place in places]
     rank = nmod_mat(len(quadrics), len(places), rows, prime).rank()
@@ -157,8 +163,8 @@ def _require_poses(solution: Solution) -> None:
     """Boxes apart, on the robot and in the intervals of their parameters; Jacobians; signs."""
     problem, poses, representation = solution.problem, solution.poses, solution.representation
     require_apart(poses)
-    require_consistent_jacobians(poses, len(problem.distances))
-    if solution.claim == Claim.COMPLETE:
+    require_consistent_jacobians(poses, problem)
+    if solution.claim == Claim.COMPLETE and has_degree_zero(problem):
         require_degree_zero(poses)
     if representation is not None:
         require_on_robot(poses, problem, solution.box_exponent, representation.chart, representation.separating_form)

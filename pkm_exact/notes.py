@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pkm_exact.claim_wording import PARALLEL, REAL_MOTION
+from pkm_exact.claim_wording import INCONSISTENT_CONSTRAINTS_NOTE, INCONSISTENT_NOTE, PARALLEL, REAL_MOTION
 from pkm_exact.formulations.turned import Turn
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.self_motion import Cause, SelfMotion, TranslationalMotion
@@ -28,7 +28,10 @@ _CAUSES = {
     Cause.BASE_LINE: "the base joints are collinear, and turning about their line leads from pose to pose",
     Cause.PLATFORM_POINT: "all platform joints coincide, and turning about that point leads from pose to pose",
     Cause.BASE_POINT: "all base joints coincide, and turning about that point leads from pose to pose",
-    Cause.DEPENDENT_LEGS: "the leg forms are dependent, of rank {rank} (an architecture singularity)",
+    Cause.DEPENDENT_LEGS: "the {leg} forms are dependent, of rank {rank} (an architecture singularity)",
+    Cause.FEW: "there are fewer constraints than freedoms, of rank {rank}",
+    Cause.PLATFORM_MOTION: "the platform can move about axes fixed in it, or along them, and no constraint changes",
+    Cause.BASE_MOTION: "the platform can move about axes fixed in the base, or along them, and no constraint changes",
     Cause.SIMILAR_ON_CONIC: (
         "base and platform are similar and their joints lie on a conic, so that the leg forms are dependent, of rank "
         "{rank} (an architecture singularity)"
@@ -41,38 +44,49 @@ def motion_note(motion: SelfMotion | TranslationalMotion, problem: ForwardProble
     if isinstance(motion, TranslationalMotion):
         return PARALLEL.format(path="a circle" if problem.motion.is_planar else "a sphere")
     bound = motion.mobility
-    causes = "; ".join(_CAUSES[cause].format(rank=bound.rank) for cause in bound.causes)
+    leg = "leg" if problem.has_only_distances else "constraint"
+    causes = "; ".join(_CAUSES[cause].format(rank=bound.rank, leg=leg) for cause in bound.causes)
     return f"{causes}; the complex poses form a set of dimension {bound.dimension} at least; {REAL_MOTION[motion.real]}"
 
 
-def singular_notes(found: Sequence[Singularity | None], legs: int) -> tuple[str, ...]:
-    """Says of singular poses how many degrees of freedom the legs do not hold there, and why, equal ones together.
+def inconsistent_note(problem: ForwardProblem) -> str:
+    """Says that there is no pose."""
+    return INCONSISTENT_NOTE if problem.has_only_distances else INCONSISTENT_CONSTRAINTS_NOTE
+
+
+def leg_word(problem: ForwardProblem) -> str:
+    """What the constraints are called: legs, if all of them are."""
+    return "legs" if problem.has_only_distances else "constraints"
+
+
+def singular_notes(found: Sequence[Singularity | None], problem: ForwardProblem) -> tuple[str, ...]:
+    """Says of singular poses how many degrees of freedom are not held there, and why, equal ones together.
 
     Parameters
     ----------
     found : sequence of Singularity or None
         In the order of the poses; None at a pose that is not singular.
-    legs : int
-        Number of legs.
+    problem : ForwardProblem
 
     Examples
     --------
-    >>> singular_notes([None, Singularity(4)], 6)
+    >>> singular_notes([None, Singularity(4)], ForwardProblem(()))
     ('pose 2 is singular, rank 4 of 6: the legs lose control of 2 degrees of freedom, which the platform gains',)
     """
+    full = problem.motion.dimension
     places: dict[Singularity, list[int]] = {}
     for place, singularity in enumerate(found, 1):
-        if singularity is not None and singularity.rank < legs:
+        if singularity is not None and singularity.rank < full:
             places.setdefault(singularity, []).append(place)
     notes = []
     for singularity, numbers in places.items():
         poses = f"pose {numbers[0]} is" if len(numbers) == 1 else f"poses {', '.join(map(str, numbers))} are"
-        gained = legs - singularity.rank
+        gained = full - singularity.rank
         freedom = "1 degree of freedom" if gained == 1 else f"{gained} degrees of freedom"
         reasons = "".join(f"; {special}" for special in singularity.special)
         notes.append(
-            f"{poses} singular, rank {singularity.rank} of {legs}: the legs lose control of {freedom}, which the "
-            f"platform gains{reasons}"
+            f"{poses} singular, rank {singularity.rank} of {full}: the {leg_word(problem)} lose control of {freedom}, "
+            f"which the platform gains{reasons}"
         )
     return tuple(notes)
 

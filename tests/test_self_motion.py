@@ -24,7 +24,7 @@ from pkm_exact.geometry.planar_rotation import turn_of, weight
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.working_modes import platform_point
 from pkm_exact.motions.motion_groups import PLANAR
-from pkm_exact.poses.self_motion import Cause, SelfMotion, TranslationalMotion, leg_rank, mobility
+from pkm_exact.poses.self_motion import Cause, SelfMotion, TranslationalMotion, form_rank, mobility
 from pkm_exact.solution import Solution
 
 ORIGIN = (Fraction(0), Fraction(0), Fraction(0))
@@ -149,8 +149,8 @@ def test_lengths_that_contradict_each_other_are_still_inconsistent(shape: str, s
 def test_a_planar_rank_counts_planar_motions_only() -> None:
     """General legs are independent; legs from a line to one point are not, though their 17 spatial coefficients are."""
     random = Random(4)
-    assert leg_rank(_planar(random, "general", (1, 3, 1))) == 3
-    assert leg_rank(_planar(random, "platform point, base line", (1, 3, 1))) == 2
+    assert form_rank(_planar(random, "general", (1, 3, 1))) == 3
+    assert form_rank(_planar(random, "platform point, base line", (1, 3, 1))) == 2
     assert mobility(_planar(random, "general", (2, 5, 7))) is None
     line = [(x, y, Fraction(0)) for x, y, _ in _line(random, STEPS[:3])]
     legs = tuple(Distance(a, b, Fraction(9)) for a, b in zip(line, line[::-1], strict=True))

@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 from samples import METRICS
 
 from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import integral
 from pkm_exact.geometry.inverse import distance_squared, rotation_of
 from pkm_exact.geometry.rotation import quaternion_norm, quaternion_products, scaled_rotation
 from pkm_exact.geometry.study import (
     STUDY_CONDITION,
     evaluate,
-    leg_form,
-    leg_quadric,
+    form_quadric,
     motion_quadrics,
     translation_coordinates,
 )
@@ -32,6 +32,11 @@ metrics = st.sampled_from([*METRICS, (2, 3, 5)])
 
 def _products(vector: Sequence[Fraction]) -> list[list[Fraction]]:
     return [[a * b for b in vector] for a in vector]
+
+
+def leg_form(leg: Distance, metric: Metric) -> tuple[int, ...]:
+    (form,) = leg.forms(metric)
+    return integral(form)
 
 
 def _study(quaternion: Sequence[Fraction], position: Sequence[Fraction], metric: Metric) -> list[Fraction]:
@@ -82,10 +87,11 @@ def test_a_leg_vanishes_at_its_length_and_nowhere_else(
 ) -> None:
     products = _products(_study(quaternion, position, metric))
     length = distance_squared(base, platform, position, rotation_of(quaternion, metric), metric)
-    assert evaluate(leg_quadric(Distance(base, platform, length), metric), products) == 0
+    assert evaluate(form_quadric(leg_form(Distance(base, platform, length), metric), metric), products) == 0
     wrong = Distance(base, platform, length + other)
     norm = quaternion_norm(_products(quaternion), metric)
-    assert evaluate(leg_quadric(wrong, metric), products) == -other * norm * leg_form(wrong, metric)[0]
+    form = leg_form(wrong, metric)
+    assert evaluate(form_quadric(form, metric), products) == -other * norm * form[0]
 
 
 @given(quaternions, quaternions, vectors, vectors, metrics)

@@ -90,7 +90,7 @@ def _mode(mode: int, pose: Pose, comparison: NumericComparison) -> tuple[str, ..
     elif jacobian.condition is None:
         quality = ("0", "singular")
     else:
-        quality = ("+" if jacobian.det_sign > 0 else "-", f"{float(jacobian.condition.midpoint):.4g}")
+        quality = ({1: "+", -1: "-"}.get(jacobian.det_sign or 0, ""), f"{float(jacobian.condition.midpoint):.4g}")
     return number, *position, *quality, *hits
 
 

@@ -72,5 +72,9 @@ class AxisDistance:
         plane = InPlane(v, along, self.platform).forms(metric)[0]
         return (SquareForm(sphere, plane, 1 / norm),)
 
+    def scales(self, metric: tuple[int, int, int], length: Fraction) -> tuple[Fraction, ...]:  # noqa: ARG002
+        """(2 r)^2: the row is then the derivative of the distance."""
+        return (4 * self.radius_squared,)
+
     def mirrored(self) -> None:
         """No type says that a base point keeps its distance from an axis of the platform."""

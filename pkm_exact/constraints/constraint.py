@@ -8,7 +8,7 @@ from enum import StrEnum
 from fractions import Fraction
 from typing import ClassVar, Protocol, Self
 
-from pkm_exact.constraints.form import Form
+from pkm_exact.constraints.form import Form, scale
 
 
 class Role(StrEnum):
@@ -68,6 +68,13 @@ class Constraint(Protocol):
         """The quadrics that vanish there; of all types but the cylinder none."""
         ...
 
+    def scales(self, metric: tuple[int, int, int], length: Fraction) -> tuple[Fraction, ...]:
+        """For each form, then each quadric, the square of what its wrench is divided by to become a row of a Jacobian.
+
+        Rows are then free of units and of the size of coefficients, for a length that measures turns.
+        """
+        ...
+
     def mirrored(self) -> Self | Constraint | None:
         """What it is when base and platform are exchanged; None if no type says that."""
         ...
@@ -76,6 +83,14 @@ class Constraint(Protocol):
 class Linear:
     """What constraints that are linear forms share."""
 
+    def forms(self, metric: tuple[int, int, int]) -> tuple[Form, ...]:
+        """The forms; every type has its own."""
+        raise NotImplementedError
+
     def squares(self, metric: tuple[int, int, int]) -> tuple[SquareForm, ...]:  # noqa: ARG002 - those of others use it
         """None: the constraint is linear."""
         return ()
+
+    def scales(self, metric: tuple[int, int, int], length: Fraction) -> tuple[Fraction, ...]:
+        """What the coefficients of each form tell (``form.scale``): of planes, the length of the normal."""
+        return tuple(scale(form, metric, length) for form in self.forms(metric))

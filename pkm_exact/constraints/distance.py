@@ -67,6 +67,10 @@ class Distance(Linear):
             ),
         )
 
+    def scales(self, metric: tuple[int, int, int], length: Fraction) -> tuple[Fraction, ...]:  # noqa: ARG002
+        """(2 l)^2: the row is then the derivative of the length."""
+        return (4 * self.length_squared,)
+
     def mirrored(self) -> Distance:
         """The same leg, seen from the platform."""
         return Distance(self.platform, self.base, self.length_squared, self.name)

@@ -73,6 +73,24 @@ def ordinary(values: Sequence[Any], roots: Sequence[Any]) -> list[Any]:
     ]
 
 
+def scale(values: Form, metric: Sequence[int], length: Fraction) -> Fraction:
+    """The square of the size of the force in a form's wrench, as far as its coefficients tell; else of the moment.
+
+    Examples
+    --------
+    >>> plane = form(position=(Fraction(3), Fraction(4), Fraction(0)))
+    >>> str(scale(plane, (1, 1, 1), Fraction(1)))
+    '25'
+    """
+    square = (2 * values[0] * length) ** 2
+    for first in (1, 4):
+        square += sum((values[first + i] ** 2 / metric[i] for i in range(3)), _ZERO)
+    if square:
+        return square
+    entries = (values[7 + 3 * i + j] ** 2 * Fraction(metric[j], metric[i]) for i in range(3) for j in range(3))
+    return sum(entries, _ZERO) / length**2 or Fraction(1)
+
+
 def value_at(
     values: Sequence[Any], position: Sequence[Any], rotation: Sequence[Sequence[Any]], metric: Sequence[int]
 ) -> Any:

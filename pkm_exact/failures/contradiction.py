@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from pkm_exact.errors import InputError, InternalContradictionError
 
 if TYPE_CHECKING:
+    from pkm_exact.constraints.constraint import Constraint
     from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.stages import Stages
 
@@ -68,10 +69,19 @@ def attach(error: Exception, problem: ForwardProblem, **more: object) -> None:
 
 def _spelled(problem: ForwardProblem) -> dict[str, Any]:
     """The problem, exactly, in plain JSON values."""
+    frame = {"metric": [str(g) for g in problem.metric], "motion": problem.motion.name}
+    if not problem.has_only_distances:
+        return {**frame, "constraints": [_constraint(found) for found in problem.constraints]}
     return {
-        "metric": [str(g) for g in problem.metric],
-        "planar": problem.motion.is_planar,
+        **frame,
         "base": [[str(value) for value in leg.base] for leg in problem.distances],
         "platform": [[str(value) for value in leg.platform] for leg in problem.distances],
         "lengths_squared": [str(leg.length_squared) for leg in problem.distances],
     }
+
+
+def _constraint(found: Constraint) -> dict[str, Any]:
+    """Its type, name and fields."""
+    values = {name: getattr(found, name) for name in found.fields}
+    spelled = {key: list(map(str, x)) if isinstance(x, tuple) else str(x) for key, x in values.items()}
+    return {"type": found.type, "name": found.name, **spelled}

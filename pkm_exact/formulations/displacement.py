@@ -1,7 +1,7 @@
 """Displacement-based formulations: the unknowns are the position C and the rotation of the platform.
 
-Every leg gives |C + R B - A|^2 = l^2, that is (Rolland 2008, equations (4), (9), (12), (14), with the factor 2 that
-they lack, and l^2 for l)
+Constraints are linear in |C|^2, R^-1 C, C and R (``constraints.form``). A leg gives |C + R B - A|^2 = l^2, that is
+(Rolland 2008, equations (4), (9), (12), (14), with the factor 2 that they lack, and l^2 for l)
 
     |C|^2 + 2 C.(R B) - 2 A.C - 2 A.(R B) + |A|^2 + |B|^2 - l^2 = 0
 """
@@ -9,22 +9,25 @@ they lack, and l^2 for l)
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from fractions import Fraction
 from math import lcm
 
 from flint import fmpq, fmpz_mat, fmpz_poly
 
+from pkm_exact.constraints.form import Form
+from pkm_exact.formulations.acceptance import needs_all_motions
 from pkm_exact.formulations.base import (
     Expression,
     FormulatedProblem,
     PoseMap,
     cross,
     dot,
-    matrix_vector,
     over_integers,
     rational,
     rational_ring,
 )
+from pkm_exact.formulations.moved_platform import moved_platform
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import quaternion_norm, quaternion_products, scaled_rotation
 
@@ -33,26 +36,26 @@ ROTATION_UNKNOWNS = tuple(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3))
 QUATERNION_UNKNOWNS = ("q0", "q1", "q2", "q3")
 
 
-def leg_equations(
+def constraint_equations(
     problem: ForwardProblem, position: Sequence[Expression], rotation: Sequence[Sequence[Expression]]
 ) -> list[Expression]:
-    """The six leg equations for a position and a rotation matrix given as polynomials."""
+    """The equations of the constraints for a position and a rotation matrix given as polynomials."""
     metric = [rational(g) for g in problem.metric]
-    square = dot(metric, position, position)
-    equations = []
-    for leg in problem.distances:
-        base = [rational(value) for value in leg.base]
-        platform = [rational(value) for value in leg.platform]
-        turned = matrix_vector(rotation, platform)
-        constant = dot(metric, base, base) + dot(metric, platform, platform) - rational(leg.length_squared)
-        equations.append(
-            square
-            + 2 * dot(metric, position, turned)
-            - 2 * dot(metric, position, base)
-            - 2 * dot(metric, turned, base)
-            + constant
-        )
-    return equations
+    columns = [[rotation[i][j] for i in range(3)] for j in range(3)]
+    turned = [dot(metric, column, position) * (1 / g) for column, g in zip(columns, metric, strict=True)]
+    entries = [entry for row in rotation for entry in row]
+    coordinates = [dot(metric, position, position), *turned, *position, *entries]
+
+    def value(form: Form) -> Expression:
+        *weights, constant = map(rational, form)
+        total: Expression = 0 * coordinates[0] + constant
+        for weight, coordinate in zip(weights, coordinates, strict=True):
+            if weight:
+                total += weight * coordinate
+        return total
+
+    equations = [value(form) for form in problem.forms]
+    return equations + [value(q.linear) - rational(q.factor) * value(q.root) ** 2 for q in problem.squares]
 
 
 def rotation_equations(
@@ -88,6 +91,10 @@ class AFD3:
     code: str = "AFD3"
     title: str = "position and rotation matrix, orthogonality"
 
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write the problem: all motions must be possible, constraints may be any."""
+        return needs_all_motions(problem)
+
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns c1..c3, r11..r33."""
         unknowns = POSITION_UNKNOWNS + ROTATION_UNKNOWNS
@@ -96,7 +103,7 @@ class AFD3:
         rotation = [list(generators[3 + 3 * i : 6 + 3 * i]) for i in range(3)]
         metric = [rational(g) for g in problem.metric]
         inverse = [1 / g for g in metric]
-        equations = leg_equations(problem, position, rotation)
+        equations = constraint_equations(problem, position, rotation)
         for i in range(3):
             equations += [dot(inverse, rotation[i], rotation[j]) - (inverse[i] if i == j else 0) for j in range(i, 3)]
         system = over_integers(unknowns, equations)
@@ -116,8 +123,9 @@ class AFD3:
 
 def reflected(problem: ForwardProblem) -> ForwardProblem:
     """The robot with mirrored platform joints: R diag(1, 1, -1) is a rotation if det R = -1."""
-    legs = (replace(leg, platform=(leg.platform[0], leg.platform[1], -leg.platform[2])) for leg in problem.distances)
-    return replace(problem, constraints=tuple(legs))
+    one, zero = Fraction(1), Fraction(0)
+    mirror = ((one, zero, zero), (zero, one, zero), (zero, zero, -one))
+    return moved_platform(problem, mirror)
 
 
 @dataclass(frozen=True)
@@ -132,6 +140,10 @@ class AFD4:
     code: str = "AFD4"
     title: str = "position and rotation matrix, Groebner basis of SO(3)"
 
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write the problem: all motions must be possible, constraints may be any."""
+        return needs_all_motions(problem)
+
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns c1..c3, r11..r33."""
         unknowns = POSITION_UNKNOWNS + ROTATION_UNKNOWNS
@@ -140,7 +152,8 @@ class AFD4:
         rotation = [list(generators[3 + 3 * i : 6 + 3 * i]) for i in range(3)]
         metric = [rational(g) for g in problem.metric]
         unit = context.constant(1)
-        equations = leg_equations(problem, position, rotation) + reduced(rotation_equations(rotation, unit, metric))
+        equations = constraint_equations(problem, position, rotation)
+        equations += reduced(rotation_equations(rotation, unit, metric))
         products = quaternion_products(rotation, unit, metric)
         pose_map = PoseMap(tuple(map(tuple, products)), tuple(position))
         system = over_integers(unknowns, equations)
@@ -159,6 +172,10 @@ class AFD5:
     code: str = "AFD5"
     title: str = "position and unit quaternion"
 
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write the problem: all motions must be possible, constraints may be any."""
+        return needs_all_motions(problem)
+
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns c1..c3, q0..q3."""
         unknowns = POSITION_UNKNOWNS + QUATERNION_UNKNOWNS
@@ -166,7 +183,7 @@ class AFD5:
         position, quaternion = generators[:3], generators[3:]
         metric = [rational(g) for g in problem.metric]
         products = [[left * right for right in quaternion] for left in quaternion]
-        equations = leg_equations(problem, position, scaled_rotation(products, metric))
+        equations = constraint_equations(problem, position, scaled_rotation(products, metric))
         equations.append(quaternion_norm(products, metric) - 1)
         pose_map = PoseMap(tuple(map(tuple, products)), tuple(position))
         system = over_integers(unknowns, equations)

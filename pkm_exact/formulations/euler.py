@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 from flint import fmpq
 
+from pkm_exact.formulations.acceptance import needs_all_motions, needs_linear_constraints
 from pkm_exact.formulations.base import (
     Expression,
     FormulatedProblem,
@@ -24,7 +25,7 @@ from pkm_exact.formulations.base import (
     rational,
     rational_ring,
 )
-from pkm_exact.formulations.displacement import POSITION_UNKNOWNS, leg_equations
+from pkm_exact.formulations.displacement import POSITION_UNKNOWNS, constraint_equations
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC, quaternion_products
 
@@ -49,6 +50,10 @@ class AFD1:
     code: str = "AFD1"
     title: str = "position, cosines and sines of Euler angles"
 
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write the problem: all motions must be possible, constraints may be any."""
+        return needs_all_motions(problem)
+
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns c1..c3, cos1, sin1, .., sin3."""
         axes = convention_axes(self.convention)
@@ -57,7 +62,7 @@ class AFD1:
         metric = [rational(g) for g in problem.metric]
         cosines, sines = generators[3::2], generators[4::2]
         rotation = euler_rotation(axes, cosines, sines, metric, context.constant(1))
-        equations = leg_equations(problem, generators[:3], rotation)
+        equations = constraint_equations(problem, generators[:3], rotation)
         for axis, c, s in zip(axes, cosines, sines, strict=True):
             equations.append(c * c + s * s * circle_weight(axis, metric) - 1)
         system = over_integers(unknowns, equations)
@@ -86,6 +91,10 @@ class AFD2:
     code: str = "AFD2"
     title: str = "position and half-angle tangents of Euler angles"
 
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write the problem: all motions must be possible, constraints linear."""
+        return needs_linear_constraints(problem)
+
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns c1..c3, t1..t3; solved with y1..y3, z1..z3 beside them."""
         axes = convention_axes(self.convention)
@@ -98,7 +107,7 @@ class AFD2:
         cosines = [2 * value - 1 for value in y]
         sines = [2 * value for value in z]
         rotation = euler_rotation(axes, cosines, sines, metric, context.constant(1))
-        equations = leg_equations(problem, position, rotation)
+        equations = constraint_equations(problem, position, rotation)
         for axis, t, a, b in zip(axes, tangents, y, z, strict=True):
             weight = circle_weight(axis, metric)
             equations += [t * a - b, a + weight * (t * b) - 1, a * a + weight * (b * b) - a]
@@ -122,8 +131,8 @@ class AFD2:
         )
         unit = units[0] * units[1] * units[2]
         zero = [[0 * unit] * 3 for _ in range(3)]
-        still = leg_equations(problem, position, zero)
-        moving = leg_equations(problem, position, rotation)
+        still = constraint_equations(problem, position, zero)
+        moving = constraint_equations(problem, position, rotation)
         return [a * unit + (b - a) for a, b in zip(still, moving, strict=True)]
 
 

@@ -1,4 +1,4 @@
-"""The formulation on the projective variety of rigid motions, where every leg equation is linear.
+"""The formulation on the projective variety of rigid motions, where constraints are linear.
 
 In the 17 homogeneous coordinates (h : R : C : u : s), u = R^T C and s = |C|^2, rigid motions form a variety X of
 dimension 6 and degree 40 in P^16, cut out by 37 quadrics (Gallet, Nawratil and Schicho, "Bond theory for pentapods and
@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from flint import fmpq, fmpq_mat
 
-from pkm_exact.constraints.distance import Distance
 from pkm_exact.formulations.base import (
     Expression,
     FormulatedProblem,
@@ -34,24 +34,16 @@ from pkm_exact.geometry.rotation import quaternion_products
 MOTION_COORDINATES = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
 
 
-def leg_hyperplane(leg: Distance, metric: Sequence[fmpq]) -> list[fmpq]:
-    """Coefficients of a leg's linear form on ``MOTION_COORDINATES`` and, last, on h.
+def hyperplane(form: Sequence[Fraction | int]) -> list[fmpq]:
+    """Coefficients of a linear form on rigid motions on ``MOTION_COORDINATES`` and, last, on h.
 
     Examples
     --------
-    >>> from fractions import Fraction
-    >>> origin = (Fraction(0),) * 3
-    >>> leg_hyperplane(Distance(origin, origin, Fraction(4)), [fmpq(1)] * 3)[6::10]
-    [1, -4]
+    >>> hyperplane(range(17))[5:8]
+    [6, 0, 7]
     """
-    base = [rational(value) for value in leg.base]
-    platform = [rational(value) for value in leg.platform]
-    constant = dot(metric, base, base) + dot(metric, platform, platform) - rational(leg.length_squared)
-    form = [2 * g * b for g, b in zip(metric, platform, strict=True)]
-    form += [-2 * g * a for g, a in zip(metric, base, strict=True)]
-    form.append(fmpq(1))
-    form += [-2 * metric[i] * base[i] * platform[j] for i in range(3) for j in range(3)]
-    return [*form, constant]
+    square, *others = map(rational, form)
+    return [*others[:6], square, *others[6:]]
 
 
 def motion_quadrics(coordinates: Sequence[Expression], unit: Expression, metric: Sequence[fmpq]) -> list[Expression]:
@@ -74,40 +66,42 @@ def motion_quadrics(coordinates: Sequence[Expression], unit: Expression, metric:
     return equations
 
 
-def planar_hyperplanes() -> list[list[fmpq]]:
-    """The linear forms that keep a platform in the plane of the first two axes: C3 = u3 = 0 and R about the third.
+def _cylinders(problem: ForwardProblem, coordinates: Sequence[Expression], unit: Expression) -> list[Expression]:
+    """The quadrics linear h - factor root^2 of cylinders, on the section."""
 
-    Examples
-    --------
-    >>> len(planar_hyperplanes())
-    7
-    """
-    forms = []
-    for name, constant in (("u3", 0), ("c3", 0), ("r13", 0), ("r23", 0), ("r31", 0), ("r32", 0), ("r33", -1)):
-        form = [fmpq(int(coordinate == name)) for coordinate in MOTION_COORDINATES]
-        forms.append([*form, fmpq(constant)])
-    return forms
+    def value(form: Sequence[Fraction]) -> Expression:
+        *weights, constant = hyperplane(form)
+        total = constant * unit
+        for weight, coordinate in zip(weights, coordinates, strict=True):
+            total += weight * coordinate
+        return total
+
+    return [value(q.linear) - rational(q.factor) * value(q.root) ** 2 for q in problem.squares]
 
 
 @dataclass(frozen=True)
 class SE3:
-    """The motion variety cut by six hyperplanes: 37 quadrics in 10 unknowns.
+    """The motion variety cut by hyperplanes: for six of them 37 quadrics in 10 unknowns.
 
-    The six legs are solved for six of the sixteen affine coordinates (which six depends on the robot; a planar one
-    cannot give C and u), and the solution is substituted into the quadrics of X. 40 solutions on a general robot, one
+    All linear forms that vanish, those of the constraints and those of a smaller group of motions, are solved for as
+    many of the sixteen affine coordinates (which ones depends on the robot; a planar one cannot give C and u), and the
+    solution is substituted into the quadrics of X, joined by those of cylinders. 40 solutions on a general hexapod, one
     for each pose, and every intermediate degree is as on X: no degree falls.
     """
 
     code: str = "SE3"
     title: str = "linear section of the variety of rigid motions"
 
+    def refusal(self, problem: ForwardProblem) -> str | None:  # noqa: ARG002 - others refuse some
+        """None: it takes every problem."""
+        return None
+
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
-        """The problem in those of ``MOTION_COORDINATES`` that the legs leave free."""
-        metric = [rational(g) for g in problem.metric]
-        hyperplanes = [leg_hyperplane(leg, metric) for leg in problem.distances]
-        hyperplanes += planar_hyperplanes() if problem.motion.is_planar else []
-        echelon, rank = fmpq_mat(hyperplanes).rref()
-        size = len(MOTION_COORDINATES)
+        """The problem in those of ``MOTION_COORDINATES`` that the linear forms leave free."""
+        metric, size = [rational(g) for g in problem.metric], len(MOTION_COORDINATES)
+        hyperplanes = [*map(hyperplane, problem.forms), *map(hyperplane, problem.motion.forms)]
+        entries = [value for row in hyperplanes for value in row]
+        echelon, rank = fmpq_mat(len(hyperplanes), size + 1, entries).rref()
         pivots = [next(j for j in range(size + 1) if echelon[row, j] != 0) for row in range(rank)]
         free = [j for j in range(size) if j not in pivots]
         unknowns = tuple(MOTION_COORDINATES[j] for j in free)
@@ -122,9 +116,9 @@ class SE3:
                 value -= echelon[row, j] * generator
             if pivot < size:
                 coordinates[pivot] = value
-        quadrics = motion_quadrics(coordinates, unit, metric)
+        quadrics = motion_quadrics(coordinates, unit, metric) + _cylinders(problem, coordinates, unit)
         if size in pivots:
-            quadrics.append(unit)  # the legs force h = 0: no finite pose
+            quadrics.append(unit)  # the linear forms force h = 0: no finite pose
         equations = reduced(quadrics)
         rotation = [coordinates[7 + 3 * i : 10 + 3 * i] for i in range(3)]
         products = quaternion_products(rotation, unit, metric)

@@ -13,6 +13,7 @@ from itertools import combinations
 
 from flint import fmpq, fmpq_mpoly_ctx
 
+from pkm_exact.formulations.acceptance import needs_six_legs
 from pkm_exact.formulations.base import (
     Expression,
     FormulatedProblem,
@@ -81,6 +82,10 @@ class AFP1:
     code: str = "AFP1"
     title: str = "positions of three platform joints, distances"
 
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write the problem: it needs six legs."""
+        return needs_six_legs(problem)
+
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns x1, y1, z1, ..., z3."""
         context, points = _points()
@@ -109,6 +114,10 @@ class AFP2:
     triple: Triple | None = None
     code: str = "AFP2"
     title: str = "positions of three platform joints, distances and angle"
+
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write the problem: it needs six legs."""
+        return needs_six_legs(problem)
 
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns x1, y1, z1, ..., z3."""
@@ -139,6 +148,10 @@ class AFP3:
     triple: Triple | None = None
     code: str = "AFP3"
     title: str = "positions of three platform joints, recombined"
+
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write the problem: it needs six legs."""
+        return needs_six_legs(problem)
 
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns x1, y1, z1, ..., z3."""

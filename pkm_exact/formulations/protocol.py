@@ -22,6 +22,10 @@ class Formulation(Protocol):
         """One line that says which unknowns it uses."""
         ...
 
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write a problem, by its constraints and motions alone; None if it can."""
+        ...
+
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem's system in this formulation's own unknowns.
 

@@ -60,11 +60,12 @@ def formulation_for(code: str, problem: ForwardProblem) -> Formulation:
     Raises
     ------
     InputError
-        As ``formulation``, and if the robot is planar and the formulation for spatial ones only.
+        As ``formulation``, and if the formulation cannot write such constraints or motions.
     """
     found, first = formulation(code), formulation_codes()[0]
-    if problem.motion.is_planar and code != first:
-        raise InputError(f"formulation: {code} is for spatial robots, but this one is planar; use {first}")
+    reason = found.refusal(problem)
+    if reason is not None:
+        raise InputError(f"formulation: {code} is for {reason}; use {first}")
     return found
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import combinations, product
 
+from pkm_exact.formulations.acceptance import needs_six_legs
 from pkm_exact.formulations.base import Expression, FormulatedProblem, dot, over_integers, rational, rational_ring
 from pkm_exact.formulations.platform import (
     PlatformFrame,
@@ -45,6 +46,10 @@ class AFP4:
     triple: Triple | None = None
     code: str = "AFP4"
     title: str = "positions of all six platform joints"
+
+    def refusal(self, problem: ForwardProblem) -> str | None:
+        """Why it cannot write the problem: it needs six legs."""
+        return needs_six_legs(problem)
 
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns x1, y1, z1, ..., z6."""

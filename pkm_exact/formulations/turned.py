@@ -9,8 +9,8 @@ from itertools import count
 from random import Random
 from typing import Final
 
-from pkm_exact.constraints.form import Vector
 from pkm_exact.formulations.base import Expression, FormulatedProblem, PoseMap
+from pkm_exact.formulations.moved_platform import moved_platform
 from pkm_exact.formulations.protocol import Formulation
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import composition_matrix, quaternion_norm, scaled_rotation
@@ -44,12 +44,7 @@ def turned_problem(problem: ForwardProblem, turn: Turn) -> ForwardProblem:
     products = [[Fraction(a * b) for b in turn] for a in turn]
     norm = quaternion_norm(products, problem.metric)
     rotation = [[entry / norm for entry in row] for row in scaled_rotation(products, problem.metric)]
-    legs = []
-    for leg in problem.distances:
-        x, y, z = (sum((r * b for r, b in zip(row, leg.platform, strict=True)), Fraction(0)) for row in rotation)
-        platform: Vector = (x, y, z)
-        legs.append(replace(leg, platform=platform))
-    return replace(problem, constraints=tuple(legs))
+    return moved_platform(problem, rotation)
 
 
 def formulate_turned(formulation: Formulation, problem: ForwardProblem, turn: Turn) -> FormulatedProblem:

@@ -8,10 +8,11 @@ coordinate is sqrt(metric[i]) times the rational one. With ``metric = (1, 3, 1)`
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
-from pkm_exact.constraints.constraint import Constraint
+from pkm_exact.constraints.constraint import Constraint, Role, SquareForm
 from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Form, Vector
 from pkm_exact.digests import digest
 from pkm_exact.errors import InputError
 from pkm_exact.motions.motion import Motion
@@ -68,13 +69,32 @@ class ForwardProblem:
         """Whether every constraint is a leg of known length."""
         return all(isinstance(found, Distance) for found in self.constraints)
 
+    def __getstate__(self) -> dict[str, object]:
+        """For copies and other processes: what is derived is derived again."""
+        return {name: self.__dict__[name] for name in self.__dataclass_fields__}
+
+    @cached_property
+    def forms(self) -> tuple[Form, ...]:
+        """The linear forms on rigid motions that vanish at the poses, in the order of the constraints."""
+        return tuple(form for found in self.constraints for form in found.forms(self.metric))
+
+    @cached_property
+    def squares(self) -> tuple[SquareForm, ...]:
+        """The quadrics on rigid motions that vanish there as well: one for each cylinder."""
+        return tuple(square for found in self.constraints for square in found.squares(self.metric))
+
+    @property
+    def equation_count(self) -> int:
+        """How many equations the constraints are: a line is two of them, a point three."""
+        return len(self.forms) + len(self.squares)
+
     @property
     def solution_bound(self) -> int:
         """The most isolated solutions, with multiplicities: the degree of the variety of motions, by Bezout's theorem.
 
         A hyperplane does not add to it; each cylinder, a quadric, doubles it.
         """
-        return self.motion.degree << sum(len(found.squares(self.metric)) for found in self.constraints)
+        return self.motion.degree << len(self.squares)
 
     @property
     def digest(self) -> int:
@@ -91,3 +111,18 @@ def _digest(problem: ForwardProblem) -> int:
     metric, constraints = problem.metric, problem.constraints
     squares = [(x.linear, x.root, x.factor) for found in constraints for x in found.squares(metric)]
     return digest(metric, problem.motion.name, [found.forms(metric) for found in constraints], squares)
+
+
+def points(problem: ForwardProblem, role: Role) -> list[Vector]:
+    """The points of the base or of the platform that constraints name, in their order, equal ones as often as named.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> zero = (Fraction(0),) * 3
+    >>> points(ForwardProblem((Distance(zero, zero, Fraction(4)),)), Role.BASE_POINT) == [zero]
+    True
+    """
+    return [
+        getattr(found, name) for found in problem.constraints for name, kind in found.fields.items() if kind == role
+    ]

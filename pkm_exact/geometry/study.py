@@ -1,4 +1,4 @@
-"""Poses as points of the Study quadric, in a Gram metric: eight rational homogeneous coordinates, every leg a quadric.
+"""Poses as points of the Study quadric, in a Gram metric: eight rational homogeneous coordinates, constraints quadrics.
 
 A pose (C, R) has the coordinates (e0, .., e3, f0, .., f3) up to scale. e gives the rotation (``geometry.rotation``),
 and f the translation,
@@ -11,29 +11,27 @@ part. Then N(e) times each of
 
     |C|^2;  u = R^-1 C;  C;  R;  1
 
-is a quadratic form in (e, f), and every leg is linear in these 17 quantities (``leg_form``), hence a quadric.
+is a quadratic form in (e, f), and what is linear in these 17 quantities (``constraints.form``) is a quadric.
 References: Study, Geometrie der Dynamen (1903); Husty, "An algorithm for solving the direct kinematics of general
 Stewart-Gough platforms", Mech. Mach. Theory 31 (1996).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from itertools import permutations
-from math import lcm
+from itertools import permutations, product
 from typing import Any
 
-from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.constraint import SquareForm
+from pkm_exact.constraints.form import integral
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 
 Quadric = dict[tuple[int, int], int]
 """Coefficients of the products x_k x_l, k <= l, of the eight coordinates x = (e, f)."""
-
-PLANAR_SUPPORT = (0, 3, 5, 6)
-"""The Study coordinates e0, e3, f1, f2 of planar motions; the others are 0, and Study's condition holds by itself."""
 
 STUDY_CONDITION: Quadric = {(0, 4): 1, (1, 5): 1, (2, 6): 1, (3, 7): 1}
 
@@ -80,34 +78,41 @@ def motion_quadrics(metric: Sequence[int]) -> list[Quadric]:
     return [square, *turned, *position, *(rotation[i, j] for i in range(3) for j in range(3)), norm]
 
 
-def leg_form(leg: Distance, metric: Sequence[int]) -> list[int]:
-    """Integer coefficients of a leg on (|C|^2; u; C; R; 1), cleared of denominators; dots with G:
-
-    |C|^2 + 2 B.u - 2 A.C - 2 A.(R B) + |A|^2 + |B|^2 - l^2
+def form_quadric(form: Sequence[int], metric: Sequence[int]) -> Quadric:
+    """A linear form on rigid motions, with integer coefficients, as a quadratic form in (e, f).
 
     Examples
     --------
-    >>> half, zero = Fraction(1, 2), Fraction(0)
-    >>> leg_form(Distance((half, zero, zero), (zero, zero, zero), Fraction(1)), (1, 1, 1))
-    [4, 0, 0, 0, -4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -3]
+    >>> from pkm_exact.constraints.form import SIZE
+    >>> form_quadric([0] * (SIZE - 1) + [1], (1, 1, 1)) == motion_quadrics((1, 1, 1))[-1]
+    True
     """
-    row = [Fraction(1)]
-    row += [2 * g * b for g, b in zip(metric, leg.platform, strict=True)]
-    row += [-2 * g * a for g, a in zip(metric, leg.base, strict=True)]
-    row += [-2 * metric[i] * leg.base[i] * leg.platform[j] for i in range(3) for j in range(3)]
-    squares = sum((g * (a * a + b * b) for g, a, b in zip(metric, leg.base, leg.platform, strict=True)), Fraction(0))
-    row.append(squares - leg.length_squared)
-    denominator = lcm(*(value.denominator for value in row))
-    return [int(value * denominator) for value in row]
-
-
-def leg_quadric(leg: Distance, metric: Sequence[int]) -> Quadric:
-    """A leg as a quadratic form in (e, f): it vanishes at the poses in which the leg has its length."""
     quadric: Quadric = {}
-    for coefficient, form in zip(leg_form(leg, metric), motion_quadrics(metric), strict=True):
-        for key, value in form.items():
-            quadric[key] = quadric.get(key, 0) + coefficient * value
+    for coefficient, values in zip(form, motion_quadrics(metric), strict=True):
+        if coefficient:
+            for key, value in values.items():
+                quadric[key] = quadric.get(key, 0) + coefficient * value
     return {key: value for key, value in quadric.items() if value}
+
+
+@dataclass(frozen=True)
+class Quartic:
+    """The form weight N(e) linear - factor root^2 of degree 4 in (e, f): a cylinder.
+
+    Attributes
+    ----------
+    linear, root : Quadric
+    weight, factor : int
+    """
+
+    linear: Quadric
+    root: Quadric
+    weight: int
+    factor: int
+
+    def value(self, linear: Any, root: Any, norm: Any) -> Any:
+        """Its value from those of the quadratic forms and of N(e), in any ring."""
+        return norm * linear * self.weight - root * root * self.factor
 
 
 def support(problem: ForwardProblem) -> tuple[int, ...]:
@@ -116,18 +121,71 @@ def support(problem: ForwardProblem) -> tuple[int, ...]:
 
 
 def pose_quadrics(problem: ForwardProblem) -> list[Quadric]:
-    """Quadratic forms in (e, f) that vanish at the poses, and with the support at nothing else with N(e) not 0."""
-    return list(_pose_quadrics(problem))
+    """Quadratic forms in (e, f) that vanish at the poses.
+
+    Together with ``pose_quartics``, and with the support, they vanish at nothing else with N(e) not 0.
+    """
+    return [*_pose_quadrics(problem)[0], *_pose_quadrics(problem)[1]]
+
+
+def linear_quadrics(problem: ForwardProblem) -> list[Quadric]:
+    """Those of them that linear forms on rigid motions give, and Study's condition: none is a cylinder."""
+    return list(_pose_quadrics(problem)[0])
+
+
+def pose_quartics(problem: ForwardProblem) -> list[Quartic]:
+    """The cylinders that are no quadratic forms in (e, f)."""
+    return list(_pose_quadrics(problem)[2])
 
 
 @lru_cache(maxsize=4)
-def _pose_quadrics(problem: ForwardProblem) -> tuple[Quadric, ...]:
+def _pose_quadrics(problem: ForwardProblem) -> tuple[tuple[Quadric, ...], tuple[Quadric, ...], tuple[Quartic, ...]]:
     """The same; every step of a solve asks for them."""
-    legs = [leg_quadric(leg, problem.metric) for leg in problem.distances]
-    support = set(problem.motion.support)
-    condition = [STUDY_CONDITION] if problem.motion.has_study_condition else []
-    kept = [{key: value for key, value in quadric.items() if set(key) <= support} for quadric in (*condition, *legs)]
-    return tuple(quadric for quadric in kept if quadric)
+    kept = set(problem.motion.support)
+
+    def restricted(quadric: Quadric) -> Quadric:
+        return {key: value for key, value in quadric.items() if set(key) <= kept}
+
+    condition = [restricted(STUDY_CONDITION)] if problem.motion.has_study_condition else []
+    linear = [restricted(form_quadric(integral(form), problem.metric)) for form in problem.forms]
+    cylinders, quartics = [], []
+    norm = restricted(motion_quadrics(problem.metric)[-1])
+    for square in problem.squares:
+        quartic = _quartic(square, problem.metric, restricted)
+        quotient = _quotient(quartic, norm)
+        if quotient is None:
+            quartics.append(quartic)
+        else:
+            cylinders.append(quotient)
+    return tuple(filter(None, (*condition, *linear))), tuple(filter(None, cylinders)), tuple(quartics)
+
+
+def _quartic(square: SquareForm, metric: Sequence[int], restricted: Callable[[Quadric], Quadric]) -> Quartic:
+    """The quartic of a quadric linear - factor root^2 on rigid motions, over the integers."""
+    linear, root = integral(square.linear), integral(square.root)
+    scale, root_scale = (
+        next((m / v for m, v in zip(multiple, form, strict=True) if v), Fraction(1))
+        for multiple, form in ((linear, square.linear), (root, square.root))
+    )
+    ratio = square.factor * scale / root_scale**2
+    return Quartic(
+        restricted(form_quadric(linear, metric)),
+        restricted(form_quadric(root, metric)),
+        ratio.denominator,
+        ratio.numerator,
+    )
+
+
+def _quotient(quartic: Quartic, norm: Quadric) -> Quadric | None:
+    """The quartic divided by e0^2, where that is a factor: of translations, whose only quaternion coordinate is e0."""
+    if set(norm) != {(0, 0)} or any(0 not in key for key in quartic.root):
+        return None
+    root = {key[1]: value for key, value in quartic.root.items()}
+    quotient = {key: value * norm[0, 0] * quartic.weight for key, value in quartic.linear.items()}
+    for (k, left), (m, right) in product(root.items(), root.items()):
+        key = min(k, m), max(k, m)
+        quotient[key] = quotient.get(key, 0) - quartic.factor * left * right
+    return {key: value for key, value in quotient.items() if value}
 
 
 def evaluate(quadric: Quadric, products: Sequence[Sequence[Any]]) -> Any:

@@ -42,7 +42,8 @@ from pkm_exact.poses.coaxial_motion import screws
 from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.real_pose import are_out_of_reach, has_real_point
 from pkm_exact.poses.search import PoseSearch
-from pkm_exact.poses.self_motion import Cause, SelfMotion, leg_rank
+from pkm_exact.poses.self_motion import Cause, SelfMotion, form_rank, is_of_legs
+from pkm_exact.poses.singularity import are_isolated
 from pkm_exact.roots.isolation import real_root_enclosures
 from pkm_exact.stages import Stages
 
@@ -58,12 +59,15 @@ ROOT_BITS: Final = 64
 
 _POINTS: Final = {Cause.PLATFORM_POINT: "base", Cause.BASE_POINT: "platform"}
 """The side whose joints have known distances from the point."""
+_KEEPING: Final = (Cause.PLATFORM_MOTION, Cause.BASE_MOTION)
 _TURNING: Final = (*_POINTS, Cause.PLATFORM_LINE, Cause.BASE_LINE)
 
 
 def real_motion(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> RealMotion:
     """What is proved of real motions on a set of complex poses."""
     causes = motion.mobility.causes
+    if not is_of_legs(problem):
+        return _by_witness(problem, motion, policy)
     for cause, side in _POINTS.items():
         if cause in causes:
             joints = [getattr(leg, side) for leg in problem.distances]
@@ -77,6 +81,24 @@ def real_motion(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> 
     if turns and _has_real_root(motion.representation):
         return RealMotion.PROVED
     return RealMotion.PROVED if _is_proved(problem, motion, policy, turns=turns) else RealMotion.OPEN
+
+
+def _by_witness(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> RealMotion:
+    """What a real one among the poses that are known tells of constraints of any type.
+
+    If a motion keeps all of them, it goes on from there. If the pose is regular for them and the further legs together,
+    as many as freedoms, the independent ones among them define a real manifold of positive dimension there, on which
+    the others hold too.
+    """
+    representation = motion.representation
+    if not _has_real_root(representation):
+        return RealMotion.OPEN
+    if any(cause in _KEEPING for cause in motion.mobility.causes):
+        return RealMotion.PROVED
+    extended = replace(problem, constraints=(*problem.constraints, *motion.legs))
+    missing = problem.motion.dimension - motion.mobility.rank - len(problem.squares)
+    regular = len(motion.legs) == missing > 0 and are_isolated(representation, extended, policy)
+    return RealMotion.PROVED if regular else RealMotion.OPEN
 
 
 def _is_proved(problem: ForwardProblem, motion: SelfMotion, policy: Policy, *, turns: bool) -> bool:
@@ -114,7 +136,7 @@ def _independent_legs(problem: ForwardProblem, rank: int) -> list[Distance]:
     """The first legs whose forms are a basis."""
     chosen: list[Distance] = []
     for leg in problem.distances:
-        if len(chosen) < rank and leg_rank(replace(problem, constraints=(*chosen, leg))) == len(chosen) + 1:
+        if len(chosen) < rank and form_rank(replace(problem, constraints=(*chosen, leg))) == len(chosen) + 1:
             chosen.append(leg)
     return chosen
 

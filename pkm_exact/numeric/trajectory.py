@@ -282,7 +282,7 @@ class _Run:
         """That of det J at the start of the branch itself, which a list may not have, if it is not complete."""
         problem = problem_at(self.robot, self.rows[0])
         (jacobian,) = pose_jacobians(self._enclosures(frames, 0, near), problem, [None])
-        return jacobian.det_sign
+        return jacobian.det_sign or 0
 
     def _enclosures(self, frames: CentredFrames, row: int, near: Linearisation) -> Enclosures:
         """Those of the one solution near the branch at a row, as narrow as asked."""

@@ -1,10 +1,11 @@
 """Proofs that a verified list of poses is all there is.
 
 Refined Bezout. Rigid motions form a projective variety of dimension 6 and degree 40 in P^16 on which every leg is a
-hyperplane (Gallet, Nawratil and Schicho 2015). By the refined theorem of Bezout (Fulton, Intersection Theory, 12.3) the
-irreducible components of the section by six hyperplanes have degrees that sum to at most 40. Forty distinct poses, each
-isolated because the Jacobian of the legs is regular there, are forty components: nothing else can be left, neither
-another pose nor a self-motion.
+hyperplane (Gallet, Nawratil and Schicho 2015), and so do the smaller groups of motions, of smaller degrees. By the
+refined theorem of Bezout (Fulton, Intersection Theory, 12.3) the irreducible components of the section by any number
+of hyperplanes have degrees that sum to at most 40, or twice that for every cylinder, a quadric. Forty distinct poses,
+each isolated because the Jacobian is regular there, are forty components: nothing else can be left, neither another
+pose nor a self-motion.
 
 Exact elimination. Robots with symmetries have fewer finite solutions, the rest at infinity. An elimination over Q in
 the affine coordinates of the section yields members of the ideal of the poses, and the monomials that none of their
@@ -71,8 +72,7 @@ def prove_complete(
     """
     degree = representation.univariate.degree
     if (
-        len(problem.distances) == 6
-        and not problem.motion.is_planar
+        not problem.motion.is_planar
         and degree == problem.solution_bound
         and are_isolated(representation, problem, policy)
     ):

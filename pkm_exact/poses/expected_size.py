@@ -9,9 +9,8 @@ of spatial robots need between 0.2 and 0.5, measured with quaternions as coordin
 from __future__ import annotations
 
 from fractions import Fraction
-from math import lcm
 
-from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Form, integral
 from pkm_exact.geometry.problem import ForwardProblem
 
 SHARE = Fraction(2, 5)
@@ -22,20 +21,14 @@ def expected_bits(problem: ForwardProblem, solutions: int) -> int:
 
     Examples
     --------
+    >>> from pkm_exact.constraints.distance import Distance
     >>> zero, one = (Fraction(0),) * 3, (Fraction(1),) * 3
     >>> expected_bits(ForwardProblem((Distance(zero, one, Fraction(1, 1000)),) * 6), 40)
     1152
     """
-    return int(SHARE * solutions * sum(_height(leg, problem) for leg in problem.distances))
+    return int(SHARE * solutions * sum(map(_height, problem.forms)))
 
 
-def _height(leg: Distance, problem: ForwardProblem) -> int:
-    """Bits of the largest coefficient of the leg's equation, a hyperplane, over the integers."""
-    squares = [
-        sum((g * x * x for g, x in zip(problem.metric, joint, strict=True)), Fraction(0))
-        for joint in (leg.base, leg.platform)
-    ]
-    products = [2 * a * b for a in leg.base for b in leg.platform]
-    values = [Fraction(1), sum(squares) - leg.length_squared, *(2 * x for x in (*leg.base, *leg.platform)), *products]
-    scale = lcm(*(value.denominator for value in values))
-    return max(abs(int(value * scale)) for value in values).bit_length()
+def _height(form: Form) -> int:
+    """Bits of the largest coefficient of a hyperplane over the integers."""
+    return max(map(abs, integral(form))).bit_length()

@@ -1,9 +1,10 @@
-"""The leg Jacobian at a certified pose: sign of its determinant, rank, singular values, all by rigorous enclosures.
+"""The Jacobian at a certified pose: sign of its determinant, rank, singular values, all by rigorous enclosures.
 
-Row i is (n_i, (R B_i) x n_i / L) with n_i the unit vector of the leg C + R B_i - A_i in ordinary coordinates and L a
-length that makes rotations comparable to translations: the root mean square distance of the platform joints from their
-centroid, rounded to a rational. The row is the derivative of the leg's length along a velocity of the platform and L
-times its angular velocity. Its rank drops exactly where the pose is singular (a multiple solution).
+Its rows are the wrenches of the constraints (``poses.wrenches``). That of a leg is (n, (R B) x n / L) with n the unit
+vector of the leg C + R B - A in ordinary coordinates and L a length that makes rotations comparable to translations:
+the root mean square distance of the platform's points from their centroid, rounded to a rational. The row is the
+derivative of the leg's length along a velocity of the platform and L times its angular velocity. The rank drops exactly
+where the pose is singular (a multiple solution).
 """
 
 from __future__ import annotations
@@ -13,15 +14,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, reduce
 from math import isqrt
-from typing import TypeAlias
 
 import numpy as np
 from flint import arb, arb_mat
 
+from pkm_exact.constraints.constraint import Role
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InternalContradictionError
-from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.rotation import CYCLIC
+from pkm_exact.geometry.problem import ForwardProblem, points
 from pkm_exact.poses.boxes import Enclosures
+from pkm_exact.poses.wrenches import BallRows
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
@@ -35,8 +37,6 @@ FINEST_EXPONENT = 256
 """Intervals returned lie on the grid 2^-256 at the finest: a bound that close to 0 says enough."""
 
 
-_Joints: TypeAlias = tuple[arb_mat, arb_mat]
-
 _ZERO = Interval(Fraction(0), Fraction(0))
 
 
@@ -46,10 +46,11 @@ class LegJacobian:
 
     Attributes
     ----------
-    det_sign : int
-        Sign of the determinant, 0 if it is 0 exactly: assembly modes of different sign are separated by singularities.
+    det_sign : int or None
+        Sign of the determinant, 0 if the rank is not full: assembly modes of different sign are separated by
+        singularities. None of a regular pose if there are more equations than freedoms: then there is no determinant.
     rank : int
-        Exact rank; less than the number of legs at a singular pose.
+        Exact rank; less than the number of freedoms at a singular pose.
     sigma_min : Interval
         Smallest singular value, exactly 0 at a singular pose.
     condition : Interval or None
@@ -58,7 +59,7 @@ class LegJacobian:
         The scaling length L, in the robot's unit.
     """
 
-    det_sign: int
+    det_sign: int | None
     rank: int
     sigma_min: Interval
     condition: Interval | None
@@ -66,7 +67,9 @@ class LegJacobian:
 
 
 def characteristic_length(problem: ForwardProblem) -> Fraction:
-    """Root mean square distance of the platform joints from their centroid, to 16 significant bits; 1 if it is 0.
+    """Root mean square distance of the platform's points from their centroid, to 16 significant bits.
+
+    Of the base's points, if the platform has no two; 1 if the base has no two either.
 
     Examples
     --------
@@ -76,18 +79,25 @@ def characteristic_length(problem: ForwardProblem) -> Fraction:
     >>> characteristic_length(ForwardProblem(legs))
     Fraction(1, 1)
     """
-    count = len(problem.distances)
-    square = Fraction(0)
-    for axis, g in enumerate(problem.metric):
-        values = [leg.platform[axis] for leg in problem.distances]
-        mean = sum(values, Fraction(0)) / count
-        square += g * sum(((value - mean) ** 2 for value in values), Fraction(0)) / count
+    platform, base = (points(problem, role) for role in (Role.PLATFORM_POINT, Role.BASE_POINT))
+    square = _spread(platform, problem.metric) or _spread(base, problem.metric)
     if square == 0:
         return Fraction(1)
     shift = 16 - (square.numerator.bit_length() - square.denominator.bit_length()) // 2
     scale = Fraction(2) ** shift
     scaled = square * scale * scale
     return Fraction(isqrt(scaled.numerator // scaled.denominator)) / scale
+
+
+def _spread(joints: Sequence[Vector], metric: Sequence[int]) -> Fraction:
+    """Mean square distance from the centroid."""
+    square = Fraction(0)
+    for axis, g in enumerate(metric):
+        values = [joint[axis] for joint in joints]
+        if values:
+            mean = sum(values, Fraction(0)) / len(values)
+            square += g * sum(((value - mean) ** 2 for value in values), Fraction(0)) / len(values)
+    return square
 
 
 def pose_jacobians(enclosures: Enclosures, problem: ForwardProblem, ranks: Sequence[int | None]) -> list[LegJacobian]:
@@ -98,7 +108,7 @@ def pose_jacobians(enclosures: Enclosures, problem: ForwardProblem, ranks: Seque
     ranks : sequence of int or None
         Exact ranks where they are known (``singularity``); None at poses that are proved simple.
     """
-    length, full = characteristic_length(problem), len(problem.distances)
+    length, full = characteristic_length(problem), problem.motion.dimension
     found: list[LegJacobian | None] = [
         None if rank is None or rank == full else LegJacobian(0, rank, _ZERO, None, length) for rank in ranks
     ]
@@ -108,23 +118,24 @@ def pose_jacobians(enclosures: Enclosures, problem: ForwardProblem, ranks: Seque
             raise InternalContradictionError("a regular Jacobian is not confirmed by its enclosures")
         with working_precision(precision):
             left = [index for index, jacobian in enumerate(found) if jacobian is None]
-            joints = _joints(problem)
+            rows = BallRows(problem, length)
             for index, values in zip(left, enclosures(precision, left), strict=True):
-                found[index] = _regular_jacobian(problem, joints, values[:3], values[3:12], length)
+                matrix = rows.at(values[:3], [values[3:6], values[6:9], values[9:12]])
+                found[index] = _regular_jacobian(matrix, length)
         precision *= 2
     return [jacobian for jacobian in found if jacobian is not None]
 
 
-def _regular_jacobian(
-    problem: ForwardProblem, joints: _Joints, position: Sequence[arb], rotation: Sequence[arb], length: Fraction
-) -> LegJacobian | None:
+def _regular_jacobian(matrix: arb_mat, length: Fraction) -> LegJacobian | None:
     """The Jacobian at an enclosed pose where it is regular; None if the enclosures are too wide to show it."""
-    matrix = _matrix(problem, joints, position, [rotation[0:3], rotation[3:6], rotation[6:9]], length)
-    determinant = matrix.det()
-    if not (determinant > 0 or determinant < 0):
-        return None
+    sign = None
+    if matrix.nrows() == matrix.ncols():
+        determinant = matrix.det()
+        if not (determinant > 0 or determinant < 0):
+            return None
+        sign = 1 if determinant > 0 else -1
     try:
-        largest, inverse = _largest_singular_value(matrix), _largest_singular_value(matrix.inv())
+        largest, inverse = _largest_singular_value(matrix), _largest_singular_value(_left_inverse(matrix))
     except ZeroDivisionError:
         return None
     if largest is None or inverse is None:
@@ -132,42 +143,15 @@ def _regular_jacobian(
     smallest, condition = _outward(1 / inverse), _outward(largest * inverse)
     if 2 * smallest.lo < smallest.hi:
         return None
-    return LegJacobian(1 if determinant > 0 else -1, len(problem.distances), smallest, condition, length)
+    return LegJacobian(sign, matrix.ncols(), smallest, condition, length)
 
 
-def _joints(problem: ForwardProblem) -> _Joints:
-    """The joints of base and platform, one leg per row, in ordinary coordinates."""
-    axes = [arb(g).sqrt() for g in problem.metric]
-    base, platform = (
-        arb_mat(
-            [
-                [axis * joint.numerator / joint.denominator for axis, joint in zip(axes, row, strict=True)]
-                for row in side
-            ]
-        )
-        for side in ([leg.base for leg in problem.distances], [leg.platform for leg in problem.distances])
-    )
-    return base, platform
-
-
-def _matrix(
-    problem: ForwardProblem,
-    joints: _Joints,
-    position: Sequence[arb],
-    rotation: Sequence[Sequence[arb]],
-    length: Fraction,
-) -> arb_mat:
-    scale = arb(length.denominator) / length.numerator
-    base, arms = joints
-    turned = arms * arb_mat([list(row) for row in rotation]).transpose()
-    rows = []
-    for arm, start in zip(turned.tolist(), base.tolist(), strict=True):
-        line = [c + b - a for c, b, a in zip(position, arm, start, strict=True)]
-        factor = (line[0] * line[0] + line[1] * line[1] + line[2] * line[2]).rsqrt()
-        unit = [value * factor for value in line]
-        turns = [(arm[j] * unit[k] - arm[k] * unit[j]) * scale for _, j, k in CYCLIC]
-        rows.append([unit[0], unit[1], turns[2]] if problem.motion.is_planar else [*unit, *turns])
-    return arb_mat(rows)
+def _left_inverse(matrix: arb_mat) -> arb_mat:
+    """The inverse, or (J^T J)^-1 J^T if there are more rows than columns: its singular values are the reciprocals."""
+    if matrix.nrows() == matrix.ncols():
+        return matrix.inv()
+    transpose = matrix.transpose()
+    return (transpose * matrix).inv() * transpose
 
 
 def _largest_singular_value(matrix: arb_mat) -> arb | None:
@@ -177,18 +161,19 @@ def _largest_singular_value(matrix: arb_mat) -> arb | None:
     values differ from the diagonal by the norm of the rest at most (Weyl). Those of A are these times factors between
     the extreme singular values of U^-1 and V^-1, and these are near 1: |U^T U - 1| bounds how near.
     """
-    size, exponent = matrix.nrows(), _exponent(matrix)
+    width, exponent = matrix.ncols(), _exponent(matrix)
     matrix = matrix * arb(2) ** -exponent
-    middle = np.array([float(entry.mid()) for entry in matrix.entries()]).reshape(size, size)
+    middle = np.array([float(entry.mid()) for entry in matrix.entries()]).reshape(matrix.nrows(), width)
     if not np.isfinite(middle).all():
         return None
     left, _, right = np.linalg.svd(middle)
     u, v = arb_mat(left.tolist()), arb_mat(right.T.tolist())
     entries = (u.transpose() * matrix * v).entries()
-    largest = reduce(arb.max, [abs(entry) for entry in entries[:: size + 1]])
-    largest += arb(0, _norm([entry for place, entry in enumerate(entries) if place % (size + 1)]))
+    diagonal = range(0, min(len(entries), width * width), width + 1)
+    largest = reduce(arb.max, [abs(entries[place]) for place in diagonal])
+    largest += arb(0, _norm([entry for place, entry in enumerate(entries) if place not in diagonal]))
     for basis in (u, v):
-        defect = _norm((basis.transpose() * basis - _unit(size)).entries())
+        defect = _norm((basis.transpose() * basis - _unit(basis.nrows())).entries())
         if not defect < 1:
             return None
         largest /= (1 + arb(0, defect)).sqrt()

@@ -1,9 +1,7 @@
 """The multiplicity of every pose of a list that is complete, exactly.
 
-At least 2^c. Let the leg Jacobian have the corank c at an isolated pose. Legs with independent derivatives, as many as
-the rank, define a smooth manifold of dimension c there; each of the other c legs, combined with them, has derivative 0.
-Where c equations of order 2 or more meet, they do so with a multiplicity of 2^c at least (Fulton, Intersection Theory,
-12.4).
+At least 2^c, where the Jacobian has the corank c at an isolated pose and there are as many equations as freedoms
+(``poses.wrenches``).
 
 By the algebra. Let A be the quotient algebra over Q of the poses, u a combination of its unknowns, and f the
 irreducible factors of the eliminant. By Stickelberger's theorem (Cox, Little and O'Shea, Using Algebraic Geometry,
@@ -34,6 +32,7 @@ from pkm_exact.geometry.study import evaluate, motion_quadrics
 from pkm_exact.policy import Policy
 from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.singularity import are_isolated, singularity
+from pkm_exact.poses.wrenches import least_multiplicity
 
 Multiplicities: TypeAlias = tuple[tuple[fmpz_poly, int], ...]
 """Irreducible factors of the eliminant, with the multiplicity of the poses at their roots."""
@@ -43,12 +42,11 @@ _PLACES = dict(zip(MOTION_COORDINATES, (*range(1, 7), 0, *range(7, 16)), strict=
 
 
 def least_multiplicities(representation: PoseRepresentation, problem: ForwardProblem, policy: Policy) -> Multiplicities:
-    """Lower bounds of the multiplicities of isolated poses, by the coranks of the leg Jacobian."""
-    legs = len(problem.distances)
+    """Lower bounds of the multiplicities of isolated poses, by the coranks of the Jacobian."""
     return tuple(
         (factor, 1)
         if are_isolated(representation, problem, policy, factor)
-        else (factor, 2 ** (legs - singularity(representation, problem, factor).rank))
+        else (factor, least_multiplicity(problem, singularity(representation, problem, factor).rank))
         for factor, _ in representation.univariate.primitive_polynomial.factor()[1]
     )
 

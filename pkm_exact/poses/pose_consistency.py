@@ -3,58 +3,84 @@
 Nothing here proves a pose; the engines do. These are conditions that every right list meets, computed along other ways
 than those of the engines and in a small fraction of their time: a list that fails one is not an answer.
 
-Signs. The leg lengths are a proper map from the rigid motions, an oriented manifold, to a space of the same dimension.
-It is not onto, as no length is negative; so its degree is 0 (Milnor, Topology from the Differentiable Viewpoint,
-section 5), and where the list is complete the local degrees of its poses sum to 0. At a regular pose the local degree
-is the sign of the determinant of the leg Jacobian; at one of multiplicity m it is m modulo 2, and at most m in absolute
-value (Eisenbud and Levine, Annals of Mathematics 106, 1977).
+Signs. Let there be as many equations as freedoms. The left-hand sides are a map from the motions, an oriented manifold
+without boundary, to a space of the same dimension. If |C|^2 has a coefficient other than 0 in one of the forms, as it
+has for a leg, that form grows with |C|, as rotations are bounded: it is bounded below, and bounded above only where C
+is. So the map is proper, and not onto. The same holds of turns about a point, a compact manifold. The degree of such a
+map is 0 (Milnor, Topology from the Differentiable Viewpoint, section 5), and where the list is complete the local
+degrees of its poses sum to 0. At a regular pose the local degree is the sign of the determinant of the Jacobian; at one
+of multiplicity m it is m modulo 2, and at most m in absolute value (Eisenbud and Levine, Annals of Mathematics 106,
+1977). Of planes alone nothing is said: three of them may meet in one point.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
 from flint import arb, arb_mat, fmpq, fmpz_mat
 
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Form, ordinary, value_at
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.geometry.study import translation_coordinates
 from pkm_exact.poses.pose import Pose
+from pkm_exact.poses.wrenches import least_multiplicity
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
+_VELOCITIES = 3
+"""The first components of a twist are those of the velocity."""
 GUARD_BITS = 64
 """Boxes on the grid 2^-k are put into the equations with k + 64 bits."""
 
 
-def require_consistent_jacobians(poses: Sequence[Pose], legs: int) -> None:
+def require_consistent_jacobians(poses: Sequence[Pose], problem: ForwardProblem) -> None:
     """Rank, sign, singular values and multiplicity of every pose agree.
 
     Raises
     ------
     InternalContradictionError
     """
+    full, has_signs = problem.motion.dimension, problem.equation_count == problem.motion.dimension
     for number, pose in enumerate(poses):
         jacobian, multiplicity = pose.jacobian, pose.multiplicity
         if jacobian is None:
             raise InternalContradictionError("a pose has no Jacobian", {"pose": number})
-        rank, sign, is_regular = jacobian.rank, jacobian.det_sign, jacobian.rank == legs
-        if not 0 <= rank <= legs:
+        rank, sign, is_regular = jacobian.rank, jacobian.det_sign, jacobian.rank == full
+        if not 0 <= rank <= full:
             wrong = "the rank of a Jacobian is out of range"
-        elif abs(sign) != is_regular:
+        elif sign not in ((1, -1) if has_signs else (None,)) if is_regular else sign != 0:
             wrong = "sign and rank of a Jacobian disagree"
         elif not (jacobian.sigma_min.hi > 0) == is_regular == (jacobian.condition is not None):
             wrong = "rank and singular values of a Jacobian disagree"
-        elif multiplicity is not None and not (multiplicity == 1 if is_regular else multiplicity >= 2 ** (legs - rank)):
+        elif multiplicity is not None and not (
+            multiplicity == 1 if is_regular else multiplicity >= least_multiplicity(problem, rank)
+        ):
             wrong = "multiplicity and rank of a Jacobian disagree"
         else:
             continue
         facts = {"pose": number, "rank": rank, "sign": sign, "multiplicity": multiplicity}
         raise InternalContradictionError(wrong, facts)
+
+
+def has_degree_zero(problem: ForwardProblem) -> bool:
+    """Whether the constraints are proved to be a map of degree 0, so that signs cancel. "No" means: not by this proof.
+
+    Examples
+    --------
+    >>> has_degree_zero(ForwardProblem(()))
+    False
+    """
+    if problem.equation_count != problem.motion.dimension:
+        return False
+    moves = any(k < _VELOCITIES for k in problem.motion.twist)
+    return not moves or any(form[0] for form in problem.forms)
 
 
 def require_degree_zero(poses: Sequence[Pose]) -> None:
@@ -64,7 +90,7 @@ def require_degree_zero(poses: Sequence[Pose]) -> None:
     ------
     InternalContradictionError
     """
-    regular = sum(pose.jacobian.det_sign for pose in poses if pose.jacobian is not None)
+    regular = sum(pose.jacobian.det_sign or 0 for pose in poses if pose.jacobian is not None)
     multiple = sum(pose.multiplicity or 0 for pose in poses if pose.jacobian is not None and not pose.jacobian.det_sign)
     require(
         abs(regular) <= multiple and (regular - multiple) % 2 == 0,
@@ -129,6 +155,8 @@ def require_on_robot(
         rows = _enclosures(poses, exponent)
         for number, has_lengths in enumerate(robot.have_lengths(rows)):
             require(has_lengths, "a box has no room for the leg lengths", pose=number)
+        for number, values in enumerate(rows):
+            require(robot.admits(values), "a box has no room for a constraint", pose=number)
         for number, (pose, values) in enumerate(zip(poses, rows, strict=True)):
             c, rotation, q = values[:3], [values[3:6], values[6:9], values[9:12]], values[12:]
             require(_is_turn(rotation, q), "rotation matrix and quaternion disagree", pose=number)
@@ -146,22 +174,45 @@ class _Robot:
 
     def __init__(self, problem: ForwardProblem) -> None:
         self.metric = problem.metric
+        legs = [found for found in problem.constraints if isinstance(found, Distance)]
         self.axes = [arb(g).sqrt() for g in problem.metric]
         self.volume = self.axes[0] * self.axes[1] * self.axes[2]
+        self.joints = self._joints(legs) if legs else None
+        """B, 1 and -A: what R, C and 1 are multiplied with."""
+        self.squares = [_rational(leg.length_squared) for leg in legs]
+        others = replace(problem, constraints=tuple(found for found in problem.constraints if found not in legs))
+        self.forms = [self._ordinary(form) for form in (*others.forms, *map(_fractions, problem.motion.forms))]
+        self.quadrics = [
+            (self._ordinary(square.linear), self._ordinary(square.root), _rational(square.factor))
+            for square in problem.squares
+        ]
+
+    def _joints(self, legs: Sequence[Distance]) -> arb_mat:
         platform, base = (
             [
                 [_rational(value) * axis for value in row]
                 for axis, row in zip(self.axes, zip(*side, strict=True), strict=True)
             ]
-            for side in ([leg.platform for leg in problem.distances], [leg.base for leg in problem.distances])
+            for side in ([leg.platform for leg in legs], [leg.base for leg in legs])
         )
-        ones = [arb(1)] * len(problem.distances)
-        self.joints = arb_mat([*platform, ones, *([-value for value in row] for row in base)])
-        """B, 1 and -A: what R, C and 1 are multiplied with."""
-        self.squares = [_rational(leg.length_squared) for leg in problem.distances]
+        return arb_mat([*platform, [arb(1)] * len(legs), *([-value for value in row] for row in base)])
+
+    def _ordinary(self, form: Form) -> list[arb]:
+        return ordinary([_rational(value) for value in form], self.axes)
+
+    def admits(self, values: Sequence[arb]) -> bool:
+        """Whether every other constraint, and what the motions satisfy by themselves, is possible at a pose."""
+        place = values[:3], [values[3:6], values[6:9], values[9:12]], (1, 1, 1)
+        linear = all(value_at(form, *place).contains(0) for form in self.forms)
+        return linear and all(
+            (value_at(left, *place) - factor * value_at(root, *place) ** 2).contains(0)
+            for left, root, factor in self.quadrics
+        )
 
     def have_lengths(self, rows: Sequence[Sequence[arb]]) -> Iterator[bool]:
         """For each pose whether |C + R B - A|^2 = l^2 is possible for every leg."""
+        if self.joints is None:
+            return
         units = [[arb(int(i == j)) for j in range(3)] for i in range(3)]
         parts = [[*values[3 + 3 * i : 6 + 3 * i], values[i], *units[i]] for values in rows for i in range(3)]
         lines = (arb_mat(parts) * self.joints).tolist()
@@ -205,6 +256,10 @@ def _dot(weights: Sequence[int], values: Sequence[arb]) -> arb:
         if weight:
             total += weight * value
     return total
+
+
+def _fractions(form: Sequence[int]) -> Form:
+    return tuple(map(Fraction, form))
 
 
 def _rational(value: Fraction) -> arb:

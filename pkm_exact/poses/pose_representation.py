@@ -10,7 +10,7 @@ from flint import fmpz, fmpz_poly
 
 from pkm_exact.algebra.representation import UnivariateRepresentation, are_coprime
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import Quadric, motion_quadrics, pose_quadrics, support
+from pkm_exact.geometry.study import Quadric, motion_quadrics, pose_quadrics, pose_quartics, support
 from pkm_exact.poses.study_equations import Chart, dependent_coordinate, free_coordinates
 
 
@@ -70,7 +70,12 @@ class PoseRepresentation:
             return False
         if any(numerator for k, numerator in enumerate(x) if k not in support(problem)):
             return False
-        *values, norm = _values([*pose_quadrics(problem), motion_quadrics(problem.metric)[-1]], x)
+        quadrics, quartics = pose_quadrics(problem), pose_quartics(problem)
+        parts = [part for quartic in quartics for part in (quartic.linear, quartic.root)]
+        *values, norm = _values([*quadrics, *parts, motion_quadrics(problem.metric)[-1]], x)
+        pairs = zip(values[len(quadrics) :: 2], values[len(quadrics) + 1 :: 2], strict=True)
+        values = values[: len(quadrics)]
+        values += [quartic.value(*pair, norm) for quartic, pair in zip(quartics, pairs, strict=True)]
         return are_coprime(self.univariate.primitive_polynomial, norm) and all(map(self.univariate.vanishes, values))
 
 

@@ -20,6 +20,7 @@ from pkm_exact.algebra.representation import UnivariateRepresentation, union
 from pkm_exact.algebra.rur import ModularRepresentation
 from pkm_exact.errors import InternalContradictionError, ReconstructionError
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import pose_quartics
 from pkm_exact.policy import Policy
 from pkm_exact.poses.expected_size import expected_bits
 from pkm_exact.poses.modular_start import Start, StartSearch
@@ -120,7 +121,7 @@ class PoseSearch:
         bits = self.policy.lifting_bits
         images = _further_images(start, chosen, self.problem, self.policy.attempts)
         parts = []
-        if self.policy.lifting == "multimodular":
+        if self.policy.lifting == "multimodular" or pose_quartics(self.problem):
             stage = "lifting by primes"
             accept, watch = self._acceptance(chosen, stage), self._watch(chosen.modular, start, chosen, stage)
             return pose_representation(chosen.chart, self.problem, lift_by_primes(form, images, bits, accept, watch))

@@ -1,15 +1,17 @@
 """Proofs that the poses of a robot form curves or surfaces. Whether real ones are among them is another question
-(``numeric.real_motion``): only then the robot moves although its legs are locked.
+(``numeric.real_motion``): only then the robot moves although its actuators are locked.
 
-Dependent legs. Rigid motions form a variety of dimension 6 on which each leg is a hyperplane. If the six leg forms have
-rank r < 6 (an architecture singularity), every component of the set of poses has dimension at least 6 - r; one finite
-pose, real or complex, then lies on such a set. Planar motions have dimension 3, and three legs.
+Few or dependent constraints. Rigid motions form a variety of dimension 6 on which a leg is a hyperplane, as are most
+constraints; planar motions have dimension 3. If the forms have rank r on a group of motions of dimension d, and there
+are q quadrics, every component of the set of poses has dimension at least d - r - q. If that is positive (an
+architecture singularity, if there are as many legs as freedoms), one finite pose, real or complex, lies on such a set.
 
-Collinear joints. If the platform joints lie on a line, the platform can be turned about it, whatever the pose; if they
-lie in one point, about that point in any way. The same holds for the base. Again one finite pose is enough.
+Collinear joints. If the platform joints of legs lie on a line, the platform can be turned about it, whatever the pose;
+if they lie in one point, about that point in any way. The same holds for the base, and for whatever motion keeps
+constraints of other types (``poses.symmetry``). Again one finite pose is enough.
 
 Such a pose is found by joining further legs, chosen at random, until finitely many poses are left, and solving: every
-pose of the longer list of legs is one of the robot's.
+pose of the longer list of constraints is one of the robot's.
 
 Congruent halves. If A_i = d + R B_i for one rotation R, and all legs are equal, the platform can move on a sphere (a
 planar one on a circle) without turning: every pose (C, R) with |C - d| = l has these leg lengths.
@@ -24,29 +26,35 @@ from fractions import Fraction
 from itertools import combinations
 from random import Random
 
-from flint import fmpq, fmpq_mat
+from flint import fmpq, fmpq_mat, fmpz_mat
 
 from pkm_exact.claim import RealMotion
+from pkm_exact.constraints.constraint import Role
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
 from pkm_exact.formulations.base import rational
-from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, leg_hyperplane, planar_hyperplanes
 from pkm_exact.geometry.inverse import dot
 from pkm_exact.geometry.planar_rotation import turn_of
-from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.problem import ForwardProblem, points
 from pkm_exact.geometry.rotation import CYCLIC
+from pkm_exact.geometry.study import linear_quadrics
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.poses.pose_representation import PoseRepresentation
+from pkm_exact.poses.symmetry import base_freedom, platform_freedom
 
 
 class Cause(StrEnum):
     """Why every pose lies on a curve or surface of poses."""
 
     DEPENDENT_LEGS = "dependent leg forms"
+    FEW = "fewer constraints than freedoms"
     SIMILAR_ON_CONIC = "similar base and platform on a conic"
     PLATFORM_LINE = "platform joints on a line"
     BASE_LINE = "base joints on a line"
     PLATFORM_POINT = "coincident platform joints"
     BASE_POINT = "coincident base joints"
+    PLATFORM_MOTION = "a motion in the platform's frame that keeps all constraints"
+    BASE_MOTION = "a motion in the fixed frame that keeps all constraints"
 
 
 @dataclass(frozen=True)
@@ -58,7 +66,7 @@ class Mobility:
     dimension : int
         At least 1.
     rank : int
-        Of the leg forms.
+        Of the linear forms of the constraints.
     causes : tuple of Cause
         All that apply; each is a proof by itself, the dimension is the greatest that one of them gives.
     """
@@ -79,7 +87,7 @@ class SelfMotion:
     legs : tuple of Distance
         Further legs.
     representation : PoseRepresentation
-        Complex poses, verified, in which the robot's legs and the further ones have their lengths.
+        Complex poses, verified, which the robot's constraints admit and in which the further legs have their lengths.
     real : RealMotion
         What is proved of real ones.
     """
@@ -91,7 +99,7 @@ class SelfMotion:
 
 
 def mobility(problem: ForwardProblem) -> Mobility | None:
-    """What the joints alone tell of the dimension of the set of poses, or None if it may be 0.
+    """What the constraints alone tell of the dimension of the set of poses, or None if it may be 0.
 
     Examples
     --------
@@ -101,6 +109,21 @@ def mobility(problem: ForwardProblem) -> Mobility | None:
     >>> mobility(ForwardProblem(legs))
     Mobility(dimension=1, rank=6, causes=(<Cause.PLATFORM_LINE: 'platform joints on a line'>,))
     """
+    found = _by_joints(problem) if is_of_legs(problem) else _by_symmetry(problem)
+    rank = form_rank(problem)
+    freedom = problem.motion.dimension - rank - len(problem.squares)
+    if freedom > 0:
+        found[_dependence(problem)] = freedom
+    return Mobility(max(found.values()), rank, tuple(found)) if found else None
+
+
+def is_of_legs(problem: ForwardProblem) -> bool:
+    """Whether it is a robot with legs of known length only, in space or in the plane."""
+    return problem.has_only_distances and problem.motion in (SPATIAL, PLANAR)
+
+
+def _by_joints(problem: ForwardProblem) -> dict[Cause, int]:
+    """Joints on a line or in a point."""
     found: dict[Cause, int] = {}
     for joints, point, line in (
         ([leg.platform for leg in problem.distances], Cause.PLATFORM_POINT, Cause.PLATFORM_LINE),
@@ -111,10 +134,13 @@ def mobility(problem: ForwardProblem) -> Mobility | None:
             found[point] = 1 if problem.motion.is_planar else 3
         elif spanned == 1 and not problem.motion.is_planar:
             found[line] = 1
-    freedom, rank = 3 if problem.motion.is_planar else 6, leg_rank(problem)
-    if rank < freedom:
-        found[_dependence(problem)] = freedom - rank
-    return Mobility(max(found.values()), rank, tuple(found)) if found else None
+    return found
+
+
+def _by_symmetry(problem: ForwardProblem) -> dict[Cause, int]:
+    """Motions that keep all constraints, whatever their types."""
+    freedoms = ((Cause.PLATFORM_MOTION, platform_freedom(problem)), (Cause.BASE_MOTION, base_freedom(problem)))
+    return {cause: dimension for cause, dimension in freedoms if dimension}
 
 
 def affine_dimension(points: Sequence[Vector]) -> int:
@@ -122,25 +148,22 @@ def affine_dimension(points: Sequence[Vector]) -> int:
     return int(fmpq_mat([[rational(x) for x in _difference(point, points[0])] for point in points]).rank())
 
 
-def leg_rank(problem: ForwardProblem) -> int:
-    """Rank over Q of the leg forms on the 17 coordinates of rigid motions, or on the 8 of planar ones."""
-    metric = [rational(g) for g in problem.metric]
-    legs = [leg_hyperplane(leg, metric) for leg in problem.distances]
-    if not problem.motion.is_planar:
-        return int(fmpq_mat(legs).rank())
-    size = len(MOTION_COORDINATES)
-    places = [MOTION_COORDINATES.index(name) for name in ("r11", "r12", "r21", "r22")]
-    plane = planar_hyperplanes()
-    for values in ((fmpq(1), fmpq(0), fmpq(0), fmpq(-1)), (fmpq(0), metric[0], metric[1], fmpq(0))):
-        entries = dict(zip(places, values, strict=True))
-        plane.append([entries.get(place, fmpq(0)) for place in range(size + 1)])
-    return int(fmpq_mat(legs + plane).rank()) - len(plane)
+def form_rank(problem: ForwardProblem) -> int:
+    """Rank over Q of the linear forms of all constraints, as functions on the motions of the problem."""
+    quadrics, known = linear_quadrics(problem), int(problem.motion.has_study_condition)
+    places = sorted({place for quadric in quadrics for place in quadric})
+    rows = [quadric.get(place, 0) for quadric in quadrics for place in places]
+    return int(fmpz_mat(len(quadrics), len(places), rows).rank()) - known
 
 
 def _dependence(problem: ForwardProblem) -> Cause:
-    """The known kind of dependence, if it is one."""
+    """Why the forms leave a freedom: there are too few, or they depend, in a known way if it is one."""
+    if problem.equation_count < problem.motion.dimension:
+        return Cause.FEW
+    if not is_of_legs(problem) or problem.motion.is_planar:
+        return Cause.DEPENDENT_LEGS
     base, platform = [leg.base for leg in problem.distances], [leg.platform for leg in problem.distances]
-    if problem.motion.is_planar or affine_dimension(base) != 2:
+    if affine_dimension(base) != 2:
         return Cause.DEPENDENT_LEGS
     squares = []
     for i, j in combinations(range(len(base)), 2):
@@ -156,8 +179,10 @@ def _dependence(problem: ForwardProblem) -> Cause:
 def extended_problems(problem: ForwardProblem, count: int, seed: int) -> Iterator[ForwardProblem]:
     """The problem with ``count`` further legs, random joints of the size of the robot's own, again and again."""
     random = Random(seed)
-    size = 1 + max(abs(value) for leg in problem.distances for value in (*leg.base, *leg.platform)).__ceil__()
-    square = 1 + max(leg.length_squared for leg in problem.distances).__ceil__()
+    joints = [*points(problem, Role.BASE_POINT), *points(problem, Role.PLATFORM_POINT)]
+    size = 1 + max((abs(value) for joint in joints for value in joint), default=Fraction(1)).__ceil__()
+    squares = [found.length_squared for found in problem.constraints if isinstance(found, Distance)]
+    square = 1 + max(squares, default=Fraction(size * size)).__ceil__()
     while True:
         further = []
         for _ in range(count):
@@ -165,7 +190,7 @@ def extended_problems(problem: ForwardProblem, count: int, seed: int) -> Iterato
             if problem.motion.is_planar:
                 z = w = Fraction(0)
             further.append(Distance((x, y, z), (u, v, w), Fraction(random.randint(1, square))))
-        yield replace(problem, constraints=problem.distances + tuple(further))
+        yield replace(problem, constraints=(*problem.constraints, *further))
 
 
 @dataclass(frozen=True)
@@ -191,6 +216,8 @@ class TranslationalMotion:
 
 def translational_motion(problem: ForwardProblem) -> TranslationalMotion | None:
     """The sphere or circle of poses of a robot with congruent base and platform and equal legs, or None."""
+    if not is_of_legs(problem) or not problem.constraints:
+        return None
     legs = problem.distances
     if len({leg.length_squared for leg in legs}) != 1:
         return None

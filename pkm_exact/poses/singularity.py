@@ -1,11 +1,11 @@
-"""The exact rank of the leg Jacobian at the roots of an irreducible factor of the eliminant, and what is special there.
+"""The exact rank of the Jacobian at the roots of an irreducible factor of the eliminant, and what is special there.
 
-The leg lines (d, b x d), with d = C + R B - A the leg and b = R B its arm, are computed in the field Q[T] / f. There
-every element is 0 or a unit, so that elimination decides each entry. Rational coordinates change the columns by
-factors other than 0; a planar robot has three lines with three coordinates.
+The wrenches of the constraints (``poses.wrenches``) are computed in the field Q[T] / f. There every element is 0 or a
+unit, so that elimination decides each entry. Rational coordinates change the columns by factors other than 0.
 
-Two kinds of singular pose have a name, both with a rank of 3 at most: all joints lie in one plane (the lines of a plane
-have rank 3), and all leg lines meet in one point, finite or infinitely far (so have the lines through a point).
+Of legs of known length two kinds of singular pose have a name, both with a rank of 3 at most: all joints lie in one
+plane (the lines of a plane have rank 3), and all leg lines meet in one point, finite or infinitely far (so have the
+lines through a point).
 """
 
 from __future__ import annotations
@@ -13,19 +13,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from fractions import Fraction
+from functools import partial
 from itertools import islice
 from math import lcm
+from random import Random
+from typing import Any
 
-from flint import fmpq_poly, fmpz_poly, nmod_poly
+from flint import fmpq, fmpq_poly, fmpz_poly, nmod, nmod_poly
 
-from pkm_exact.algebra.newton import is_regular
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.geometry.study import evaluate, motion_quadrics
 from pkm_exact.policy import Policy
 from pkm_exact.poses.pose_representation import PoseRepresentation
-from pkm_exact.poses.study_equations import StudyEquations
+from pkm_exact.poses.wrenches import exact_rows
 
 Element = fmpq_poly
 """An element of the field Q[T] / f."""
@@ -41,12 +44,12 @@ class SpecialPose(StrEnum):
 
 @dataclass(frozen=True)
 class Singularity:
-    """What is known of the leg Jacobian at a pose.
+    """What is known of the Jacobian at a pose.
 
     Attributes
     ----------
     rank : int
-        Exact; the number of legs if the pose is not singular after all.
+        Exact; the number of freedoms if the pose is not singular after all.
     special : tuple of SpecialPose
         All that apply, decided exactly. Empty at a pose that is not singular.
     """
@@ -58,7 +61,7 @@ class Singularity:
 def are_isolated(
     representation: PoseRepresentation, problem: ForwardProblem, policy: Policy, factor: fmpz_poly | None = None
 ) -> bool:
-    """Whether the Jacobian of the legs is proved regular at every pose, by its image modulo some prime.
+    """Whether the Jacobian is proved regular at every pose, by its image modulo some prime.
 
     "No" means that no proof was found at the primes tried. With a ``factor`` of h only its roots are looked at.
     """
@@ -66,34 +69,72 @@ def are_isolated(
     looked_at = h if factor is None else factor
     seed = policy.seed_for(problem.digest, "regularity")
     usable = (prime for prime in primes_from(seed, policy.prime_bits) if int(h.leading_coefficient()) % prime)
-    for attempt, prime in enumerate(islice(usable, policy.attempts)):
-        eliminant = nmod_poly([int(value) % prime for value in looked_at.coeffs()], prime)
-        slope = nmod_poly([int(value) % prime for value in h.derivative().coeffs()], prime)
-        divisor, inverse, _ = slope.xgcd(eliminant)
-        if divisor.degree() != 0:
-            continue
-        equations = StudyEquations(problem, representation.chart, seed + attempt)
-        numerators = [representation.univariate.numerators[k] for k in equations.free]
-        point = [
-            nmod_poly([value % prime for value in numerator], prime) * inverse % eliminant for numerator in numerators
+    random = Random(seed)
+    for prime in islice(usable, policy.attempts):
+        modulus = nmod_poly([int(value) % prime for value in looked_at.coeffs()], prime)
+        x = [
+            nmod_poly([value % prime for value in numerator], prime) % modulus
+            for numerator in representation.univariate.numerators
         ]
-        if is_regular(equations, eliminant / eliminant.leading_coefficient(), point):
+        quantities = [value % modulus for value in _quantities(x, problem.metric)]
+        # Coordinates are x / h', and N(e) divides columns: both must be units for the rank to be that of the Jacobian.
+        slope = nmod_poly([int(value) % prime for value in h.derivative().coeffs()], prime)
+        if any(unit.gcd(modulus).degree() != 0 for unit in (slope, quantities[16])):
+            continue
+        rows = exact_rows(problem, quantities, partial(_residue, prime))
+        if _have_full_rank([[value % modulus for value in row] for row in rows], modulus, random):
             return True
     return False
 
 
+def _residue(prime: int, value: Fraction) -> nmod:
+    return nmod(value.numerator % prime, prime) / nmod(value.denominator % prime, prime)
+
+
+def _have_full_rank(rows: list[list[nmod_poly]], relation: nmod_poly, random: Random) -> bool:
+    """Whether random combinations of the rows are a matrix that is regular at every root of the relation.
+
+    Elimination in the ring: the pivots must be units.
+    """
+    size, prime = len(rows[0]), int(relation.modulus())
+    if len(rows) < size:
+        return False
+    weights = [[random.randrange(1, prime) for _ in rows] for _ in range(size)]
+    left = [[_combined(line, column) % relation for column in zip(*rows, strict=True)] for line in weights]
+    for k in range(size):
+        divisor, inverse, _ = left[k][k].xgcd(relation)
+        if divisor.degree() != 0:
+            return False
+        for row in left[k + 1 :]:
+            ratio = row[k] * inverse % relation
+            for place in range(k + 1, size):
+                row[place] = (row[place] - ratio * left[k][place]) % relation
+    return True
+
+
+def _combined(weights: Sequence[int], values: Sequence[nmod_poly]) -> nmod_poly:
+    total = values[0] * weights[0]
+    for weight, value in zip(weights[1:], values[1:], strict=True):
+        total += value * weight
+    return total
+
+
+def _quantities(x: Sequence[Any], metric: Sequence[int]) -> list[Any]:
+    """N(e) times (|C|^2; u; C; R; 1) at the coordinates (e, f), in any ring."""
+    products = [[left * right if m >= k else left for m, right in enumerate(x)] for k, left in enumerate(x)]
+    return [evaluate(quadric, products) for quadric in motion_quadrics(metric)]
+
+
 def singularity(representation: PoseRepresentation, problem: ForwardProblem, factor: fmpz_poly) -> Singularity:
-    """The rank of the leg Jacobian at every root of an irreducible factor of h, and what is special if it drops."""
+    """The rank of the Jacobian at every root of an irreducible factor of h, and what is special if it drops."""
     field = fmpq_poly(factor)
-    base, arms, lines = _legs(representation, problem, field)
-    rows = []
-    for arm, line in zip(arms, lines, strict=True):
-        moment = _cross(arm, line)
-        rows.append([line[0], line[1], moment[2]] if problem.motion.is_planar else [*line, *moment])
-    rank = _rank(rows, field)
-    if rank == len(problem.distances):
+    x = [fmpq_poly(numerator) % field for numerator in representation.univariate.numerator_polynomials]
+    quantities = [value % field for value in _quantities(x, problem.metric)]
+    rank = _rank(exact_rows(problem, quantities, _rational), field)
+    special: list[SpecialPose] = []
+    if rank == problem.motion.dimension or not problem.has_only_distances:
         return Singularity(rank)
-    special = []
+    base, lines = _legs(problem, quantities)
     shifts = [[x - y for x, y in zip(joint, base[0], strict=True)] for joint in base[1:]]
     if not problem.motion.is_planar and _rank([*shifts, *lines], field) <= 2:
         special.append(SpecialPose.PLANE)
@@ -104,22 +145,21 @@ def singularity(representation: PoseRepresentation, problem: ForwardProblem, fac
     return Singularity(rank, tuple(special))
 
 
-def _legs(
-    representation: PoseRepresentation, problem: ForwardProblem, field: Element
-) -> tuple[list[list[Element]], list[list[Element]], list[list[Element]]]:
-    """Base joints A, arms N R B and legs N (C + R B - A), each times a common denominator of all joints."""
-    x = [fmpq_poly(numerator) % field for numerator in representation.univariate.numerator_polynomials]
-    products = [[left * right % field if m >= k else left for m, right in enumerate(x)] for k, left in enumerate(x)]
-    values = [evaluate(quadric, products) for quadric in motion_quadrics(problem.metric)]
-    position, rotation, norm = values[4:7], [values[7 + 3 * i : 10 + 3 * i] for i in range(3)], values[16]
+def _rational(value: Fraction) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
+
+
+def _legs(problem: ForwardProblem, quantities: Sequence[Element]) -> tuple[list[list[Element]], list[list[Element]]]:
+    """Base joints A and legs N (C + R B - A), each times a common denominator of all joints."""
+    position, rotation, norm = quantities[4:7], [quantities[7 + 3 * i : 10 + 3 * i] for i in range(3)], quantities[16]
     scale = lcm(*(value.denominator for leg in problem.distances for value in (*leg.base, *leg.platform)))
-    base, arms, lines = [], [], []
+    base, lines = [], []
     for leg in problem.distances:
         base.append([fmpq_poly([int(value * scale)]) for value in leg.base])
         platform = [int(value * scale) for value in leg.platform]
-        arms.append([row[0] * platform[0] + row[1] * platform[1] + row[2] * platform[2] for row in rotation])
-        lines.append([c * scale + b - norm * a for c, b, a in zip(position, arms[-1], base[-1], strict=True)])
-    return base, arms, lines
+        arm = [row[0] * platform[0] + row[1] * platform[1] + row[2] * platform[2] for row in rotation]
+        lines.append([c * scale + b - norm * a for c, b, a in zip(position, arm, base[-1], strict=True)])
+    return base, lines
 
 
 def _have_common_point(base: Sequence[Sequence[Element]], lines: Sequence[Sequence[Element]], field: Element) -> bool:

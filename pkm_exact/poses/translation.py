@@ -1,8 +1,9 @@
 """The translation of a pose from its rotation: differences of legs are linear in it.
 
-In Study coordinates (e, f) a leg is c S(f) + (bilinear in e and f) + (quadratic in e), with the same form S for every
-leg, and Study's condition is bilinear. Differences of legs that cancel S, and Study's condition, are linear equations
-M(e) f = m(e). Where M(e) has full rank they give f, modulo a prime in the ring of all rotations at once.
+In Study coordinates (e, f) a linear constraint is c S(f) + (bilinear in e and f) + (quadratic in e), with the same form
+S for all of them, c = 0 for planes, and Study's condition is bilinear. Differences that cancel S, planes and Study's
+condition are linear equations M(e) f = m(e). Where M(e) has full rank they give f, modulo a prime in the ring of all
+rotations at once.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from random import Random
 from flint import nmod_poly
 
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import Quadric, pose_quadrics, support
+from pkm_exact.geometry.study import Quadric, linear_quadrics, support
 
 
 @dataclass(frozen=True)
@@ -74,12 +75,14 @@ class LinearTranslation:
 def linear_translation(
     problem: ForwardProblem, chart: tuple[int, int, int, int], dependent: int, seed: int
 ) -> LinearTranslation | None:
-    """Random combinations of the linear equations; None if there are fewer equations than unknowns."""
+    """Random combinations of the linear equations; None if there are fewer equations than unknowns, or no unknowns."""
     coordinates = support(problem)
     unknowns = tuple(k for k in coordinates if k >= 4)
+    if not unknowns:
+        return None
     rotation = tuple(k for k in coordinates if k < 4 and k != dependent)
     square = (unknowns[0], unknowns[0])
-    forms = pose_quadrics(problem)
+    forms = linear_quadrics(problem)
     legs = [form for form in forms if square in form]
     linear = [form for form in forms if square not in form]
     linear += [_combination((legs[0][square], -leg[square]), (leg, legs[0])) for leg in legs[1:]]
