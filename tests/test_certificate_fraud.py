@@ -2,91 +2,23 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import gcd, lcm
 from typing import Any
 
 import pytest
 from certificate_tools import check_resealed, golden, last_line
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_poly
+from forged_representations import coefficients, fit_real_poses, representation_through, set_representation, sliding
 
 from pkm_exact import Robot, certificate, solve
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import Status
-from pkm_exact.certify.checker import realposes
-from pkm_exact.certify.checker.document import Representation, read
+from pkm_exact.certify.checker.document import read
 from pkm_exact.certify.checker.multiplicity import is_multiple, multiple_factors
-
-Points = Sequence[tuple[Sequence[Fraction], Sequence[Fraction]]]
-
-
-def _hex(values: Any) -> list[str]:
-    return [hex(int(value)) for value in values]
 
 
 def _assert_rejected(content: dict[str, Any], reason: str) -> None:
     answer = check_resealed(content)
     assert (answer.status, last_line(answer).partition(":")[0]) == (Status.REJECTED, reason), last_line(answer)
-
-
-def _set_representation(content: dict[str, Any], polynomials: Sequence[fmpq_poly], form: Sequence[int]) -> None:
-    """Put (h, E, F), brought to lowest terms, into a certificate without a claim; w = (1, 0, 0, 0)."""
-    values = [[fmpq(c) for c in polynomial.coeffs()] for polynomial in polynomials]
-    scale = lcm(*(int(c.q) for row in values for c in row))
-    integers = [[int(c * scale) for c in row] for row in values]
-    content_ = gcd(*(c for row in integers for c in row))
-    rows = [_hex(c // content_ for c in row) for row in integers]
-    content["representation"] = {
-        "chart": [1, 0, 0, 0],
-        "separating_form": list(form),
-        "eliminant": rows[0],
-        "quaternion": rows[1:5],
-        "translation": rows[5:9],
-    }
-    content |= {"claim": "not-proven-complete", "completeness_route": None, "elimination": None}
-    content["distinct_solutions"] = content["complex_solutions"] = len(rows[0]) - 1
-
-
-def _representation_through(parameters: Sequence[Fraction], points: Points) -> list[fmpq_poly]:
-    """(h, E, F) with h of the given roots and (e, f) the given points there."""
-    t = fmpq_poly([0, 1])
-    h = fmpq_poly([1])
-    for parameter in parameters:
-        h *= t - fmpq(parameter.numerator, parameter.denominator)
-    numerators = [fmpq_poly()] * 8
-    for parameter, (e, f) in zip(parameters, points, strict=True):
-        others = divmod(h, t - fmpq(parameter.numerator, parameter.denominator))[0]
-        for k, x in enumerate((*e, *f)):
-            numerators[k] += others * fmpq(x.numerator, x.denominator)
-    return [h, *numerators]
-
-
-def _fit_real_poses(content: dict[str, Any], multiplicity: int | None) -> None:
-    """List the real poses that the representation has, as a solver would."""
-    part = content["representation"]
-    representation = Representation(
-        tuple(part["chart"]),
-        tuple(part["separating_form"]),
-        fmpz_poly([int(c, 16) for c in part["eliminant"]]),
-        tuple(fmpz_poly([int(c, 16) for c in row]) for row in part["quaternion"]),
-        tuple(fmpz_poly([int(c, 16) for c in row]) for row in part["translation"]),
-    )
-    metric = tuple(int(g) for g in content["robot"]["metric"])
-    cells, fineness = realposes._parameter_cells(representation.eliminant)
-    boxes = realposes.root_boxes(representation, metric, content["box_exponent"])  # type: ignore[arg-type]
-    poses = []
-    for root in realposes.in_order(boxes):
-        (low, high), box = cells[root], boxes[root]
-        ends = [list(realposes._ends(a, b, content["box_exponent"])) for a, b in box]
-        poses.append(
-            {
-                "parameter": list(realposes._ends(low, high, fineness)),
-                "position": ends[:3],
-                "rotation": [ends[3:6], ends[6:9], ends[9:12]],
-                "quaternion": ends[12:],
-                "multiplicity": multiplicity,
-            }
-        )
-    content["poses"], content["real_poses"] = poses, len(poses)
 
 
 # Poses and claims
@@ -145,9 +77,9 @@ def test_the_quaternion_has_the_other_sign() -> None:
 
 def test_boxes_of_different_poses_meet() -> None:
     """Two poses 2^-9 apart are in different cells of the grid 2^-10, not of the grid 1."""
-    content = _sliding(2, step=Fraction(1, 512), box_exponent=0)
+    content = sliding(2, step=Fraction(1, 512), box_exponent=0)
     _assert_rejected(content, "boxes")
-    assert check_resealed(_sliding(2, step=Fraction(1, 512), box_exponent=10)).status is Status.ACCEPTED
+    assert check_resealed(sliding(2, step=Fraction(1, 512), box_exponent=10)).status is Status.ACCEPTED
 
 
 @pytest.mark.parametrize("name", ["robocrane-r", "similar-planar-s"])
@@ -258,8 +190,8 @@ def test_the_eliminant_is_squared() -> None:
     part = content["representation"]
     h = fmpz_poly([int(c, 16) for c in part["eliminant"]])
     for key in ("quaternion", "translation"):
-        part[key] = [_hex((2 * h * fmpz_poly([int(c, 16) for c in row])).coeffs()) for row in part[key]]
-    part["eliminant"] = _hex((h * h).coeffs())
+        part[key] = [coefficients((2 * h * fmpz_poly([int(c, 16) for c in row])).coeffs()) for row in part[key]]
+    part["eliminant"] = coefficients((h * h).coeffs())
     content["distinct_solutions"] = content["complex_solutions"] = 32
     _assert_rejected(content, "eliminant")
 
@@ -267,7 +199,7 @@ def test_the_eliminant_is_squared() -> None:
 def test_the_eliminant_is_multiplied_by_a_factor() -> None:
     content = golden("robocrane-r")
     h = fmpz_poly([int(c, 16) for c in content["representation"]["eliminant"]])
-    content["representation"]["eliminant"] = _hex((h * fmpz_poly([-5, 1])).coeffs())
+    content["representation"]["eliminant"] = coefficients((h * fmpz_poly([-5, 1])).coeffs())
     content["distinct_solutions"] = content["complex_solutions"] = 17
     _assert_rejected(content, "chart")
 
@@ -275,7 +207,7 @@ def test_the_eliminant_is_multiplied_by_a_factor() -> None:
 def test_the_eliminant_has_degree_above_forty() -> None:
     content = golden("mourrain-l")
     h = fmpz_poly([int(c, 16) for c in content["representation"]["eliminant"]])
-    content["representation"]["eliminant"] = _hex((h * fmpz_poly([-5, 1])).coeffs())
+    content["representation"]["eliminant"] = coefficients((h * fmpz_poly([-5, 1])).coeffs())
     _assert_rejected(content, "eliminant")
 
 
@@ -293,7 +225,7 @@ def test_a_numerator_is_changed_by_a_multiple_of_the_eliminant() -> None:
     content = golden("robocrane-r")
     part = content["representation"]
     h = fmpz_poly([int(c, 16) for c in part["eliminant"]])
-    part["translation"][0] = _hex((h + fmpz_poly([int(c, 16) for c in part["translation"][0]])).coeffs())
+    part["translation"][0] = coefficients((h + fmpz_poly([int(c, 16) for c in part["translation"][0]])).coeffs())
     _assert_rejected(content, "representation")
 
 
@@ -309,14 +241,14 @@ def test_the_eliminant_is_replaced_by_a_factor() -> None:
     assert 0 < g.degree() < h.degree()
     _, inverse, _ = (h.derivative() % g).xgcd(g)
     smaller = [numerator * inverse % g * g.derivative() % g for numerator in numerators]
-    _set_representation(some, [g, *smaller], part["separating_form"])
-    _fit_real_poses(some, 1)
+    set_representation(some, [g, *smaller], part["separating_form"])
+    fit_real_poses(some, 1)
     assert check_resealed(some).status is Status.ACCEPTED
     _assert_rejected(some | {"distinct_solutions": 16}, "distinct solutions")
     _assert_rejected(some | {"complex_solutions": 16}, "complex solutions")
     _assert_rejected(some | {"claim": "complete", "completeness_route": "refined-bezout"}, "claim")
     _assert_rejected(some | {"poses": content["poses"], "real_poses": content["real_poses"]}, "real poses")
-    part["eliminant"] = _hex(factor.coeffs())
+    part["eliminant"] = coefficients(factor.coeffs())
     _assert_rejected(content, "representation")
 
 
@@ -331,59 +263,39 @@ def test_one_pose_is_listed_under_forty_parameters() -> None:
         c[1] + c[2] * e[1] - c[0] * e[3],
         c[2] + c[0] * e[2] - c[1] * e[1],
     )
-    alone = _representation_through([Fraction(1, 5)], [(e, f)])
-    _set_representation(content, alone, (0, 1, 0, 0, 0, 0, 0, 0))
-    _fit_real_poses(content, 1)
+    alone = representation_through([Fraction(1, 5)], [(e, f)])
+    set_representation(content, alone, (0, 1, 0, 0, 0, 0, 0, 0))
+    fit_real_poses(content, 1)
     assert check_resealed(content).status is Status.ACCEPTED
-    forty = _representation_through([Fraction(n) for n in range(40)], [(e, f)] * 40)
-    _set_representation(content, forty, (0, 1, 0, 0, 0, 0, 0, 0))
+    forty = representation_through([Fraction(n) for n in range(40)], [(e, f)] * 40)
+    set_representation(content, forty, (0, 1, 0, 0, 0, 0, 0, 0))
     content |= {"claim": "complete", "completeness_route": "refined-bezout"}
     _assert_rejected(content, "separating form")
 
 
 def test_e_and_f_are_no_motion() -> None:
     """The translation coordinates of a sliding platform, with f0 = 1 where it must be 0."""
-    content = _sliding(1)
+    content = sliding(1)
     content["representation"]["translation"][0] = ["0x1"]
     _assert_rejected(content, "motion")
 
 
 def test_n_of_e_is_zero() -> None:
     """e = (1, i, 0, 0), f = 0 makes every form of a leg without metric vanish at a joint in the origin."""
-    content = _sliding(2)
+    content = sliding(2)
     content["robot"]["platform"] = content["robot"]["base"] = [["0", "0", "0"]] * 6
     h = fmpq_poly([1, 0, 1])
     slope = fmpq_poly([0, 2])
     zero = fmpq_poly()
-    _set_representation(content, [h, slope, fmpq_poly([-2]), zero, zero, zero, zero, zero, zero], (0, 1, *[0] * 6))
+    set_representation(content, [h, slope, fmpq_poly([-2]), zero, zero, zero, zero, zero, zero], (0, 1, *[0] * 6))
     _assert_rejected(content, "motion")
 
 
 # Self-motions
 
 
-def _sliding(count: int, step: Fraction = Fraction(1, 7), box_exponent: int = 31) -> dict[str, Any]:
-    """Congruent base and platform, all legs of length 1: the platform slides, unturned, on a sphere.
-
-    ``count`` of the rational points on the sphere are listed, parametrised by their third coordinate.
-    """
-    content = golden("similar-planar-s")
-    content["robot"]["platform"] = content["robot"]["base"]
-    content["configuration"]["lengths_squared"] = ["1"] * 6
-    parameters, points = [], []
-    for n in range(1, count + 1):
-        u = n * step
-        c = (2 * u / (1 + u * u), Fraction(0), (1 - u * u) / (1 + u * u))
-        parameters.append(c[2])
-        points.append(((Fraction(1), Fraction(0), Fraction(0), Fraction(0)), (Fraction(0), *c)))
-    _set_representation(content, _representation_through(parameters, points), (0, 0, 0, 0, 0, 0, 0, 1))
-    content["box_exponent"] = box_exponent
-    _fit_real_poses(content, None)
-    return content
-
-
 def test_forty_points_of_a_self_motion_are_not_all() -> None:
-    content = _sliding(40)
+    content = sliding(40)
     answer = check_resealed(content)
     assert answer.status is Status.ACCEPTED
     assert "not proven complete: 40 solutions are proved, others are not excluded" in answer.lines
@@ -434,7 +346,7 @@ def test_witnesses_of_a_robot_that_does_not_move() -> None:
 
 @pytest.mark.parametrize("count", [39, 41])
 def test_the_number_with_multiplicity_is_not_less_than_distinct_and_at_most_forty(count: int) -> None:
-    _assert_rejected(_sliding(40) | {"complex_solutions": count}, "complex solutions")
+    _assert_rejected(sliding(40) | {"complex_solutions": count}, "complex solutions")
 
 
 # Multiple solutions
@@ -482,13 +394,13 @@ def test_a_singular_pose_is_not_simple() -> None:
     content["robot"]["platform"] = [[str(x) for x in joint] for joint in robot.platform_joints]
     content["configuration"]["lengths_squared"] = [str(x) for x in _at_identity(robot)]
     unit = (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
-    identity = _representation_through([Fraction(1)], [(unit, (Fraction(0),) * 4)])
-    _set_representation(content, identity, (1, 0, 0, 0, 0, 0, 0, 0))
-    _fit_real_poses(content, None)
+    identity = representation_through([Fraction(1)], [(unit, (Fraction(0),) * 4)])
+    set_representation(content, identity, (1, 0, 0, 0, 0, 0, 0, 0))
+    fit_real_poses(content, None)
     assert check_resealed(content).status is Status.ACCEPTED
     assert check_resealed(content | {"complex_solutions": 40}).status is Status.ACCEPTED
     for multiplicity in (1, 2):
-        _fit_real_poses(content, multiplicity)
+        fit_real_poses(content, multiplicity)
         _assert_rejected(content, "multiplicity")
     document = read(canonical_bytes(sealed(content)))
     assert document.representation is not None
@@ -521,7 +433,7 @@ def test_roots_too_close_to_tell_apart_are_given_up() -> None:
     h = fmpq_poly([0] * 40 + [1]) - 2 * fmpq_poly([-1, 2**4000]) ** 2
     slope, zero = h.derivative(), fmpq_poly()
     turning = [h, slope, zero, zero, fmpq_poly([0, 1]) * slope - 40 * h, zero, zero, zero, zero]
-    _set_representation(content, turning, (0, 0, 0, 1, 0, 0, 0, 0))
+    set_representation(content, turning, (0, 0, 0, 1, 0, 0, 0, 0))
     answer = check_resealed(content | {"poses": [], "real_poses": 0})
     assert answer.status is Status.TOO_LARGE
     assert last_line(answer) == "real poses: the roots are not told apart by 4096 bits"
