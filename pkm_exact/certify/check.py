@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from pkm_exact.certify.checker.budget import Budget, spending
 from pkm_exact.certify.checker.claims import check_claims
 from pkm_exact.certify.checker.document import Document, read
 from pkm_exact.certify.checker.krawczyk import check_isolated
@@ -32,15 +33,22 @@ def check_bytes(data: bytes) -> Verdict:
     file: not a JSON object with a digest
     malformed
     """
+    return check_counted(data)[0]
+
+
+def check_counted(data: bytes) -> tuple[Verdict, Budget]:
+    """The verdict, and the work that was charged for it."""
     lines: list[str] = []
+    budget = Budget(len(data))
     try:
-        checks = _checks_of(data)
-        lines.append("digest: that of the content")
-        for line in checks:
-            lines.append(line)  # noqa: PERF402 - the lines before a refusal stay
+        with spending(budget):
+            checks = _checks_of(data)
+            lines.append("digest: that of the content")
+            for line in checks:
+                lines.append(line)  # noqa: PERF402 - the lines before a refusal stay
     except Refusal as refusal:
-        return Verdict(refusal.status, (*lines, refusal.line))
-    return Verdict(Status.ACCEPTED, tuple(lines))
+        return Verdict(refusal.status, (*lines, refusal.line)), budget
+    return Verdict(Status.ACCEPTED, tuple(lines)), budget
 
 
 def _checks_of(data: bytes) -> Iterator[str]:

@@ -16,16 +16,23 @@ from dataclasses import dataclass
 from math import gcd, lcm
 from typing import TypeAlias
 
-from flint import fmpq, fmpz_mat
+from flint import fmpq
 
+from pkm_exact.certify.checker.budget import charge
+from pkm_exact.certify.checker.echelon import echelon_form
 from pkm_exact.certify.checker.section import section
 from pkm_exact.certify.checker.study_motion import Leg, Metric
-from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_BITS, rejected, too_large
+from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_ENTRIES, MAX_ELIMINATION_TERMS, rejected, too_large
 
 Monomial: TypeAlias = tuple[int, ...]
 Polynomial: TypeAlias = dict[Monomial, int]
 Row: TypeAlias = tuple[int, tuple[int, ...]]
 """A product: index of an element, from 0, and the indices of the unknowns that multiply it."""
+
+_TERM = 3000
+"""Operations charged for a term that is multiplied or put into a matrix."""
+_DIVISION = 2000
+"""Operations charged for asking whether one monomial divides another."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +44,7 @@ class Elimination:
 
     def standard(self, most: int) -> list[Monomial]:
         """The monomials that no leading monomial of an element divides; rejects if there are more than ``most``."""
+        charge(_DIVISION * (most + 1) * (self.size + 1) * len(self.elements))
         return _standard([_leading(element) for element in self.elements], self.size, most)
 
 
@@ -48,9 +56,19 @@ def eliminate(legs: Sequence[Leg], metric: Metric, steps: Sequence[Sequence[Row]
         if any(index >= len(elements) or max(factors, default=0) >= size for index, factors in step):
             raise rejected(f"elimination: step {number} names an element or an unknown that there is not")
         leading = [_leading(element) for element in elements]
+        _limit_terms(sum(len(elements[index]) for index, _ in step))
         found = _echelon([_multiple(elements[index], factors) for index, factors in step])
+        charge(_DIVISION * len(found) * len(leading))
         elements += [element for element in found if not _is_divisible(_leading(element), leading)]
+        _limit_terms(sum(map(len, elements)))
     return Elimination(size, tuple(elements))
+
+
+def _limit_terms(number: int) -> None:
+    """Refuse more terms than there may be in all elements, or in the products of a step; charge for going over them."""
+    if number > MAX_ELIMINATION_TERMS:
+        raise too_large(f"elimination: more than {MAX_ELIMINATION_TERMS} terms")
+    charge(_TERM * number)
 
 
 def _integers(terms: Mapping[Monomial, fmpq]) -> Polynomial:
@@ -78,20 +96,21 @@ def _multiple(polynomial: Polynomial, factors: Sequence[int]) -> Polynomial:
 
 def _echelon(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
     """The rows of the reduced echelon form over Q, as primitive integer polynomials, terms in decreasing order."""
+    charge(_TERM * sum(map(len, polynomials)))
     columns = sorted({monomial for polynomial in polynomials for monomial in polynomial}, key=_order, reverse=True)
     if not columns:
         return []
-    bits = max(abs(value).bit_length() for polynomial in polynomials for value in polynomial.values())
-    rank = min(len(polynomials), len(columns))
-    if rank * rank * (len(columns) - rank + 1) * (bits + len(columns).bit_length()) > MAX_ELIMINATION_BITS:
-        raise too_large("elimination: a matrix is too large")
-    table = [[polynomial.get(monomial, 0) for monomial in columns] for polynomial in polynomials]
-    echelon, _, rank = fmpz_mat(table).rref()
+    if len(polynomials) * len(columns) > MAX_ELIMINATION_ENTRIES:
+        raise too_large(f"elimination: a matrix of more than {MAX_ELIMINATION_ENTRIES} entries")
+    charge(100 * len(polynomials) * len(columns))
+    found = echelon_form([[polynomial.get(monomial, 0) for monomial in columns] for polynomial in polynomials])
+    others = [columns[place] for place in found.others]
     rows = []
-    for entries in echelon.table()[:rank]:
-        row = {monomial: int(value) for monomial, value in zip(columns, entries, strict=True) if value}
-        content = gcd(*row.values())
-        rows.append({monomial: value // content for monomial, value in row.items()})
+    for pivot, numerators in zip(found.pivots, found.numerators, strict=True):
+        content = gcd(found.denominator, *numerators)
+        row = {columns[pivot]: found.denominator // content}
+        row.update((m, value // content) for m, value in zip(others, numerators, strict=True) if value)
+        rows.append(row)
     return rows
 
 

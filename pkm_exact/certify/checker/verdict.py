@@ -39,8 +39,11 @@ MAX_PRECISION: Final = 1 << 14
 MAX_ELIMINATION_ROWS: Final = 5000
 """Most rows of a matrix of an elimination."""
 
-MAX_ELIMINATION_BITS: Final = 1 << 36
-"""Largest size of the echelon form of a matrix, estimated by Hadamard's inequality, in bits."""
+MAX_ELIMINATION_ENTRIES: Final = 1 << 22
+"""Most entries of a matrix of an elimination, zeros included."""
+
+MAX_ELIMINATION_TERMS: Final = 1 << 20
+"""Most terms of all elements of an elimination, and of the products of a step."""
 
 MAX_TEXT: Final = 10_000
 """Longest text (names, source, notes), in characters."""
