@@ -10,10 +10,14 @@ from pkm_exact.certify import check
 
 ROOT = Path(__file__).parents[1]
 CASES = Path(__file__).parent / "cases"
-GOLDENS = sorted((ROOT / "certs").glob("*.json"))
+LONG = ("hexaglide", "ssm-rounded")
+GOLDENS = [
+    pytest.param(path, id=path.stem, marks=[pytest.mark.slow] * (path.stem in LONG))
+    for path in sorted((ROOT / "certs").glob("*.json"))
+]
 
 
-@pytest.mark.parametrize("path", GOLDENS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", GOLDENS)
 def test_honest_certificates_need_half_of_the_work_allowed_at_most(path: Path) -> None:
     verdict, budget = check.check_counted(path.read_bytes())
     assert verdict, verdict

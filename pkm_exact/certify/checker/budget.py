@@ -59,7 +59,7 @@ def spending(budget: Budget) -> Iterator[None]:
 
 
 def charge(operations: int) -> None:
-    """Charge operations, about to be done, to the budget in force; nothing if there is none, as in tests of one part."""
+    """Charge operations, about to be done, to the budget in force; if there is none, as in tests of parts, nothing."""
     budget = _IN_FORCE.get()
     if budget is not None:
         budget.charge(operations)

@@ -9,6 +9,7 @@ from fractions import Fraction
 from hashlib import sha256
 from typing import Any, Final, TypeVar
 
+from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.verdict import (
     MAX_BYTES,
     MAX_COEFFICIENT_BITS,
@@ -20,6 +21,9 @@ from pkm_exact.certify.checker.verdict import (
     too_large,
 )
 
+READING: Final = 1000
+"""Operations charged for each byte that is read, whatever it stands for."""
+
 _Value = TypeVar("_Value")
 
 _RATIONAL: Final = re.compile(r"(0|-?[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
@@ -30,6 +34,7 @@ _RATIONAL_DIGITS: Final = 600
 
 def read_sealed(data: bytes) -> dict[str, Any]:
     """The JSON object in ``data`` without its digest, which must be that of the content, spelled canonically."""
+    charge(READING * len(data))
     content = _json(data)
     if not isinstance(content, dict) or not isinstance(content.get("digest"), str):
         raise malformed("file: not a JSON object with a digest")
