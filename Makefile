@@ -6,6 +6,7 @@
 # make wheel   the distribution, as sources and as a wheel, in dist/
 # make test-versions   the wheel, tested with every Python from 3.11 to 3.14 that is found
 # make mutations   change every number and word of certificates of every kind: the checkers must refuse
+# make campaign   robots that are nearly degenerate: both checkers must accept what is written; hours, goes on if killed
 # make checker-mutants   wrong versions of the checkers: certificates of the tests must tell each from the right one
 # make notebooks   run the documents in notebooks/ and write them to build/notebooks as HTML
 # All need Python 3.11 or newer and make, nothing else: they set up .venv themselves.
@@ -22,7 +23,7 @@ SECONDS ?= 600
 SMOKE ?= $(addprefix tests/test_,cli.py kinds.py reader.py planar.py new.py selftest.py certificate_check.py pure_checker.py)
 SOURCES := pkm_exact tests $(wildcard benchmarks docs/hooks.py fuzz notebooks)
 
-.PHONY: poses test test-slow check-style mutations checker-mutants golden bench docs fuzz wheel test-versions notebooks clean
+.PHONY: poses test test-slow check-style mutations campaign checker-mutants golden bench docs fuzz wheel test-versions notebooks clean
 
 # A claim weaker than complete (exit code 3) is an answer, not a failure.
 poses: $(VENV)/.installed
@@ -49,6 +50,10 @@ mutations: $(VENV)/.installed-test
 	@$(BIN)/python tests/mutations.py $(MUTATIONS)
 
 # MUTANTS="--only krawczyk.py" for some; an interrupted run goes on where it was.
+# The journal in build/campaign knows what is done; CAMPAIGN=--again tries once more what failed.
+campaign: $(VENV)/.installed-test
+	@$(BIN)/python tests/campaign.py $(CAMPAIGN)
+
 checker-mutants: $(VENV)/.installed-test
 	@$(BIN)/python tests/checker_mutants.py $(MUTANTS)
 
