@@ -389,6 +389,7 @@ def test_on_a_terminal_it_asks_only_for_what_is_missing(
     assert read_robot(tmp_path / "r.toml").unit == "mm"
 
 
+@pytest.mark.slow
 def test_defaults_on_a_terminal_make_a_robot(terminal: Callable[..., tuple[int, str]], tmp_path: Path) -> None:
     code, shown = terminal([], "\n" * 7, tmp_path)
     assert code == 0, shown
