@@ -2,10 +2,14 @@
 
 import gc
 import re
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import settings
+
+from pkm_exact.certify import pure
 
 settings.register_profile("suite", deadline=None, derandomize=True)
 settings.load_profile("suite")
@@ -32,3 +36,22 @@ def collinear_model(tmp_path: Path) -> Path:
     path = tmp_path / "collinear.toml"
     path.write_text(re.sub(r"\[platform\].*?\n]\n", f"[platform]\njoints = [{joints}]\n", text, flags=re.DOTALL))
     return path
+
+
+@pytest.fixture
+def remembered(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The plain checker proves each box once: its answer depends on system, box and precision alone."""
+    for name in ("has_one_solution", "narrowed"):
+        monkeypatch.setattr(pure, name, remembering(getattr(pure, name)))
+
+
+def remembering(function: Callable[..., Any]) -> Callable[..., Any]:
+    known: dict[str, Any] = {}
+
+    def answer(*arguments: Any) -> Any:
+        key = repr(arguments)
+        if key not in known:
+            known[key] = function(*arguments)
+        return known[key]
+
+    return answer

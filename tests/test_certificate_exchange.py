@@ -1,6 +1,5 @@
 """Certificates put together from true parts that do not belong together; both checkers reject them, for one reason."""
 
-from collections.abc import Callable
 from fractions import Fraction
 from itertools import chain, combinations, product
 from typing import Any
@@ -11,7 +10,6 @@ from certificate_tools import Path_, at, both_resealed, last_line, leaves, nodes
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pkm_exact.certify import pure
 from pkm_exact.certify.checker import document
 
 Content = dict[str, Any]
@@ -353,25 +351,6 @@ ACCEPTED = {
     ("inconsistent, joints in a point", ("elimination",), "inconsistent", "exact-elimination", "exact"),
 }
 """Parts that are kept, claim, route and method; nothing else may be accepted."""
-
-
-@pytest.fixture
-def remembered(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The plain checker proves each box once: its answer depends on system, box and precision alone."""
-    for name in ("has_one_solution", "narrowed"):
-        monkeypatch.setattr(pure, name, _remembered(getattr(pure, name)))
-
-
-def _remembered(function: Callable[..., Any]) -> Callable[..., Any]:
-    known: dict[str, Any] = {}
-
-    def answer(*arguments: Any) -> Any:
-        key = repr(arguments)
-        if key not in known:
-            known[key] = function(*arguments)
-        return known[key]
-
-    return answer
 
 
 @pytest.mark.usefixtures("remembered")

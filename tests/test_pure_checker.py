@@ -17,7 +17,7 @@ import test_certificate_fraud
 import test_multiplicities
 import test_self_motion
 from certificate_subjects import subject
-from certificate_tools import CERTS, both, both_resealed, golden, golden_bytes, with_entry
+from certificate_tools import CERTS, both, both_resealed, boxed_certificate, golden, golden_bytes, with_entry
 from flint import fmpq_mat, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
@@ -132,27 +132,21 @@ _take(test_self_motion, _names(test_self_motion), slow=True)
 # Boxes around solutions
 
 
-def _boxed(name: str) -> dict[str, Any]:
-    """A certificate of the numeric engine."""
-    robot = read_robot(CERTS.parent / "models" / f"{name}.toml")
-    configuration = robot.configuration(None)
-    content = certificate(robot, configuration.name, solve_krawczyk(robot.problem(configuration)))
-    assert content["method"] == "krawczyk"
-    return content
-
-
 @pytest.fixture(scope="module", params=["3-rrr", pytest.param("mourrain-l", marks=pytest.mark.slow)])
 def boxed(request: pytest.FixtureRequest) -> dict[str, Any]:
-    return _boxed(request.param)
+    return boxed_certificate(request.param)
 
 
 @pytest.mark.parametrize("name", ["3-rrr", "mourrain-l", pytest.param("rolland-6-6", marks=pytest.mark.slow)])
 def test_boxes_are_accepted(name: str) -> None:
-    answer = both_resealed(_boxed(name))
+    content = boxed_certificate(name)
+    assert content["method"] == "krawczyk"
+    answer = both_resealed(content)
     assert answer.status == "accepted"
     assert answer.lines[-1].startswith("complete: ")
 
 
+@pytest.mark.usefixtures("remembered")
 def test_changed_boxes(boxed: dict[str, Any]) -> None:
     real, others = boxed["krawczyk"]["real"], boxed["krawczyk"]["complex"]
     moved = {**real[0], "centre": [hex(int(real[0]["centre"][0], 16) + 64), *real[0]["centre"][1:]]}
@@ -183,6 +177,7 @@ def test_pairs_of_boxes_are_spelled_in_one_way(boxed: dict[str, Any]) -> None:
         assert both_resealed(with_entry(boxed, ("krawczyk", "complex"), others[::-1])).status == "rejected"
 
 
+@pytest.mark.usefixtures("remembered")
 def test_claims_beside_boxes(boxed: dict[str, Any]) -> None:
     exact = golden("3-rrr" if len(boxed["robot"]["base"]) == 3 else "mourrain-l")
     for changed in (
