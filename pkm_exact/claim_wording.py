@@ -61,6 +61,18 @@ NO_SOLUTION_NOTE: Final = (
     "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
 )
 
+DIGITS: Final = (
+    "{poses}: the condition number times the last digit written in the model, {digit}, is more than the size of the "
+    "robot, so that the answer rests on digits that the data do not have; it is proved for the decimals as they stand"
+)
+"""What is proved says little of the robot whose rounded numbers a model file has."""
+NEARBY: Final = "to within a few of these digits {facts}"
+NEARBY_SINGULAR: Final = (
+    "; of the robot of which that is exactly true the leg equations are dependent in every pose (an architecture "
+    "singularity)"
+)
+NEARBY_MOVES: Final = ", and it moves with its legs locked"
+
 
 def meaning(claim: Claim, motion: RealMotion | None) -> str:
     """The sentence for a claim; of a set of positive dimension that is proved, with what is known of real motions.

@@ -32,7 +32,9 @@ def collinear_model(tmp_path: Path) -> Path:
     """A robot whose platform joints lie on one line, about which it can turn."""
     text = (Path(__file__).parent.parent / "models" / "mourrain-l.toml").read_text()
     joints = ", ".join(f"[{k}, 0, 0]" for k in range(6))
-    text = text.replace("lengths = [1, 1, 0.8, 2, 2, 2]", "pose = { position = [1, 2, 3], quaternion = [1, 2, 3, 4] }")
+    text = text.replace(
+        'lengths = [1, 1, "4/5", 2, 2, 2]', "pose = { position = [1, 2, 3], quaternion = [1, 2, 3, 4] }"
+    )
     path = tmp_path / "collinear.toml"
     path.write_text(re.sub(r"\[platform\].*?\n]\n", f"[platform]\njoints = [{joints}]\n", text, flags=re.DOTALL))
     return path

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from pkm_exact.cli.table import print_rows
 from pkm_exact.comparison.numeric_distance import Landing
+from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.interactive.display import headline
 from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordinates
 
@@ -60,7 +61,7 @@ def print_certified(robot: Machine, configuration: str | None, solution: Solutio
     """Print what the methods are held against, to stdout."""
     actuators = f"configuration {configuration}" if configuration else "given leg lengths"
     sys.stdout.write(f"{robot.name} ({robot.kind}), {actuators}{starts}\ncertified: {headline(solution)}\n")
-    sys.stdout.write("".join(f"note: {note}\n" for note in solution.notes))
+    sys.stdout.write("".join(f"note: {note}\n" for note in answer_notes(robot, configuration, solution)))
 
 
 def _method(result: EngineResult, comparison: NumericComparison) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from pkm_exact.cli.modes import assembly_modes
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.indices.index import Output
 from pkm_exact.indices.pose_indices import shown_in
+from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.interactive.display import headline
 from pkm_exact.motions.motion import Motion
 from pkm_exact.poses.planar_coordinates import planar_coordinates
@@ -51,7 +52,7 @@ def as_object(robot: Machine, configuration: str | None, solution: Solution) -> 
         "real_poses": len(solution.poses),
         "poses": [_pose(pose, solution.problem.motion) for pose in solution.poses],
         "assembly_modes": assembly_modes(solution.poses),
-        "notes": list(solution.notes),
+        "notes": list(answer_notes(robot, configuration, solution)),
     }
 
 

@@ -7,6 +7,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from pkm_exact.cli.modes import assembly_modes, summary
+from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.interactive.display import pose_cells, pose_header
 from pkm_exact.roots.interval import decimal as decimal
 
@@ -22,7 +23,7 @@ def print_table(robot: Machine, configuration: str | None, solution: Solution, h
     lines = [f"{robot.name} ({robot.kind}), {actuators}, formulation {solution.formulation}", headline]
     if verbose:
         lines += list(_details(robot, solution))
-    lines += [f"note: {note}" for note in solution.notes]
+    lines += [f"note: {note}" for note in answer_notes(robot, configuration, solution)]
     sys.stdout.write("\n".join(lines) + "\n")
     if not solution.poses:
         return

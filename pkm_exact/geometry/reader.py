@@ -25,6 +25,7 @@ from pkm_exact.geometry.mechanism_reader import read_mechanism
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
 from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.geometry.tolerances import read_tolerances
+from pkm_exact.geometry.written_digits import finest_digit
 from pkm_exact.wording import printable, shown
 
 __all__ = ["parse_rational", "read_robot", "robot_from_toml"]
@@ -106,12 +107,16 @@ def robot_from_toml(text: str) -> Robot | Mechanism:
         "platform_joints": read_joints(table, "platform", kind, metric),
         "chains": read_chains(table, kind_name, kind, metric),
         "tolerances": read_tolerances(table["tolerances"]) if "tolerances" in table else None,
+        "written_digit": finest_digit(*(table.get(part) for part in ("base", "platform", "cranks", "slides", "rods"))),
     }
     rows = table.get("configurations", [])
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise InputError(f"configurations: {shown(rows)} is not a list of tables; write [[configurations]] above each")
     robot = Robot(**geometry)
-    configurations = tuple(read_configuration(row, f"configurations[{i}]", robot) for i, row in enumerate(rows, 1))
+    configurations = tuple(
+        replace(read_configuration(row, f"configurations[{i}]", robot), written_digit=finest_digit(row))
+        for i, row in enumerate(rows, 1)
+    )
     return replace(robot, configurations=configurations)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from pkm_exact.errors import InputError
@@ -36,11 +36,14 @@ class Configuration:
         for a planar robot.
     joint_values : tuple of joint values, one per leg
         Positions of the slides, or (cos, sin) of the cranks' angles; empty if the legs themselves are actuated.
+    written_digit : Fraction or None
+        Unit of its last decimal in the model file; None without decimals.
     """
 
     name: str
     lengths_squared: tuple[Fraction, ...]
     joint_values: tuple[JointValue, ...] = ()
+    written_digit: Fraction | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         where = f"configuration {shown(self.name)}, lengths_squared"
@@ -72,6 +75,8 @@ class Robot(Machine):
         The actuated chains, one per leg; empty for a kind whose legs themselves are actuated.
     tolerances : Tolerances or None
         Of its data, if they are known.
+    written_digit : Fraction or None
+        Unit of the last decimal of joints, cranks, slides and rods in the model file; None without decimals.
 
     Examples
     --------
@@ -91,14 +96,15 @@ class Robot(Machine):
     configurations: tuple[Configuration, ...] = ()
     chains: tuple[Chain, ...] = ()
     tolerances: Tolerances | None = None
+    written_digit: Fraction | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise InputError(f"kind: {shown(self.kind)} is unknown; use one of: {', '.join(KINDS)}")
         kind = KINDS[self.kind]
-        for field, where in (("base_joints", "base.joints"), ("platform_joints", "platform.joints")):
-            rows = [in_plane(row) for row in getattr(self, field)] if kind.motion.is_planar else getattr(self, field)
-            object.__setattr__(self, field, parse_joints(rows, where, kind))
+        for side, where in (("base_joints", "base.joints"), ("platform_joints", "platform.joints")):
+            rows = [in_plane(row) for row in getattr(self, side)] if kind.motion.is_planar else getattr(self, side)
+            object.__setattr__(self, side, parse_joints(rows, where, kind))
         object.__setattr__(self, "metric", parse_metric(self.metric, kind.motion))
         self._require_chains()
         if not self.chains:

@@ -20,6 +20,7 @@ from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.indices.index import Output
 from pkm_exact.indices.pose_indices import shown_in
+from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.motions.motion import Motion
 from pkm_exact.roots.interval import decimal
 from pkm_exact.wording import counted, printable
@@ -96,7 +97,7 @@ def solution_html(solution: Solution, robot: Machine | None, configuration: str 
         parts.append(_table(pose_header(solution.problem.motion), rows))
         parts.append(_paragraph(f"position [{unit}], {rotation}; right to one unit of the last digit"))
         parts.append(_picture(solution, robot, configuration))
-    parts += [_paragraph(f"note: {note}") for note in solution.notes]
+    parts += [_paragraph(f"note: {note}") for note in answer_notes(robot, configuration, solution)]
     return _block(parts)
 
 
