@@ -50,6 +50,7 @@ def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[WebDriver]:
         options.add_argument(f"--{flag}")
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     driver = selenium.Chrome(options=options, service=selenium.ChromeService(executable_path=DRIVER))
+    driver.get("about:blank")  # the browser's own first page loads things
     yield driver
     driver.quit()
 
