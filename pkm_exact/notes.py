@@ -30,8 +30,8 @@ _CAUSES = {
     Cause.BASE_POINT: "all base joints coincide, and turning about that point leads from pose to pose",
     Cause.DEPENDENT_LEGS: "the {leg} forms are dependent, of rank {rank} (an architecture singularity)",
     Cause.FEW: "there are fewer constraints than freedoms, of rank {rank}",
-    Cause.PLATFORM_MOTION: "the platform can move about axes fixed in it, or along them, and no constraint changes",
-    Cause.BASE_MOTION: "the platform can move about axes fixed in the base, or along them, and no constraint changes",
+    Cause.PLATFORM_MOTION: "moving about axes fixed in the platform, or along them, leads from pose to pose",
+    Cause.BASE_MOTION: "moving about axes fixed in the base, or along them, leads from pose to pose",
     Cause.SIMILAR_ON_CONIC: (
         "base and platform are similar and their joints lie on a conic, so that the leg forms are dependent, of rank "
         "{rank} (an architecture singularity)"
