@@ -11,6 +11,7 @@ from random import Random
 import pytest
 from samples import MODELS, boxed, solved
 
+from pkm_exact import solve_many
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
@@ -21,7 +22,11 @@ from pkm_exact.geometry.reader import read_robot, robot_from_toml
 from pkm_exact.geometry.working_modes import platform_point
 from pkm_exact.interactive.answer_notes import answer_notes, digit_notes, written_digit
 from pkm_exact.interactive.display import solution_html
+from pkm_exact.numeric.path_forms import problem_at
+from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.nearby_shape import PAIRINGS, nearby_shape
+from pkm_exact.sweep.lengths import LengthRow
+from pkm_exact.sweep.record import solution_line
 
 ROUNDED = Path(__file__).parent / "cases" / "c04-66-rot.toml"
 """Regular hexagons, turned and rounded to a micron: exactly, the leg equations are dependent."""
@@ -177,3 +182,20 @@ def test_parallel_chords_are_named_and_general_robots_are_not() -> None:
     mirrored = ForwardProblem(tuple(map(Distance, *sides, lengths)))
     assert nearby_shape(mirrored, DIGIT).facts == ("the chords 1-2, 3-6, 4-5 of base and platform are parallel",)
     assert nearby_shape(mirrored, DIGIT / 100).facts == ()
+
+
+def test_rows_of_a_batch_say_it_too() -> None:
+    robot = robot_from_toml(FILES["3-rpr-merlet-p"].read_text())
+    row = ["7", "5", "5"]
+    plain = solve_many(replace(robot, written_digit=None), [row])
+    doubted = solve_many(replace(robot, written_digit=Fraction(1)), [row])
+    assert "the data do not have" in str(doubted.rows["note"][0])
+    assert "the data do not have" not in str(plain.rows["note"][0])
+    solution = solve_krawczyk(problem_at(robot, tuple(map(Fraction, row))))
+    read = LengthRow(1, 1, tuple(row), None)
+    notes = [
+        json.loads(solution_line(read, replace(robot, written_digit=digit), solution, b""))["notes"]
+        for digit in (None, Fraction(1))
+    ]
+    assert "the data do not have" in " ".join(notes[1])
+    assert notes[0] == list(solution.notes)

@@ -24,6 +24,7 @@ from pkm_exact.geometry.reader import read_jointed_robot
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.indices.index import Output
 from pkm_exact.indices.pose_indices import shown_in
+from pkm_exact.interactive.answer_notes import digit_notes
 from pkm_exact.interactive.facade import exact_length, exact_width
 from pkm_exact.policy import Policy
 from pkm_exact.poses.arrays import array_value, rotations_of
@@ -169,7 +170,7 @@ def solve_many(
     solver = RowSolver.of([problem for problem in problems if isinstance(problem, ForwardProblem)], width, policy)
     rows, poses = np.zeros(len(problems), ROW), []
     for number, problem in enumerate(problems):
-        rows[number], found = _row(solver, number, problem)
+        rows[number], found = _row(solver, number, problem, robot.written_digit)
         poses.append(found)
         if progress is not None:
             progress(number + 1)
@@ -219,7 +220,9 @@ def _problem(
         return str(error)
 
 
-def _row(solver: RowSolver, number: int, problem: ForwardProblem | str) -> tuple[tuple[Any, ...], NDArray[Record]]:
+def _row(
+    solver: RowSolver, number: int, problem: ForwardProblem | str, digit: Fraction | None
+) -> tuple[tuple[Any, ...], NDArray[Record]]:
     """The entries of one row and of its poses."""
     if isinstance(problem, str):
         return (ERROR, "", 0, 0, problem), np.zeros(0, pose_dtype())
@@ -228,7 +231,7 @@ def _row(solver: RowSolver, number: int, problem: ForwardProblem | str) -> tuple
         poses = np.array([_entry(number, pose) for pose in solution.poses], pose_dtype())
     except PkmExactError as error:
         return (ERROR, "", 0, 0, f"lengths, row {number + 1}: {error}"), np.zeros(0, pose_dtype())
-    notes = "; ".join(solution.notes)
+    notes = "; ".join((*solution.notes, *digit_notes(problem, solution.poses, digit)))
     return (solution.claim.value, solution.method, len(poses), solution.complex_solutions, notes), poses
 
 

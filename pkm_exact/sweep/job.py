@@ -72,7 +72,9 @@ class SweepJob:
         try:
             solution = self.solver.solution(problem_of(self.robot, row, self.names, squared=self.squared))
             data = certificate_bytes(self.robot, None, solution)
-            return Answer(row.number, solution_line(row, solution, data), data if self.certificates else None)
+            return Answer(
+                row.number, solution_line(row, self.robot, solution, data), data if self.certificates else None
+            )
         except InternalError as error:
             sentence = _internal(error)
         except InputError as error:
@@ -118,7 +120,7 @@ def identity(job: SweepJob, lengths: LengthsFile, certificates: Path | None) -> 
     """A digest of all that the output depends on. The start section is no part of it: answers do not depend on it."""
     folder = None if certificates is None else os.path.realpath(certificates)
     robot = job.robot
-    joints = (robot.kind, robot.metric, robot.base_joints, robot.platform_joints)
+    joints = (robot.kind, robot.metric, robot.base_joints, robot.platform_joints, robot.written_digit)
     words = (pkm_exact.__version__, robot.name, robot.unit, robot.source, joints, lengths.digest)
     options = (job.solver.method, job.solver.width, job.solver.policy, job.squared, folder)
     return sha256(repr((words, options)).encode()).hexdigest()

@@ -6,8 +6,10 @@ import json
 from hashlib import sha256
 from typing import Any
 
+from pkm_exact.geometry.robot import Robot
 from pkm_exact.indices.index import Index, Output
 from pkm_exact.indices.pose_indices import shown_in
+from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_spelling import pose_decimals
 from pkm_exact.roots.interval import Interval, decimal
@@ -15,7 +17,7 @@ from pkm_exact.solution import Solution
 from pkm_exact.sweep.lengths import LengthRow
 
 
-def solution_line(row: LengthRow, solution: Solution, certificate: bytes) -> bytes:
+def solution_line(row: LengthRow, robot: Robot, solution: Solution, certificate: bytes) -> bytes:
     """What was found for a row, with the digest of its certificate."""
     return _line(
         row,
@@ -27,7 +29,7 @@ def solution_line(row: LengthRow, solution: Solution, certificate: bytes) -> byt
             "distinct_solutions": solution.distinct_solutions,
             "real_poses": len(solution.poses),
             "poses": [_pose(pose) for pose in solution.poses],
-            "notes": list(solution.notes),
+            "notes": list(answer_notes(robot, None, solution)),
             "certificate_sha256": sha256(certificate).hexdigest(),
         },
     )
