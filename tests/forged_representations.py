@@ -14,6 +14,7 @@ from certificate_tools import golden
 from flint import fmpq, fmpq_poly, fmpz_poly
 
 from pkm_exact.certify.checker import realposes
+from pkm_exact.certify.checker.descartes import real_roots
 from pkm_exact.certify.checker.document import Representation
 
 Points = Sequence[tuple[Sequence[Fraction], Sequence[Fraction]]]
@@ -67,8 +68,9 @@ def fit_real_poses(content: dict[str, Any], multiplicity: int | None) -> None:
         tuple(fmpz_poly([int(c, 16) for c in row]) for row in part["translation"]),
     )
     metric = tuple(int(g) for g in content["robot"]["metric"])
-    cells, fineness = realposes._parameter_cells(representation.eliminant)
-    boxes = realposes.root_boxes(representation, metric, content["box_exponent"])  # type: ignore[arg-type]
+    roots = real_roots(representation.eliminant)
+    cells, fineness = realposes._parameter_cells(representation.eliminant, roots)
+    boxes = realposes.root_boxes(representation, metric, content["box_exponent"], roots)  # type: ignore[arg-type]
     poses = []
     for root in realposes.in_order(boxes):
         (low, high), box = cells[root], boxes[root]

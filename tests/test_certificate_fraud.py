@@ -430,7 +430,7 @@ def test_roots_too_close_to_tell_apart_are_given_up() -> None:
     content["robot"]["base"] = [["0", "0", str(n)] for n in range(1, 7)]
     content["robot"]["platform"] = [["0", "0", str(2 * n)] for n in range(1, 7)]
     content["configuration"]["lengths_squared"] = [str(n * n) for n in range(1, 7)]
-    h = fmpq_poly([0] * 40 + [1]) - 2 * fmpq_poly([-1, 2**4000]) ** 2
+    h = fmpq_poly([0] * 40 + [1]) - 2 * fmpq_poly([-1, 3 * 2**4000]) ** 2
     slope, zero = h.derivative(), fmpq_poly()
     turning = [h, slope, zero, zero, fmpq_poly([0, 1]) * slope - 40 * h, zero, zero, zero, zero]
     set_representation(content, turning, (0, 0, 0, 1, 0, 0, 0, 0))

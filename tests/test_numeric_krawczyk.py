@@ -226,8 +226,10 @@ def test_boxes_are_narrowed_to_the_same_poses_with_and_without_newton(
 def test_newton_refines_to_the_same_box_on_every_grid() -> None:
     system, isolated = boxes_of(GENERAL)
     for box in isolated.real[:3]:
-        point = refined(system, centre(system, box), 150)
-        assert point is not None
+        limit = refined(system, centre(system, box), 150)
+        assert limit is not None
+        point, is_settled = limit
+        assert is_settled
         fine = nearest_box(system, point, 150)
         assert certified(system, [fine]) == [True]
         assert _contains(box, fine)

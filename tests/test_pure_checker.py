@@ -26,6 +26,7 @@ from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, certificate
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.certify.checker import realposes
+from pkm_exact.certify.checker.descartes import real_roots
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric_engine import solve_krawczyk
@@ -251,7 +252,7 @@ def test_both_isolate_alike(factors: list[tuple[int, int, int]]) -> None:
         h *= fmpz_poly(list(factor))
     for factor, power in h.factor_squarefree()[1]:
         h //= factor ** (power - 1)
-    cells, exponent = realposes._parameter_cells(h)
+    cells, exponent = realposes._parameter_cells(h, real_roots(h))
     roots = pure.isolated(pure.primitive_part([int(c) for c in h.coeffs()]))
     assert [(root.m, root.m + (not root.exact)) for root in roots] == cells
     assert all(root.k == exponent for root in roots)
@@ -268,7 +269,7 @@ def test_roots_close_to_each_other_to_a_grid_point_and_to_the_axis() -> None:
         h = fmpz_poly([1])
         for factor in factors:
             h *= fmpz_poly(factor)
-        cells, exponent = realposes._parameter_cells(h)
+        cells, exponent = realposes._parameter_cells(h, real_roots(h))
         roots = pure.isolated([int(c) for c in h.coeffs()])
         assert [(root.m, root.m + (not root.exact)) for root in roots] == cells
         assert all(root.k == exponent for root in roots)

@@ -174,6 +174,10 @@ class Gaussian:
     def __rmul__(self, scalar: int | Fraction) -> Gaussian:
         return Gaussian(scalar * self.re, scalar * self.im)
 
+    def largest(self) -> Fraction:
+        """The larger one of |Re| and |Im|."""
+        return max(abs(self.re), abs(self.im))
+
     def size(self) -> Fraction:
         """|Re| + |Im|, submultiplicative."""
         return abs(self.re) + abs(self.im)
@@ -1011,7 +1015,7 @@ def isolated(h0: Polynomial) -> list[Root]:
     roots = real_roots(h0)
     k = max(32, *(root.k for root in roots)) if roots else 32
     roots = [refined(h0, root, k) for root in roots]
-    while any(b.m <= a.m + 1 for a, b in pairwise(roots)):
+    while not are_apart(roots):
         affordable(k < MAX_ISOLATION, TOO_CLOSE)
         k = min(2 * k, MAX_ISOLATION)
         roots = [refined(h0, root, k) for root in roots]
@@ -2061,9 +2065,10 @@ def has_one_solution(system: System, box: Box, p: int) -> bool:
 
         |Y F(m)|_i + sum_j (|z|_ij + sum_k |Y|_ik sum_l |F''|_kjl |h_l|) r_j < r_i,
 
-    where |h_l| is at most r_l in a real box and 2 r_l in another, then x -> x - Y F(x) maps the box into its interior
-    and contracts it, in the norm max (|Re x_i|, |Im x_i|) / r_i: there is one fixed point. As Y F' is within less
-    than 1 of the unit matrix, Y and F' are regular, so it is a zero of F. The numbers are rational; none is rounded.
+    where |h_l| is at most r_l in a real box and 2 r_l in another, and |Y F(m)| is the larger one of real and imaginary
+    part, then x -> x - Y F(x) maps the box into its interior and contracts it, in the norm max (|Re x_i|, |Im x_i|) /
+    r_i: there is one fixed point. As Y F' is within less than 1 of the unit matrix, Y and F' are regular, so it is a
+    zero of F. The numbers are rational; none is rounded.
     """
     slopes = system.slopes(box.centre)
     y = near_inverse(slopes, p)
@@ -2076,34 +2081,41 @@ def has_one_solution(system: System, box: Box, p: int) -> bool:
     ]
     values = system.values(box.centre, slopes)
     for i, row in enumerate(y):
-        image = total(a * b for a, b in zip(row, values, strict=True)).size()
+        image = total(a * b for a, b in zip(row, values, strict=True)).largest()
         for j, r in enumerate(box.radius):
             z = (UNIT if i == j else NULL) - total(a * line[j] for a, line in zip(row, slopes, strict=True))
             bend = sum((a.size() * line[j] for a, line in zip(row, bends, strict=True)), Fraction(0))
             image += (z.size() + bend) * r
         if image >= box.radius[i]:
             return False
-    return norm_is_not_zero(system, box, reach)
+    return norm_is_not_zero(system, box)
 
 
-def norm_is_not_zero(system: System, box: Box, reach: Sequence[Fraction]) -> bool:
-    """Whether N(e) is not 0 in the box: |N(m + h) - N(m)| <= sum of g (2 |m| + |h|) |h|."""
+def norm_is_not_zero(system: System, box: Box) -> bool:
+    """Whether N(e) is not 0 in the box: real and imaginary part of N(m + h) - N(m) are bounded.
+
+    Those of 2 m h by 2 |m| r, as those of h are by r; those of h^2 by r^2 and, if h is not real, 2 r^2.
+    """
     value, change = NULL, Fraction(0)
-    for g, m, h in zip(system.norm, box.centre, reach, strict=True):
+    for g, m, r in zip(system.norm, box.centre, box.radius, strict=True):
         value = value + g * (m * m)
-        change += g * (2 * m.size() + h) * h
-    return max(abs(value.re), abs(value.im)) > change
+        change += g * (2 * m.size() + (1 if box.real else 2) * r) * r
+    return value.largest() > change
 
 
 def near_inverse(matrix: Sequence[Sequence[Gaussian]], p: int) -> list[list[Gaussian]] | None:
-    """A matrix near the inverse, by elimination in units of 2^-p, rounded; None if a pivot vanishes."""
-    n, rows = len(matrix), []
+    """A matrix near the inverse, by elimination in units of 2^-p, rounded; None if a pivot vanishes.
+
+    Rows are first brought to about the size of 1, whatever numbers the equations have: scales are powers of 2.
+    """
+    n, rows, scales = len(matrix), [], []
     for i, row in enumerate(matrix):
         largest = max(entry.size() for entry in row)
         if not largest:
             return None
-        scale = (1 << p) / largest
-        unit = [(int(scale) if i == j else 0, 0) for j in range(n)]
+        scales.append(Fraction(2) ** (largest.denominator.bit_length() - largest.numerator.bit_length()))
+        scale = scales[-1] * (1 << p)
+        unit = [(int(i == j) << p, 0) for j in range(n)]
         rows.append([*((int(scale * entry.re), int(scale * entry.im)) for entry in row), *unit])
     for column in range(n):
         best = max(range(column, n), key=lambda i: abs(rows[i][column][0]) + abs(rows[i][column][1]))
@@ -2118,7 +2130,10 @@ def near_inverse(matrix: Sequence[Sequence[Gaussian]], p: int) -> list[list[Gaus
             if i != column and (c or d):
                 pairs = zip(rows[i], rows[column], strict=True)
                 rows[i] = [(a - (c * x - d * y >> p), b - (c * y + d * x >> p)) for (a, b), (x, y) in pairs]
-    return [[Gaussian(Fraction(a, 1 << p), Fraction(b, 1 << p)) for a, b in row[n:]] for row in rows]
+    return [
+        [Gaussian(scale * a / (1 << p), scale * b / (1 << p)) for scale, (a, b) in zip(scales, row[n:], strict=True)]
+        for row in rows
+    ]
 
 
 def narrowed(system: System, box: Box, p: int) -> Box | None:
@@ -2141,13 +2156,23 @@ def narrowed(system: System, box: Box, p: int) -> Box | None:
 def is_nearest(system: System, box: Box) -> bool:
     """Whether the solution is within 1/2 + 2^-20 units of the centre, a unit being a quarter of the radius."""
     limits = [r / 4 * (Fraction(1, 2) + Fraction(1, 1 << 20)) for r in box.radius]
-    for more in (40, 160, 640):  # a coordinate that is very large needs finer boxes for the others
-        finer = narrowed(system, box, min(box.radius).denominator.bit_length() + more)
+    for p in doublings(min(box.radius).denominator.bit_length() + 40):
+        finer = narrowed(system, box, p)
         if finer is not None:
-            gaps = [a - b for a, b in zip(finer.centre, box.centre, strict=True)]
-            spans = zip(gaps, finer.radius, limits, strict=True)
-            return all(max(abs(gap.re), abs(gap.im)) + r <= limit for gap, r, limit in spans)
+            gaps = [(a - b).largest() for a, b in zip(finer.centre, box.centre, strict=True)]
+            if all(gap + r <= limit for gap, r, limit in zip(gaps, finer.radius, limits, strict=True)):
+                return True
+            if any(gap - r > limit for gap, r, limit in zip(gaps, finer.radius, limits, strict=True)):
+                return False
     return False
+
+
+def doublings(p: int) -> Iterator[int]:
+    """Precisions to try, as how many bits are lost depends on the robot: each twice the one before."""
+    yield p
+    while 2 * p <= MAX_PRECISION:
+        p *= 2
+        yield p
 
 
 def check_pairs(others: Sequence[Box]) -> None:
@@ -2171,7 +2196,7 @@ def check_boxes(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
         flat = all(m == NULL for place, m in enumerate(box.centre) if place not in system.places)
         require(flat, f"boxes: {name} leaves the plane of the robot")
         inner = system.restricted(box)
-        proved = any(has_one_solution(system, inner, 2 * box.bits + more) for more in (64, 256, 1024))
+        proved = any(has_one_solution(system, inner, p) for p in doublings(2 * box.bits + 64))
         require(proved, f"boxes: not proved that {name} holds exactly one solution")
         nearest = is_nearest(system, inner)
         require(nearest, f"boxes: the centre of {name} is not the grid point nearest to the solution")

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import TypeAlias
 
 import numpy as np
 from flint import acb, acb_mat, arb
@@ -24,6 +25,10 @@ GRIDS = (28, 44, 72, 120, 200, 340, 600, 1000)
 """Exponents of the grids of e, tried one after another."""
 NEWTON_STEPS = 60
 """Steps after which an approximation that still moves is given up; Newton's method needs half a dozen."""
+SETTLED_BITS = 30
+"""The last step is this many bits smaller than a unit of the grid: which grid point is nearest is then certain."""
+SETTLING_STEPS = 6
+"""Steps near the limit after which a last one that is still too large shows that more bits are needed."""
 SURELY_CONVERGING = arb(2) ** -20
 """Relative steps as small as this are not damped any more."""
 GREATEST_DAMPING = 1 << 10
@@ -32,6 +37,9 @@ CLEARLY_COMPLEX = 1e-6
 """Imaginary parts, relative to the point, from which a point is not taken for its own conjugate."""
 SAME = 1e-10
 """Points this close to each other, relative to their size, are taken for the same."""
+
+Dyadic: TypeAlias = tuple[tuple[int, int], tuple[int, int]]
+"""Real and imaginary part, each an integer and the exponent of 2 that goes with it."""
 
 
 def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None = None) -> IsolatedSolutions:
@@ -48,11 +56,12 @@ def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None
     left = [_column(point) for point in _without_conjugates(points)]
     found: dict[Box, acb_mat] = {}
     for exponent in GRIDS:
-        limits = (refined(system, point, exponent) for point in left)
-        candidates = {nearest_box(system, point, exponent): point for point in limits if point is not None}
+        limits = [limit for point in left if (limit := refined(system, point, exponent)) is not None]
+        candidates = {nearest_box(system, point, exponent): point for point, is_settled in limits if is_settled}
         good = certified(system, list(candidates))
         proved = {box for box, is_good in zip(candidates, good, strict=True) if is_good and _is_decided(box)}
-        left = [point for box, point in candidates.items() if box not in proved]
+        left = [point for point, is_settled in limits if not is_settled]
+        left += [point for box, point in candidates.items() if box not in proved]
         found |= {box: candidates[box] for box in candidates if box in proved}
         # Boxes that meet hold one solution or two; a finer grid tells.
         doubtful = _meeting(list(found))
@@ -116,15 +125,17 @@ def _column(point: Sequence[complex]) -> acb_mat:
     return acb_mat(len(point), 1, [acb(float(value.real), float(value.imag)) for value in point])
 
 
-def refined(system: ChartSystem, point: Balls, exponent: int) -> Balls | None:
-    """The limit of Newton's method, well within the grid of the exponent; None without convergence.
+def refined(system: ChartSystem, point: Balls, exponent: int) -> tuple[Balls, bool] | None:
+    """The limit of Newton's method, and whether it is known far better than the grid tells; None without convergence.
 
     Steps are halved until the next one, with the same matrix, is smaller (Deuflhard's natural monotonicity test): the
     iteration then follows the path from the point to its solution, however small the basin of the full method is.
     """
-    with working_precision(2 * exponent + GUARD_BITS):
+    large = max(_exponent(_dyadic(value)) for value in point.entries())
+    with working_precision(2 * exponent + GUARD_BITS + max(0, large - exponent)):
         jacobian = system.jacobians(point)[0]
         values = system.values(jacobian, point)
+        near = 0
         for _ in range(NEWTON_STEPS):
             step = _approximate(jacobian, values)
             if step is None:
@@ -134,7 +145,9 @@ def refined(system: ChartSystem, point: Balls, exponent: int) -> Balls | None:
                 moved = middle(point - step / damping)
                 relative = length / (damping * _size(moved))
                 if damping == 1 and relative < arb(2) ** -(exponent + 8):
-                    return moved
+                    near += 1
+                    if (is_settled := _is_settled(system, step, moved, exponent)) or near == SETTLING_STEPS:
+                        return moved, is_settled
                 matrix = system.jacobians(moved)[0]
                 values = system.values(matrix, moved)
                 if relative < SURELY_CONVERGING:
@@ -147,6 +160,24 @@ def refined(system: ChartSystem, point: Balls, exponent: int) -> Balls | None:
                     return None
             point, jacobian = moved, matrix
     return None
+
+
+def _is_settled(system: ChartSystem, step: Balls, point: Balls, exponent: int) -> bool:
+    """Whether a step is far smaller than the units of the grids that the point will be rounded to."""
+    exponents = _grids(system, [_dyadic(value) for value in point.entries()], exponent)
+    return all(
+        abs(value).mid() < arb(2) ** -(exponents[index // 4] + SETTLED_BITS)
+        for index, value in zip(system.support, step.entries(), strict=True)
+    )
+
+
+def _grids(system: ChartSystem, values: Sequence[Dyadic], exponent: int) -> tuple[int, int]:
+    """The exponents of the grids of e and f: that of f is coarser where f is larger."""
+    halves = [
+        max(_exponent(value) for index, value in zip(system.support, values, strict=True) if index // 4 == half)
+        for half in (0, 1)
+    ]
+    return exponent, max(0, exponent - max(0, halves[1] - halves[0]))
 
 
 def _approximate(jacobian: Balls, values: Balls) -> Balls | None:
@@ -165,8 +196,7 @@ def nearest_box(system: ChartSystem, point: acb_mat, exponent: int) -> Box:
     """The box around the grid point nearest to a point; of it and its conjugate, the one whose first coordinate that is
     not real has a positive imaginary part."""
     values = {index: _dyadic(value) for index, value in zip(system.support, point.entries(), strict=True)}
-    sizes = [max(_exponent(values[i]) for i in half if i in values) for half in (range(4), range(4, 8))]
-    exponents = (exponent, max(0, exponent - max(0, sizes[1] - sizes[0])))
+    exponents = _grids(system, list(values.values()), exponent)
     centre = []
     for index in range(8):
         real, imaginary = values.get(index, ((0, 0), (0, 0)))
@@ -175,8 +205,8 @@ def nearest_box(system: ChartSystem, point: acb_mat, exponent: int) -> Box:
     return Box(exponents, tuple((real, sign * imaginary) for real, imaginary in centre))
 
 
-def _dyadic(value: acb) -> tuple[tuple[int, int], tuple[int, int]]:
-    """The midpoints of real and imaginary part, exactly: each an integer and the exponent of 2 that goes with it."""
+def _dyadic(value: acb) -> Dyadic:
+    """The midpoints of real and imaginary part, exactly."""
     parts = [part.mid().man_exp() for part in (value.real, value.imag)]
     real, imaginary = [(int(mantissa), int(exponent)) for mantissa, exponent in parts]
     return real, imaginary

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
 
@@ -31,6 +31,8 @@ Balls: TypeAlias = Any
 
 GUARD_BITS = 64
 """A box on the grid 2^-k is tested with 2 k + 64 bits: enough unless the matrix is too ill-conditioned for it."""
+ROOM: Final = 2
+"""Boxes must be mapped into what is this many times smaller: checkers round otherwise, and need some room."""
 
 
 class ChartSystem:
@@ -130,8 +132,8 @@ def _proved(system: ChartSystem, boxes: Sequence[Box]) -> list[bool]:
     at_centres = system.jacobians(columns(centres))
     at_balls = system.jacobians(columns(balls))
     return [
-        _maps_into_itself(system, *parts) and _is_motion(system, ball)
-        for ball, *parts in zip(balls, boxes, centres, spreads, at_centres, at_balls, strict=True)
+        _maps_into_itself(system, box, centre, spread, *at) and _is_motion(system, centre + ROOM * spread)
+        for box, centre, spread, *at in zip(boxes, centres, spreads, at_centres, at_balls, strict=True)
     ]
 
 
@@ -166,11 +168,11 @@ def _spread(system: ChartSystem, box: Box) -> Balls:
 def _maps_into_itself(
     system: ChartSystem, box: Box, centre: Balls, spread: Balls, at_centre: Balls, at_ball: Balls
 ) -> bool:
-    """Whether K(X) - m lies in the interior of the box moved to 0."""
+    """Whether K(X) - m lies in the interior of the box moved to 0, with room to spare."""
     image = krawczyk_image(system, centre, spread, at_centre, at_ball)
     if image is None:
         return False
-    reaches = [_reach(box, index) for index in (0, 4)]
+    reaches = [_reach(box, index) / ROOM for index in (0, 4)]
     for value, index in zip(image.entries(), system.support, strict=True):
         reach = reaches[index // 4]
         if not (abs(value.real) < reach and abs(value.imag) < reach):
@@ -192,7 +194,7 @@ def krawczyk_image(system: ChartSystem, centre: Balls, spread: Balls, at_centre:
 
 
 def _is_motion(system: ChartSystem, ball: acb_mat) -> bool:
-    """Whether N(e) is not 0 anywhere in the box."""
+    """Whether N(e) is not 0 anywhere in a column of balls."""
     metric = system.problem.metric
     norm: arb | acb = arb(0)
     for entry, index in zip(ball.entries(), system.support, strict=True):

@@ -69,8 +69,10 @@ class _Enclosures:
         if isolated is not None:  # also if a representation of witnesses stands beside it
             equations = Equations(self._document.legs, metric, isolated.chart)
             for index in indices:
-                point = narrowed(equations, isolated.real[index], precision)
-                yield ordinary_coordinates(point[:4], point[4:], metric, precision)
+                bits = precision
+                while (point := narrowed(equations, isolated.real[index], bits)) is None:
+                    bits *= 2  # in a box that was proved this ends
+                yield ordinary_coordinates(point[:4], point[4:], metric, bits)
         elif representation is not None:
             roots = real_root_enclosures(representation.eliminant // representation.eliminant.content(), precision)
             for index in indices:

@@ -20,16 +20,16 @@ from typing import Final, TypeAlias
 from flint import acb, acb_mat, arb, arb_mat, ctx, fmpz_mat
 
 from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
-from pkm_exact.certify.checker.verdict import rejected
+from pkm_exact.certify.checker.verdict import MAX_PRECISION, rejected
 
 REACH: Final = 4
 """A coordinate differs from the centre by at most 4 units of its grid, real and imaginary parts each."""
 NEAREST: Final = arb(1) / 2 + arb(2) ** -20
 """A centre is no farther from the solution than this, in units of its grid."""
-PRECISIONS: Final = (64, 256, 1024)
-"""Bits beyond twice the exponents of a box that are tried."""
 NARROWINGS: Final = 32
-"""Times that an enclosure is narrowed before it counts as stuck; the width is about squared each time."""
+"""Times that an enclosure is narrowed at one precision; the width is about squared each time."""
+GUARD: Final = 64
+"""Bits beyond twice those of a box that are tried first; then twice as many, as long as they do not suffice."""
 
 Parts: TypeAlias = tuple[int, int]
 
@@ -138,7 +138,7 @@ def check_isolated(isolated: Isolated, legs: Sequence[Leg], metric: Metric) -> I
     for kind, number, box in numbered:
         if any(box.centre[k] != (0, 0) for k in range(8) if k not in equations.kept):
             raise rejected(f"boxes: {kind} box {number} leaves the plane of the robot")
-        if not any(_is_proved(equations, box, extra) for extra in PRECISIONS):
+        if not any(_is_proved(equations, box, bits) for bits in _precisions(box)):
             raise rejected(f"boxes: not proved that {kind} box {number} holds exactly one solution")
         if not _is_nearest(equations, box):
             raise rejected(f"boxes: the centre of {kind} box {number} is not the grid point nearest to the solution")
@@ -180,10 +180,19 @@ def _place(equations: Equations, box: Box) -> tuple[acb_mat, acb_mat]:
     return acb_mat(size, 1, m), acb_mat(size, 1, [acb(ball, arb(0) if box.real else ball) for ball in balls])
 
 
-def _is_proved(equations: Equations, box: Box, extra: int) -> bool:
-    """Whether K maps the box into its interior, and N(e) is not 0 in it."""
+def _precisions(box: Box) -> Iterator[int]:
+    """Precisions to try: how many bits are lost depends on the robot."""
     sizes = [abs(part).bit_length() for parts in box.centre for part in parts]
-    with ctx.workprec(2 * max(*box.exponents, *sizes) + extra):
+    bits = 2 * max(*box.exponents, *sizes) + GUARD
+    yield bits
+    while 2 * bits <= MAX_PRECISION:
+        bits *= 2
+        yield bits
+
+
+def _is_proved(equations: Equations, box: Box, bits: int) -> bool:
+    """Whether K maps the box into its interior, and N(e) is not 0 in it."""
+    with ctx.workprec(bits):
         m, spread = _place(equations, box)
         image = equations.image(m, spread)
         if image is None or equations.norm(m + spread).contains(0):
@@ -197,25 +206,28 @@ def _is_proved(equations: Equations, box: Box, extra: int) -> bool:
 def _is_nearest(equations: Equations, box: Box) -> bool:
     """Whether the centre is the grid point nearest to the solution in a box that was proved."""
     reaches = _reaches(equations, box)
-    bits = 2 * max(box.exponents) + PRECISIONS[0]
-    for image, m in _images(equations, box, bits):
-        with ctx.workprec(bits):
-            centre, _ = _place(equations, box)
-            offsets = [
-                abs(part) * (REACH / reach)
-                for entry, reach in zip((m - centre + image).entries(), reaches, strict=True)
-                for part in (entry.real, entry.imag)
-            ]
-        if all(offset < NEAREST for offset in offsets):
-            return True
-        if any(offset > NEAREST for offset in offsets):
-            return False
+    for bits in _precisions(box):
+        for image, m in _images(equations, box, bits):
+            with ctx.workprec(bits):
+                centre, _ = _place(equations, box)
+                offsets = [
+                    abs(part) * (REACH / reach)
+                    for entry, reach in zip((m - centre + image).entries(), reaches, strict=True)
+                    for part in (entry.real, entry.imag)
+                ]
+            if all(offset < NEAREST for offset in offsets):
+                return True
+            if any(offset > NEAREST for offset in offsets):
+                return False
     return False
 
 
-def narrowed(equations: Equations, box: Box, precision: int) -> list[arb]:
-    """An enclosure of the solution in a real box that was proved, to about ``precision`` bits: all eight (e, f)."""
-    goal, bits = arb(2) ** -precision, 2 * precision + PRECISIONS[0]
+def narrowed(equations: Equations, box: Box, precision: int) -> list[arb] | None:
+    """An enclosure of the solution in a real box that was proved, to about ``precision`` bits: all eight (e, f).
+
+    None if too many bits are lost on the way; more of them will serve.
+    """
+    goal, bits = arb(2) ** -precision, 2 * precision + GUARD
     for image, m in _images(equations, box, bits):
         with ctx.workprec(bits):
             x = (m + image).entries()
@@ -224,11 +236,11 @@ def narrowed(equations: Equations, box: Box, precision: int) -> list[arb]:
             for k, entry in zip(equations.kept, x, strict=True):
                 found[k] = entry.real
             return found
-    raise rejected("boxes: the solution in a box cannot be enclosed narrowly enough")
+    return None
 
 
 def _images(equations: Equations, box: Box, bits: int) -> Iterator[tuple[acb_mat, acb_mat]]:
-    """K(X) - m and m, for the box and then for one enclosure K(X) after another, which holds the solution."""
+    """K(X) - m and m, for the box and then for one enclosure K(X) after another, as long as they get narrower."""
     with ctx.workprec(bits):
         m, spread = _place(equations, box)
     for _ in range(NARROWINGS):
@@ -241,6 +253,8 @@ def _images(equations: Equations, box: Box, bits: int) -> Iterator[tuple[acb_mat
             x = m + image
             m = _middle(x)
             balls = [acb(arb(0, v.real.rad()), arb(0) if box.real else arb(0, v.imag.rad())) for v in x.entries()]
+            if not any(new.real.rad() < old.real.rad() for new, old in zip(balls, spread.entries(), strict=True)):
+                return
             spread = acb_mat(x.nrows(), 1, balls)
 
 

@@ -1,9 +1,8 @@
 """The real poses: their number, isolating intervals of the parameter, boxes. Every interval is computed anew.
 
 Real solutions are those with a real parameter, since (e, f) are rational functions of t over Q and t a linear form in
-(e, f). Arb encloses every complex root in a box of its own. A root whose box, reflected in the real axis, meets no
-other box is its own conjugate, hence real; each real root is confirmed by an exact change of sign. The grid cell that
-a coordinate lies in does not depend on a precision: there is one right answer, and the certificate must have it.
+(e, f). The rule of Descartes isolates the real roots, exactly (``descartes``). The grid cell that a coordinate lies in
+does not depend on a precision: there is one right answer, and the certificate must have it.
 """
 
 from __future__ import annotations
@@ -12,8 +11,9 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
 from typing import Final, TypeAlias
 
-from flint import acb_poly, arb, ctx, fmpq, fmpz, fmpz_poly
+from flint import arb, ctx, fmpq, fmpz, fmpz_poly
 
+from pkm_exact.certify.checker.descartes import RealRoot, dyadic, real_roots
 from pkm_exact.certify.checker.document import Ends, ListedPose, Representation
 from pkm_exact.certify.checker.krawczyk import Equations, Isolated, narrowed
 from pkm_exact.certify.checker.solutions import primitive_part
@@ -25,8 +25,6 @@ Cell: TypeAlias = tuple[fmpz, fmpz]
 
 PARAMETER_EXPONENT: Final = 32
 """The parameter's grid is at least this fine: 2^-32."""
-ISOLATING_PRECISION: Final = 1 << 12
-"""Roots that are not isolated at this precision, in bits, are too close; more serves refinement only."""
 NEAR: Final = 32
 """A coordinate closer than 2^-32 cells to a grid point gets the two cells around it."""
 ENCLOSED: Final = 40
@@ -40,10 +38,11 @@ def check_real_poses(
 ) -> Iterator[str]:
     """The poses listed are all the real ones, each with the intervals that it must have, no two in the same box."""
     h = primitive_part(representation.eliminant)
-    cells, fineness = _parameter_cells(h)
+    roots = real_roots(h)
+    cells, fineness = _parameter_cells(h, roots)
     if len(poses) != len(cells):
         raise rejected(f"real poses: {len(poses)} listed, the eliminant has {len(cells)} real roots")
-    boxes = root_boxes(representation, metric, exponent)
+    boxes = root_boxes(representation, metric, exponent, roots)
     order = in_order(boxes)
     for number, (pose, root) in enumerate(zip(poses, order, strict=True), 1):
         if pose.parameter != _ends(*cells[root], fineness):
@@ -52,13 +51,13 @@ def check_real_poses(
     yield from _check_boxes([boxes[root] for root in order], exponent, poses)
 
 
-def root_boxes(representation: Representation, metric: Metric, exponent: int) -> list[list[Cell]]:
+def root_boxes(
+    representation: Representation, metric: Metric, exponent: int, roots: Sequence[RealRoot]
+) -> list[list[Cell]]:
     """The boxes of the real solutions, in the order of the roots."""
-    h = primitive_part(representation.eliminant)
 
-    def enclose(precision: int) -> list[list[arb]] | None:
-        roots = _real_roots(h, precision)
-        return None if roots is None else [_at_root(representation, metric, root, precision) for root in roots]
+    def enclose(precision: int) -> list[list[arb]]:
+        return [_at_root(representation, metric, root.ball(precision), precision) for root in roots]
 
     return _box_cells(enclose, exponent)
 
@@ -79,9 +78,12 @@ def check_isolated_poses(
     yield f"real poses: {len(poses)}, one in each real box"
     equations = Equations(legs, metric, isolated.chart)
 
-    def enclose(precision: int) -> list[list[arb]]:
+    def enclose(precision: int) -> list[list[arb]] | None:
         points = [narrowed(equations, box, precision) for box in isolated.real]
-        return [ordinary_coordinates(point[:4], point[4:], metric, precision) for point in points]
+        found = [point for point in points if point is not None]
+        if len(found) < len(points):
+            return None
+        return [ordinary_coordinates(point[:4], point[4:], metric, precision) for point in found]
 
     boxes = _box_cells(enclose, exponent)
     if in_order(boxes) != list(range(len(boxes))):
@@ -106,61 +108,19 @@ def _ends(low: fmpz, high: fmpz, exponent: int) -> Ends:
     return str(fmpq(low, scale)), str(fmpq(high, scale))
 
 
-def _real_roots(h: fmpz_poly, precision: int) -> list[arb] | None:
-    """Enclosures of all real roots of a squarefree polynomial, increasing; None if the precision does not suffice."""
-    if precision > MAX_PRECISION:
-        raise too_large(f"real poses: the roots are not told apart by {MAX_PRECISION} bits")
-    with ctx.workprec(precision):
-        try:
-            roots = acb_poly(h).roots(arb(2) ** (-precision // 2), maxprec=2 * precision)
-        except ValueError:  # python-flint's way to say that the roots are not isolated at this precision
-            return None
-        touching = [root for root in roots if root.imag.contains(0)]
-        for root in touching:
-            if sum(root.conjugate().overlaps(other) for other in roots) != 1:
-                return None
-        return sorted((root.real for root in touching), key=lambda root: fmpq(*_dyadic(root.mid())))
-
-
-def _dyadic(value: arb) -> tuple[fmpz, fmpz]:
-    """Numerator and denominator of an exact dyadic number."""
-    mantissa, exponent = value.man_exp()
-    power = int(exponent)
-    return (mantissa << power, fmpz(1)) if power >= 0 else (mantissa, fmpz(1) << -power)
-
-
 def _scaled(ball: arb, exponent: int) -> tuple[fmpq, fmpq]:
     """Midpoint and radius of an enclosure, times 2^exponent, exactly."""
     scale = fmpz(1) << exponent
-    return fmpq(*_dyadic(ball.mid())) * scale, fmpq(*_dyadic(ball.rad())) * scale
+    return fmpq(*dyadic(ball.mid())) * scale, fmpq(*dyadic(ball.rad())) * scale
 
 
-def _parameter_cells(h: fmpz_poly) -> tuple[list[Cell], int]:
+def _parameter_cells(h: fmpz_poly, roots: Sequence[RealRoot]) -> tuple[list[Cell], int]:
     """The isolating intervals on the coarsest grid from 2^-32 on where each holds one root only, and its exponent."""
-    precision, exponent = 256, PARAMETER_EXPONENT
-    while exponent <= MAX_BOX_EXPONENT:
-        roots = _real_roots(h, precision)
-        if roots is None and precision >= ISOLATING_PRECISION:
-            raise too_large(f"real poses: the roots are not told apart by {precision} bits")
-        cells = [None] if roots is None else [_root_cell(h, root, exponent) for root in roots]
-        decided = [cell for cell in cells if cell is not None]
-        if len(decided) < len(cells):
-            precision *= 2
-        elif len(set(decided)) == len(decided) and all(_holds_one_root(h, cell, exponent) for cell in decided):
-            return decided, exponent
-        else:
-            exponent += 1
+    for exponent in range(PARAMETER_EXPONENT, MAX_BOX_EXPONENT + 1):
+        cells = [root.cell(exponent) for root in roots]
+        if len(set(cells)) == len(cells) and all(_holds_one_root(h, cell, exponent) for cell in cells):
+            return cells, exponent
     raise too_large(f"real poses: the roots are not told apart by a grid of 2^-{MAX_BOX_EXPONENT}")
-
-
-def _root_cell(h: fmpz_poly, root: arb, exponent: int) -> Cell | None:
-    """(m, m) if the enclosed root is m / 2^exponent, else (m, m + 1) for the cell around it; None if undecided."""
-    middle, radius = _scaled(root, exponent)
-    first, last = (middle - radius).floor(), (middle + radius).floor()
-    for m in (first, last):
-        if abs(m - middle) <= radius and h(fmpq(m, fmpz(1) << exponent)) == 0:
-            return m, m
-    return (first, first + 1) if first == last and first != middle - radius else None
 
 
 def _holds_one_root(h: fmpz_poly, cell: Cell, exponent: int) -> bool:

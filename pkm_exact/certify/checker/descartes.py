@@ -1,0 +1,145 @@
+"""The real roots of an integer polynomial, each in an interval of its own, by the rule of Descartes: all exact.
+
+The number of roots of a polynomial q of degree D between 0 and 1 is at most the number of changes of sign in the
+coefficients of (1 + x)^D q(1 / (1 + x)), and differs from it by an even number. So 0 and 1 are certain; intervals with
+more are halved (Collins and Akritas 1976). Halving ends if no root is multiple. An interval with one root is narrowed
+by Newton's operator in ball arithmetic, X -> c - h(c) / h'(X), which loses no root, and by exact signs otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Final
+
+from flint import arb, ctx, fmpq, fmpz, fmpz_poly
+
+from pkm_exact.certify.checker.verdict import too_large
+
+MAX_ISOLATION: Final = 1 << 12
+"""Roots that are not apart on the grid of this exponent are too close; those above 2 to it, too large."""
+MAX_WORK: Final = 1 << 41
+"""Squares of the degree times bits of coefficients, over all intervals that are looked at."""
+SHIFT: Final = fmpz_poly([1, 1])
+GUARD: Final = 64
+"""Bits beyond those asked for that Newton's operator begins with."""
+
+
+class RealRoot:
+    """A root of a squarefree h: ``low`` itself if that is ``high``, otherwise the only one strictly between them."""
+
+    def __init__(self, h: fmpz_poly, low: fmpq, high: fmpq) -> None:
+        self.low = low
+        self.high = high
+        self._h = h
+        self._slope = h.derivative()
+        self._rises = bool((h(low) or self._slope(low)) < 0)
+        self._bits = GUARD
+
+    def narrow(self, bits: int) -> None:
+        """Make the interval no wider than 2^-bits."""
+        width = fmpq(1, fmpz(1) << bits)
+        self._bits = max(self._bits, bits + GUARD)
+        while self.high - self.low > width:
+            if not self._newton():
+                self._split((self.low + self.high) / 2)
+
+    def ball(self, bits: int) -> arb:
+        """An enclosure with a radius of about 2^-bits."""
+        self.narrow(bits)
+        with ctx.workprec(2 * self._bits):
+            return arb(self.low).union(arb(self.high))
+
+    def cell(self, exponent: int) -> tuple[fmpz, fmpz]:
+        """(m, m) if the root is m / 2^exponent, else (m, m + 1) where it lies between m and m + 1, over 2^exponent."""
+        self.narrow(exponent + 1)
+        scale = fmpz(1) << exponent
+        point = (self.high * scale).floor()
+        if self.low * scale < point < self.high * scale:
+            self._split(fmpq(point, scale))
+        first = (self.low * scale).floor()
+        return first, first + (self.low != self.high or first != self.low * scale)
+
+    def _newton(self) -> bool:
+        """Whether Newton's operator made the interval half as wide, or narrower."""
+        with ctx.workprec(self._bits):
+            place = arb(self.low).union(arb(self.high))
+            middle, slope = place.mid(), self._slope(place)
+            value, steepness = self._h(middle), abs(self._slope(middle))
+            if not 16 * value.rad() < steepness * place.rad():  # rounding, not the width, is in the way
+                self._bits *= 2
+            if slope.contains(0):
+                return False
+            image = middle - value / slope
+        centre, reach = fmpq(*dyadic(image.mid())), 2 * fmpq(*dyadic(image.rad()))
+        if 4 * reach > self.high - self.low:
+            return False
+        self.low, self.high = max(self.low, centre - reach), min(self.high, centre + reach)
+        return True
+
+    def _split(self, place: fmpq) -> None:
+        """Cut the interval at a place within it."""
+        value = self._h(place)
+        if value == 0:
+            self.low = self.high = place
+        elif (value < 0) == self._rises:
+            self.low = place
+        else:
+            self.high = place
+
+
+def dyadic(value: arb) -> tuple[fmpz, fmpz]:
+    """Numerator and denominator of an exact dyadic number."""
+    mantissa, exponent = value.man_exp()
+    power = int(exponent)
+    return (mantissa << power, fmpz(1)) if power >= 0 else (mantissa, fmpz(1) << -power)
+
+
+def real_roots(h: fmpz_poly) -> list[RealRoot]:
+    """All real roots of a squarefree polynomial of positive degree, increasing."""
+    return sorted((RealRoot(h, *ends) for ends in _isolated(h)), key=lambda root: (root.low, root.high))
+
+
+def _isolated(h: fmpz_poly) -> Iterator[tuple[fmpq, fmpq]]:
+    """The ends of an interval around each root, in any order; both are the root if it was met at an end."""
+    bound = _bound(h)
+    if bound > MAX_ISOLATION:
+        raise too_large(f"real poses: a root of the eliminant is above 2^{MAX_ISOLATION}")
+    if h[0] == 0:
+        yield fmpq(0), fmpq(0)
+    # (m, k, q) stands for the interval (m, m + 1) / 2^k, and h on it for q on (0, 1), up to a factor.
+    pending = [(m, -bound, h(fmpz_poly([m << bound, 1 << bound]))) for m in (-1, 0)]
+    work = 0
+    while pending:
+        m, k, q = pending.pop()
+        work += int(q.degree()) ** 2 * max(int(abs(value)).bit_length() for value in q.coeffs())
+        if work > MAX_WORK:
+            raise too_large("real poses: to tell the roots apart takes too long")
+        changes = _changes(q)
+        if changes == 1:
+            yield _grid(m, k), _grid(m + 1, k)
+        elif changes:
+            if k >= MAX_ISOLATION:
+                raise too_large(f"real poses: the roots are not told apart by {MAX_ISOLATION} bits")
+            left = fmpz_poly([value << place for place, value in enumerate(reversed(q.coeffs()))][::-1])
+            right = left(SHIFT)
+            if right[0] == 0:
+                yield _grid(2 * m + 1, k + 1), _grid(2 * m + 1, k + 1)
+            pending += [(2 * m, k + 1, left), (2 * m + 1, k + 1, right)]
+
+
+def _bound(h: fmpz_poly) -> int:
+    """An exponent of 2 above all roots (Fujiwara 1916)."""
+    *lower, lead = (int(abs(value)).bit_length() for value in h.coeffs())
+    degree = len(lower)
+    return max([0, *(2 + (size - (lead - 1)) // (degree - power) for power, size in enumerate(lower))])
+
+
+def _changes(q: fmpz_poly) -> int:
+    """The changes of sign that bound the number of roots between 0 and 1."""
+    signs = [value > 0 for value in fmpz_poly(q.coeffs()[::-1])(SHIFT).coeffs() if value != 0]
+    return sum(one != other for one, other in pairwise(signs))
+
+
+def _grid(m: int, k: int) -> fmpq:
+    return fmpq(m, fmpz(1) << k) if k >= 0 else fmpq(fmpz(m) << -k)

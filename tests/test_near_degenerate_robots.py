@@ -1,0 +1,129 @@
+"""Robots close to degenerate ones: whatever is written of them, both checkers accept, with the same words."""
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import pytest
+from certificate_tools import both, both_resealed, last_line, with_entry
+from flint import fmpq, fmpz_poly
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pkm_exact import Robot, certificate
+from pkm_exact.certify.build import canonical_bytes, sealed
+from pkm_exact.certify.checker.descartes import dyadic, real_roots
+from pkm_exact.certify.checker.verdict import Refusal
+from pkm_exact.engine import solve
+from pkm_exact.geometry.reader import read_robot
+from pkm_exact.numeric_engine import solve_krawczyk
+
+CASES = Path(__file__).parent / "cases"
+
+
+@pytest.mark.parametrize(
+    ("name", "solver"),
+    [
+        ("fast_rejects", solve_krawczyk),
+        ("fast_rejects", solve),
+        ("pure_rejects_spatial", solve_krawczyk),
+        ("fast_checker_gives_up", solve),
+        ("fast_checker_gives_up", solve_krawczyk),
+    ],
+)
+def test_both_checkers_accept_what_is_written(name: str, solver: Any) -> None:
+    robot = read_robot(CASES / f"{name}.toml")
+    configuration = robot.configuration()
+    solution = solver(robot.problem(configuration))
+    answer = both(canonical_bytes(sealed(certificate(robot, configuration.name, solution))))
+    assert (answer.status, answer.lines[-1].partition(":")[0]) == ("accepted", "complete")
+
+
+# The grid point nearest to a solution
+
+UNIT = Fraction(1, 1 << 28)
+HAIR = Fraction(1, 1 << 500)
+
+
+def _beside_a_grid_point(distance: Fraction) -> dict[str, Any]:
+    """Boxes of a planar robot with a solution at f1 = 2^-28 (n + distance), in the chart 3 e0 + e3 = 1, f1 as n."""
+    position = 3 * UNIT * (12345 + distance)
+    base = ((Fraction(0), Fraction(0)), (Fraction(5), Fraction(1)), (Fraction(2), Fraction(4)))
+    platform = ((Fraction(-1), Fraction(-1)), (Fraction(2), Fraction(0)), (Fraction(0), Fraction(3)))
+    squares = [(position + b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 for a, b in zip(base, platform, strict=True)]
+    robot = Robot("beside a grid point", "3-RPR", "m", "made up", base, platform)
+    content = certificate(robot, None, solve_krawczyk(robot.problem(squares)))
+    boxes = content["krawczyk"]
+    assert boxes["chart"] == [3, 0, 0, 1]
+    here = [place for place, box in enumerate(boxes["real"]) if abs(int(box["centre"][5], 16) - 12345) <= 1]
+    (place,) = here
+    assert boxes["real"][place]["exponents"] == [28, 28]
+    return with_entry(content, ("krawczyk", "real", place, "centre", 5), hex(12345))
+
+
+@pytest.mark.parametrize(
+    ("distance", "is_nearest"),
+    [
+        (Fraction(0), True),
+        (Fraction(1, 2), True),
+        (Fraction(1, 2) + Fraction(1, 1 << 20) - HAIR, True),
+        (Fraction(1, 2) + Fraction(1, 1 << 20) + HAIR, False),
+        (-Fraction(1, 2) - Fraction(1, 1 << 20) + HAIR, True),
+        (-Fraction(1, 2) - Fraction(1, 1 << 20) - HAIR, False),
+        (Fraction(1), False),
+    ],
+)
+def test_a_centre_is_the_nearest_grid_point_however_close_another_is(distance: Fraction, is_nearest: bool) -> None:
+    answer = both_resealed(_beside_a_grid_point(distance))
+    if is_nearest:
+        assert answer.status == "accepted", last_line(answer)
+    else:
+        assert answer.status == "rejected"
+        assert last_line(answer).endswith("is not the grid point nearest to the solution")
+
+
+# Real roots by the rule of Descartes
+
+
+def _product(roots: list[Fraction]) -> fmpz_poly:
+    h = fmpz_poly([1])
+    for root in roots:
+        h *= fmpz_poly([-root.numerator, root.denominator])
+    return h
+
+
+rationals = st.fractions(-30, 30, max_denominator=40) | st.builds(
+    lambda sign, power: Fraction(sign) * Fraction(2) ** power, st.sampled_from((-1, 1)), st.integers(-300, 300)
+)
+
+
+@given(st.lists(rationals, min_size=1, max_size=5, unique=True), st.integers(0, 80))
+def test_every_real_root_is_enclosed_once(roots: list[Fraction], bits: int) -> None:
+    """Beside them, complex ones: they are 2^-50 from a real number."""
+    found = real_roots(_product(roots) * fmpz_poly([(1 << 100) + 1, -(1 << 101), 1 << 100]))
+    assert len(found) == len(roots)
+    for root, value in zip(found, sorted(roots), strict=True):
+        exact = fmpq(value.numerator, value.denominator)
+        assert root.low == exact == root.high or root.low < exact < root.high
+        ball = root.ball(bits)
+        assert abs(exact - fmpq(*dyadic(ball.mid()))) <= fmpq(*dyadic(ball.rad()))
+        assert root.high - root.low <= fmpq(1, 1 << bits)
+        whole = value * (1 << bits)
+        assert root.cell(bits) == (whole.__floor__(), whole.__floor__() + (whole.denominator > 1))
+
+
+def test_roots_far_apart_in_size_and_close_to_each_other() -> None:
+    tiny = Fraction(1, 10**61)
+    roots = [Fraction(10**123), Fraction(1, 3), Fraction(1, 3) + tiny, -tiny, Fraction(0), Fraction(-(10**40))]
+    found = real_roots(_product(roots))
+    assert [root.cell(0)[0] for root in found] == [value.__floor__() for value in sorted(roots)]
+    with pytest.raises(Refusal, match="above 2"):
+        real_roots(_product([Fraction(2**5000)]))
+
+
+def test_work_on_roots_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
+    h = _product([Fraction(n, 7) for n in range(6)])
+    assert len(real_roots(h)) == 6
+    monkeypatch.setattr("pkm_exact.certify.checker.descartes.MAX_WORK", 1000)
+    with pytest.raises(Refusal, match="too long"):
+        real_roots(h)
