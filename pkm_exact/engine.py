@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import islice
 
 from flint import fmpz_poly
 
@@ -32,7 +31,7 @@ from pkm_exact.poses.self_motion import (
     Mobility,
     SelfMotion,
     TranslationalMotion,
-    extended_problems,
+    extended_problem,
     mobility,
     translational_motion,
 )
@@ -40,9 +39,6 @@ from pkm_exact.poses.singularity import are_isolated, singularity
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Progress, Stages
-
-SELF_MOTION_ATTEMPTS = 2
-"""Lists of further legs tried on a robot that can only move; if its poses are all at infinity, none has a solution."""
 
 
 def solve(
@@ -210,8 +206,10 @@ class _Run:
     def _witnessed(self, bound: Mobility) -> SelfMotion | None:
         """A pose, found by joining legs until finitely many are left, or None if there seems to be none."""
         given = len(self.problem.constraints)
+        # Legs that are the same for every robot, then its own; if its poses are all at infinity, none has a solution.
+        seeds = self.policy.seed, self.policy.seed_for(self.problem.digest, "further legs")
         for count in range(bound.dimension, self.problem.motion.dimension + 1):
-            for extended in islice(extended_problems(self.problem, count, self.policy.seed), SELF_MOTION_ATTEMPTS):
+            for extended in (extended_problem(self.problem, count, seed) for seed in seeds):
                 search = PoseSearch(extended, formulation_codes()[0], self.policy, Stages())
                 start, representation = search.found()
                 if start.count is None:

@@ -1,6 +1,7 @@
 """Data that are built on primes: the answer stays what it is, whatever is special about them modulo some primes."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from pathlib import Path
@@ -12,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from samples import system
 
-from pkm_exact import Robot
+from pkm_exact import Robot, engine
 from pkm_exact.algebra import primes
 from pkm_exact.algebra.exact_basis import exact_basis
 from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError, learn
@@ -221,3 +222,20 @@ def test_more_solutions_than_at_other_primes_are_the_fault_of_a_prime() -> None:
 
     with pytest.raises(UnluckyPrimeError, match="2 solutions at few primes only"):
         lift_by_primes((1,), images(), 1 << 16)
+
+
+def test_further_legs_that_contradict_the_robot_are_drawn_again(monkeypatch: Patch) -> None:
+    seed = Policy().seed
+    problem = planar((*SPECIAL["base joints in one point"][:12], 9, 1, 5))
+    usual, seeds = engine.extended_problem, []
+
+    def extended(given: ForwardProblem, count: int, own: int) -> ForwardProblem:
+        seeds.append(own)
+        if own != seed:
+            return usual(given, count, own)
+        first = given.distances[0]
+        return replace(given, constraints=(*given.constraints, replace(first, length_squared=first.length_squared + 1)))
+
+    monkeypatch.setattr(engine, "extended_problem", extended)
+    assert solve(problem).claim == Claim.POSITIVE_DIMENSIONAL_PROVED
+    assert seeds == [seed, Policy().seed_for(problem.digest, "further legs")]

@@ -19,7 +19,7 @@ planar one on a circle) without turning: every pose (C, R) with |C - d| = l has 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
@@ -176,21 +176,20 @@ def _dependence(problem: ForwardProblem) -> Cause:
     return Cause.SIMILAR_ON_CONIC if similar and conic.rank() < len(base) else Cause.DEPENDENT_LEGS
 
 
-def extended_problems(problem: ForwardProblem, count: int, seed: int) -> Iterator[ForwardProblem]:
-    """The problem with ``count`` further legs, random joints of the size of the robot's own, again and again."""
+def extended_problem(problem: ForwardProblem, count: int, seed: int) -> ForwardProblem:
+    """The problem with ``count`` further legs, random joints of the size of the robot's own."""
     random = Random(seed)
     joints = [*points(problem, Role.BASE_POINT), *points(problem, Role.PLATFORM_POINT)]
     size = 1 + max((abs(value) for joint in joints for value in joint), default=Fraction(1)).__ceil__()
     squares = [found.length_squared for found in problem.constraints if isinstance(found, Distance)]
     square = 1 + max(squares, default=Fraction(size * size)).__ceil__()
-    while True:
-        further = []
-        for _ in range(count):
-            x, y, z, u, v, w = (Fraction(random.randint(-size, size)) for _ in range(6))
-            if problem.motion.is_planar:
-                z = w = Fraction(0)
-            further.append(Distance((x, y, z), (u, v, w), Fraction(random.randint(1, square))))
-        yield replace(problem, constraints=(*problem.constraints, *further))
+    further = []
+    for _ in range(count):
+        x, y, z, u, v, w = (Fraction(random.randint(-size, size)) for _ in range(6))
+        if problem.motion.is_planar:
+            z = w = Fraction(0)
+        further.append(Distance((x, y, z), (u, v, w), Fraction(random.randint(1, square))))
+    return replace(problem, constraints=(*problem.constraints, *further))
 
 
 @dataclass(frozen=True)
