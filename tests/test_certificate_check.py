@@ -12,13 +12,14 @@ from random import Random
 from typing import Any
 
 import pytest
-from certificate_tools import CERTS, NAMES, check_resealed, golden, golden_bytes, last_line
+from certificate_tools import CERTS, NAMES, both, check_resealed, golden, golden_bytes, last_line
 from flint import arb, fmpq, fmpq_mat, fmpz, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
+from samples import model, shipped
 
 import pkm_exact
-from pkm_exact.certify.build import canonical_bytes, sealed
+from pkm_exact.certify.build import canonical_bytes, certificate, sealed
 from pkm_exact.certify.check import Status, Verdict, check_bytes
 from pkm_exact.certify.checker import document, elimination, multiplicity, realposes, solutions, verdict
 from pkm_exact.certify.checker.descartes import real_roots
@@ -26,6 +27,7 @@ from pkm_exact.certify.checker.section import section
 from pkm_exact.certify.checker.study_motion import CYCLIC, Motion, leg_form, leg_lines, motion
 from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.constraints.distance import Distance
+from pkm_exact.engine import solve
 from pkm_exact.formulations.registry import formulation_codes
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.roots.isolation import isolate_real_roots
@@ -530,3 +532,15 @@ def test_any_json_in_place_of_an_entry_gets_a_verdict(data: st.DataObject) -> No
     key = data.draw(st.sampled_from(sorted(content)))
     answer = check_resealed({**content, key: data.draw(values)})
     assert answer.status in tuple(Status)
+
+
+def test_another_grid_gives_another_true_certificate() -> None:
+    """Entries that change together: other bounds throughout, and the same claim."""
+    robot, problem = model("3-rpr-merlet-p"), shipped("3-rpr-merlet-p")
+    widths = (Fraction(1, 10**9), Fraction(1, 10**12))
+    contents = [certificate(robot, "home", solve(problem, width=width)) for width in widths]
+    assert len({content["box_exponent"] for content in contents}) == 2
+    assert contents[0]["poses"][0]["position"] != contents[1]["poses"][0]["position"]
+    assert all(both(canonical_bytes(content)).status == "accepted" for content in contents)
+    claims = {(content["claim"], content["complex_solutions"], content["real_poses"]) for content in contents}
+    assert claims == {("complete", 6, 2)}
