@@ -11,10 +11,16 @@ from collections.abc import Iterator
 
 from pkm_exact.certify.checker.budget import Budget, spending
 from pkm_exact.certify.checker.claims import check_claims
-from pkm_exact.certify.checker.document import Document, read
-from pkm_exact.certify.checker.krawczyk import check_isolated
+from pkm_exact.certify.checker.document import FORMAT, Document, read_document
+from pkm_exact.certify.checker.krawczyk import Equations, check_isolated
+from pkm_exact.certify.checker.mechanism_boxes import MechanismEquations
+from pkm_exact.certify.checker.mechanism_claims import check_mechanism_claims
+from pkm_exact.certify.checker.mechanism_document import VERSION as MECHANISM_VERSION
+from pkm_exact.certify.checker.mechanism_document import MechanismDocument, read_mechanism_document
+from pkm_exact.certify.checker.mechanism_solutions import check_solutions
 from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
 from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
+from pkm_exact.certify.checker.spelling import read_sealed
 from pkm_exact.certify.checker.tolerance_checks import check_tolerances
 from pkm_exact.certify.checker.tolerance_document import OPENING, read_tolerances
 from pkm_exact.certify.checker.verdict import Refusal, Status, Verdict
@@ -55,7 +61,10 @@ def _checks_of(data: bytes) -> Iterator[str]:
     """The content, read at once, and its checks, one after another."""
     if data.startswith(OPENING):
         return check_tolerances(read_tolerances(data))
-    return _checks(read(data))
+    body = read_sealed(data)
+    if body.get("format") == FORMAT and body.get("version") == MECHANISM_VERSION and type(body["version"]) is int:
+        return _mechanism_checks(read_mechanism_document(body))
+    return _checks(read_document(body))
 
 
 def _checks(document: Document) -> Iterator[str]:
@@ -67,8 +76,20 @@ def _checks(document: Document) -> Iterator[str]:
         if document.claim != "positive-dimensional-proved":
             yield from check_real_poses(document.representation, document.metric, document.box_exponent, document.poses)
     if document.isolated is not None:
-        yield from check_isolated(document.isolated, document.legs, document.metric)
-        yield from check_isolated_poses(
-            document.isolated, document.legs, document.metric, document.box_exponent, document.poses
-        )
+        equations = Equations(document.legs, document.metric, document.isolated.chart)
+        yield from check_isolated(document.isolated, equations)
+        yield from check_isolated_poses(document.isolated, equations, document.box_exponent, document.poses)
     yield from check_claims(document)
+
+
+def _mechanism_checks(document: MechanismDocument) -> Iterator[str]:
+    """The same for version 2; witnesses of a self-motion are checked with the claim."""
+    mechanism, exponent = document.mechanism, document.box_exponent
+    if document.representation is not None and document.claim != "positive-dimensional-proved":
+        yield from check_solutions(document.representation, mechanism)
+        yield from check_real_poses(document.representation, mechanism.metric, exponent, document.poses)
+    if document.isolated is not None:
+        equations = MechanismEquations(mechanism, document.isolated.chart)
+        yield from check_isolated(document.isolated, equations)
+        yield from check_isolated_poses(document.isolated, equations, exponent, document.poses)
+    yield from check_mechanism_claims(document)

@@ -122,7 +122,7 @@ def _solutions_listed(document: Document, representation: Representation) -> Ite
         claimed = f"{document.claim} by {document.route or 'no route'}"
         raise rejected(f"claim: {claimed}, but what is proved is {proved.claim} by {proved.route or 'no route'}")
     _check_total(document.complex_solutions, number, proved.total)
-    _check_multiplicities(document.poses, proved)
+    check_listed_multiplicities(document.poses, proved.total is not None, proved.multiple)
     yield _solutions_line(number, document.complex_solutions, proved)
     if proved.route == "refined-bezout":
         yield f"complete: {number} isolated solutions are the degree of the rigid motions, there is no other"
@@ -180,11 +180,13 @@ def _check_total(claimed: int, number: int, proved: int | None) -> None:
         raise rejected(f"complex solutions: {claimed} claimed, {number} distinct ones proved")
 
 
-def _check_multiplicities(poses: Sequence[ListedPose], proved: _Proved) -> None:
-    """Null if they are not all known; otherwise those that were found, and 1 at the others."""
+def check_listed_multiplicities(
+    poses: Sequence[ListedPose], known: bool, multiple: Sequence[tuple[fmpz_poly, int]]
+) -> None:
+    """Null if they are not all known; otherwise those that were found, by factors of h, and 1 at the others."""
     for place, pose in enumerate(poses, 1):
-        here = [multiplicity for factor, multiplicity in proved.multiple if _has_root(factor, pose)]
-        expected = None if proved.total is None else here[0] if here else 1
+        here = [multiplicity for factor, multiplicity in multiple if _has_root(factor, pose)]
+        expected = None if not known else here[0] if here else 1
         if pose.multiplicity != expected:
             raise rejected(f"multiplicity: that of pose {place} differs from what is proved")
 

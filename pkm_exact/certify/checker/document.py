@@ -120,8 +120,12 @@ class Document:
 
 
 def read(data: bytes) -> Document:
-    """The content of a certificate, or a refusal if it has not the shape of one."""
-    body = read_sealed(data)
+    """The content of a certificate of version 1, or a refusal if it has not the shape of one."""
+    return read_document(read_sealed(data))
+
+
+def read_document(body: dict[str, Any]) -> Document:
+    """The content of a certificate whose digest has been looked at."""
     if body.get("format") != FORMAT or type(body.get("version")) is not int or body["version"] != VERSION:
         raise malformed(f"format: not a {FORMAT}, version {VERSION}")
     (
@@ -159,11 +163,11 @@ def read(data: bytes) -> Document:
         complex_solutions=count(complex_solutions, "complex_solutions"),
         distinct_solutions=count(distinct_solutions, "distinct_solutions"),
         real_poses=count(real_poses, "real_poses"),
-        representation=None if representation is None else _representation(representation),
-        elimination=None if elimination is None else items(elimination, "elimination", None, _step),
-        isolated=None if krawczyk is None else _isolated(krawczyk),
+        representation=None if representation is None else read_representation(representation, "representation"),
+        elimination=None if elimination is None else items(elimination, "elimination", None, read_step),
+        isolated=None if krawczyk is None else read_boxes(krawczyk, GREATEST_NUMBER),
         box_exponent=exponent,
-        poses=items(poses, "poses", None, _pose),
+        poses=items(poses, "poses", None, read_pose),
     )
 
 
@@ -198,21 +202,23 @@ def read_lengths_squared(value: Any, number: int) -> tuple[Any, ...]:
     return items(lengths_squared, "configuration.lengths_squared", number, positive)
 
 
-def _representation(value: Any) -> Representation:
-    chart, form, eliminant, quaternion, translation = entries(value, "representation", _REPRESENTATION)
-    h = _polynomial(eliminant, "representation.eliminant")
+def read_representation(value: Any, where: str) -> Representation:
+    """A univariate representation of poses."""
+    chart, form, eliminant, quaternion, translation = entries(value, where, _REPRESENTATION)
+    h = read_polynomial(eliminant, f"{where}.eliminant")
     if h.degree() < 1:
-        raise malformed("representation.eliminant: constant")
+        raise malformed(f"{where}.eliminant: constant")
     return Representation(
-        chart=items(chart, "representation.chart", 4, integer),
-        separating_form=items(form, "representation.separating_form", 8, integer),
+        chart=items(chart, f"{where}.chart", 4, integer),
+        separating_form=items(form, f"{where}.separating_form", 8, integer),
         eliminant=h,
-        quaternion=items(quaternion, "representation.quaternion", 4, _polynomial),
-        translation=items(translation, "representation.translation", 4, _polynomial),
+        quaternion=items(quaternion, f"{where}.quaternion", 4, read_polynomial),
+        translation=items(translation, f"{where}.translation", 4, read_polynomial),
     )
 
 
-def _polynomial(value: Any, where: str) -> fmpz_poly:
+def read_polynomial(value: Any, where: str) -> fmpz_poly:
+    """A polynomial by its coefficients, lowest degree first."""
     if isinstance(value, list) and len(value) > MAX_DEGREE + 1:
         raise too_large(f"{where}: degree above {MAX_DEGREE}")
     coefficients = items(value, where, None, hexadecimal)
@@ -221,7 +227,8 @@ def _polynomial(value: Any, where: str) -> fmpz_poly:
     return fmpz_poly(list(coefficients))
 
 
-def _step(value: Any, where: str) -> tuple[Row, ...]:
+def read_step(value: Any, where: str) -> tuple[Row, ...]:
+    """The products of a step of an elimination."""
     if isinstance(value, list) and len(value) > MAX_ELIMINATION_ROWS:
         raise too_large(f"{where}: more than {MAX_ELIMINATION_ROWS} products")
     return items(value, where, None, _product)
@@ -236,10 +243,11 @@ def _product(value: Any, where: str) -> Row:
     return index, tuple(factors)
 
 
-def _isolated(value: Any) -> Isolated:
+def read_boxes(value: Any, most: int) -> Isolated:
+    """Boxes with one solution each, which are no more than ``most``."""
     chart, real, pairs = entries(value, "krawczyk", _KRAWCZYK)
-    if all(isinstance(boxes, list) for boxes in (real, pairs)) and len(real) + 2 * len(pairs) > GREATEST_NUMBER:
-        raise rejected(f"boxes: more than {GREATEST_NUMBER} solutions, the degree of the rigid motions")
+    if all(isinstance(boxes, list) for boxes in (real, pairs)) and len(real) + 2 * len(pairs) > most:
+        raise rejected(f"boxes: more than {most} solutions, all that there can be")
     return Isolated(
         items(chart, "krawczyk.chart", 4, integer),
         items(real, "krawczyk.real", None, lambda box, where: _box(box, where, real=True)),
@@ -266,7 +274,8 @@ def _complex(value: Any, where: str) -> tuple[int, int]:
     return real, imaginary
 
 
-def _pose(value: Any, where: str) -> ListedPose:
+def read_pose(value: Any, where: str) -> ListedPose:
+    """A pose as it is listed."""
     parameter, position, rotation, quaternion, multiplicity = entries(value, where, _POSE)
     rows = items(rotation, f"{where}.rotation", 3, lambda row, place: items(row, place, 3, _ends))
     box = (

@@ -49,15 +49,20 @@ class Elimination:
 
 
 def eliminate(legs: Sequence[Leg], metric: Metric, steps: Sequence[Sequence[Row]]) -> Elimination:
-    """The elements that the steps yield."""
+    """The elements that the steps yield for a robot with legs."""
     size, quadrics = section(legs, metric)
-    elements = _echelon([_integers(quadric) for quadric in quadrics])
+    return follow(size, echelon([integers(quadric) for quadric in quadrics]), steps)
+
+
+def follow(size: int, first: Sequence[Polynomial], steps: Sequence[Sequence[Row]]) -> Elimination:
+    """The elements that the steps yield, beginning with the first ones, in so many unknowns."""
+    elements = list(first)
     for number, step in enumerate(steps, 1):
         if any(index >= len(elements) or max(factors, default=0) >= size for index, factors in step):
             raise rejected(f"elimination: step {number} names an element or an unknown that there is not")
         leading = [_leading(element) for element in elements]
         _limit_terms(sum(len(elements[index]) for index, _ in step))
-        found = _echelon([_multiple(elements[index], factors) for index, factors in step])
+        found = echelon([_multiple(elements[index], factors) for index, factors in step])
         charge(_DIVISION * len(found) * len(leading))
         elements += [element for element in found if not _is_divisible(_leading(element), leading)]
         _limit_terms(sum(map(len, elements)))
@@ -71,7 +76,7 @@ def _limit_terms(number: int) -> None:
     charge(_TERM * number)
 
 
-def _integers(terms: Mapping[Monomial, fmpq]) -> Polynomial:
+def integers(terms: Mapping[Monomial, fmpq]) -> Polynomial:
     """A multiple with integer coefficients."""
     denominator = lcm(*(int(value.q) for value in terms.values()))
     return {monomial: int(value * denominator) for monomial, value in terms.items()}
@@ -94,7 +99,7 @@ def _multiple(polynomial: Polynomial, factors: Sequence[int]) -> Polynomial:
     return {tuple(map(sum, zip(monomial, shift, strict=True))): value for monomial, value in polynomial.items()}
 
 
-def _echelon(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
+def echelon(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
     """The rows of the reduced echelon form over Q, as primitive integer polynomials, terms in decreasing order."""
     charge(_TERM * sum(map(len, polynomials)))
     columns = sorted({monomial for polynomial in polynomials for monomial in polynomial}, key=_order, reverse=True)

@@ -128,9 +128,8 @@ class Equations:
         return sum((weights[k] * v * v for k, v in zip(self.kept, x.entries(), strict=True) if k < 4), acb(0))
 
 
-def check_isolated(isolated: Isolated, legs: Sequence[Leg], metric: Metric) -> Iterator[str]:
+def check_isolated(isolated: Isolated, equations: Equations) -> Iterator[str]:
     """Every box holds exactly one solution, with N(e) not 0; no two hold the same; complex ones are not real."""
-    equations = Equations(legs, metric, isolated.chart)
     if any(weight for k, weight in enumerate(isolated.chart) if k not in equations.kept):
         raise rejected("boxes: the chart has a weight for a coordinate that is 0 for every pose")
     numbered = [("real", k, box) for k, box in enumerate(isolated.real, 1)]

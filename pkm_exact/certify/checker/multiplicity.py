@@ -55,13 +55,19 @@ def is_multiple(factor: fmpz_poly, representation: Representation, legs: Sequenc
 def multiplicities(
     algebra: Algebra, representation: Representation, legs: Sequence[Leg], metric: Metric
 ) -> list[tuple[fmpz_poly, int]] | None:
+    """Those of the solutions of a robot with legs."""
+    return multiplicities_of(algebra, representation, metric, unknowns(legs, metric))
+
+
+def multiplicities_of(
+    algebra: Algebra, representation: Representation, metric: Metric, places: Sequence[int]
+) -> list[tuple[fmpz_poly, int]] | None:
     """The irreducible factors f of h, each with the multiplicity of the solutions at its roots; None if not found.
 
     Over Q, multiplication by u has the characteristic polynomial prod_f g_f^m, with g_f the product of X - u(t) over
     the roots t of f. It has so modulo p too, and if the g_f are coprime there, m can be read off.
     """
     factors = [factor for factor, _ in primitive_part(representation.eliminant).factor()[1]]
-    places = unknowns(legs, metric)
     for p, base in ((p, base) for base in BASES for p in PRIMES):
         weights = {place: pow(base, power, p) for power, place in enumerate(places)}
         whole = algebra.characteristic_polynomial(list(weights.values()), p)
@@ -81,7 +87,7 @@ def _part(
     if modulus.degree() < factor.degree():
         return None
     x = [
-        _Residue(modulo(value, p) % modulus, modulus)
+        Residue(modulo(value, p) % modulus, modulus)
         for value in (*representation.quaternion, *representation.translation)
     ]
     placed = motion(x[:4], x[4:], metric)
@@ -108,11 +114,11 @@ def _quotients(product: nmod_poly, part: nmod_poly) -> Iterator[nmod_poly]:
 
 def _lines_determinant(point: Sequence[Any], modulus: Any, legs: Sequence[Leg], metric: Metric) -> Any:
     """The determinant of the leg lines at (e, f), in the residue ring of a polynomial over a field."""
-    x = [_Residue(value % modulus, modulus) for value in point]
+    x = [Residue(value % modulus, modulus) for value in point]
     return determinant(leg_lines(legs, motion(x[:4], x[4:], metric))).value
 
 
-class _Residue:
+class Residue:
     """A polynomial over a field, modulo another."""
 
     __slots__ = ("modulus", "value")
@@ -121,17 +127,17 @@ class _Residue:
         self.value = value
         self.modulus = modulus
 
-    def __add__(self, other: _Residue) -> _Residue:
-        return _Residue(self.value + other.value, self.modulus)
+    def __add__(self, other: Residue) -> Residue:
+        return Residue(self.value + other.value, self.modulus)
 
-    def __sub__(self, other: _Residue) -> _Residue:
-        return _Residue(self.value - other.value, self.modulus)
+    def __sub__(self, other: Residue) -> Residue:
+        return Residue(self.value - other.value, self.modulus)
 
-    def __mul__(self, other: _Residue) -> _Residue:
-        return _Residue(self.value * other.value % self.modulus, self.modulus)
+    def __mul__(self, other: Residue) -> Residue:
+        return Residue(self.value * other.value % self.modulus, self.modulus)
 
-    def __rmul__(self, scalar: int) -> _Residue:
-        return _Residue(scalar * self.value, self.modulus)
+    def __rmul__(self, scalar: int) -> Residue:
+        return Residue(scalar * self.value, self.modulus)
 
 
 def determinant(matrix: Sequence[Sequence[Any]]) -> Any:

@@ -17,7 +17,7 @@ from pkm_exact.certify.checker.descartes import RealRoot, dyadic, real_roots
 from pkm_exact.certify.checker.document import Ends, ListedPose, Representation
 from pkm_exact.certify.checker.krawczyk import Equations, Isolated, narrowed
 from pkm_exact.certify.checker.solutions import primitive_part
-from pkm_exact.certify.checker.study_motion import Leg, Metric, motion
+from pkm_exact.certify.checker.study_motion import Metric, motion
 from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_PRECISION, rejected, too_large
 
 Cell: TypeAlias = tuple[fmpz, fmpz]
@@ -68,7 +68,7 @@ def in_order(boxes: Sequence[Sequence[Cell]]) -> list[int]:
 
 
 def check_isolated_poses(
-    isolated: Isolated, legs: Sequence[Leg], metric: Metric, exponent: int, poses: Sequence[ListedPose]
+    isolated: Isolated, equations: Equations, exponent: int, poses: Sequence[ListedPose]
 ) -> Iterator[str]:
     """The poses listed are those in the real boxes, one after another, with the intervals that they must have."""
     if len(poses) != len(isolated.real):
@@ -76,7 +76,7 @@ def check_isolated_poses(
     if any(pose.parameter is not None for pose in poses):
         raise rejected("real poses: a parameter is given, but there is no eliminant")
     yield f"real poses: {len(poses)}, one in each real box"
-    equations = Equations(legs, metric, isolated.chart)
+    metric = equations.metric
 
     def enclose(precision: int) -> list[list[arb]] | None:
         points = [narrowed(equations, box, precision) for box in isolated.real]

@@ -1,7 +1,7 @@
 """The rigid motions that six legs allow, as quadrics in affine coordinates: the ideal that an elimination works in.
 
 On the coordinates (u, C, s, R), u = R^-1 C and s = |C|^2, each leg is linear and the rigid motions are the common zeros
-of the quadrics of ``_motion_quadrics``. The legs are solved for coordinates from the left of ``ORDER``, as many as they
+of the quadrics of ``motion_quadrics``. The legs are solved for coordinates from the left of ``ORDER``, as many as they
 determine, and the solution is substituted into the quadrics; the rest are the unknowns of the section, in this order.
 """
 
@@ -58,12 +58,12 @@ def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Terms]]:
                 value -= echelon[row, j] * values[j]
             values[pivot] = value
     quadrics = [ring.constant(1)] if size in pivots else []
-    quadrics += _motion_quadrics(values, metric)
+    quadrics += motion_quadrics(values, metric)
     terms = [{tuple(map(int, key)): value for key, value in quadric.to_dict().items()} for quadric in quadrics]
     return len(free), [polynomial for polynomial in terms if polynomial]
 
 
-def _motion_quadrics(values: Sequence[Any], metric: Metric) -> list[Any]:
+def motion_quadrics(values: Sequence[Any], metric: Metric) -> list[Any]:
     """R^T G R = G, R G^-1 R^T = G^-1, cof R = G R G^-1, R u = C, R^T G C = G u, C.C = u.u = s,
     C x (R v) = G R G^-1 (u x v) for the unit vectors v: they hold for rigid motions, and with R = (r_ij) for no others.
     """

@@ -1,0 +1,231 @@
+"""Counts and claims of a certificate of version 2: what follows from what is listed; no more and no less is claimed."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from dataclasses import dataclass
+
+from flint import fmpz_poly
+
+from pkm_exact.certify.checker.claims import check_listed_multiplicities
+from pkm_exact.certify.checker.document import Representation
+from pkm_exact.certify.checker.elimination import Elimination, follow
+from pkm_exact.certify.checker.infinity_points import check_infinity
+from pkm_exact.certify.checker.mechanism_document import MechanismDocument
+from pkm_exact.certify.checker.mechanism_motion import check_mechanism_motion
+from pkm_exact.certify.checker.mechanism_section import Section, is_finite, solutions_at_most
+from pkm_exact.certify.checker.mechanism_solutions import are_regular, irregular_factors
+from pkm_exact.certify.checker.multiplicity import multiplicities_of
+from pkm_exact.certify.checker.solutions import primitive_part
+from pkm_exact.certify.checker.traceform import quotient_algebra
+from pkm_exact.certify.checker.verdict import rejected
+
+
+@dataclass(frozen=True)
+class _Listed:
+    """The solutions listed.
+
+    Attributes
+    ----------
+    distinct : int
+    simple : bool
+        Whether all are proved simple.
+    irregular : tuple of fmpz_poly
+        The factors of h at whose roots the constraints are dependent: there the weight is 2.
+    """
+
+    distinct: int
+    simple: bool
+    irregular: tuple[fmpz_poly, ...] = ()
+
+    @property
+    def weight(self) -> int:
+        """The sum of all weights: multiplicities sum to it at least."""
+        return self.distinct + sum(int(factor.degree()) for factor in self.irregular)
+
+
+@dataclass(frozen=True)
+class _Proved:
+    """Claim and route that are proved, and the number with multiplicity and the multiple factors, if known."""
+
+    claim: str
+    route: str | None
+    total: int | None
+    multiple: tuple[tuple[fmpz_poly, int], ...] = ()
+
+
+def check_mechanism_claims(document: MechanismDocument) -> Iterator[str]:
+    """Claim, route, counts and multiplicities are those that can be proved."""
+    if document.real_poses != len(document.poses):
+        raise rejected(f"real poses: {document.real_poses} claimed, {len(document.poses)} listed")
+    if document.box_exponent and not document.poses:
+        raise rejected("boxes: a grid is given, but there is no pose")
+    _check_parts(document)
+    if document.claim == "positive-dimensional-proved":
+        yield from _moving(document)
+        return
+    if document.self_motion is not None:
+        raise rejected(f"claim: {document.claim}, but a self-motion is given")
+    listed = _listed(document)
+    if document.distinct_solutions != listed.distinct:
+        raise rejected(f"distinct solutions: {document.distinct_solutions} claimed, {listed.distinct} proved")
+    if document.isolated is not None and document.method == "exact":
+        yield from _beside(document, listed)
+        return
+    proved = yield from _proved(document, listed)
+    if (document.claim, document.route) != (proved.claim, proved.route):
+        claimed = f"{document.claim} by {document.route or 'no route'}"
+        raise rejected(f"claim: {claimed}, but what is proved is {proved.claim} by {proved.route or 'no route'}")
+    _check_total(document, listed, proved)
+    check_listed_multiplicities(document.poses, proved.total is not None, proved.multiple)
+    yield _line(document, listed, proved)
+
+
+def _check_parts(document: MechanismDocument) -> None:
+    """What a certificate may have depends on its method."""
+    if document.method == "krawczyk":
+        if document.isolated is None or document.representation is not None:
+            raise rejected("method: krawczyk needs boxes, and no representation")
+    elif document.isolated is not None and not document.claim.startswith("positive-dimensional"):
+        raise rejected("method: exact, but solutions in boxes are listed, and none of positive dimension is claimed")
+    if document.infinity is not None and document.elimination is not None:
+        raise rejected("completeness: points at infinity and an elimination are given, one of them proves enough")
+
+
+def _listed(document: MechanismDocument) -> _Listed:
+    if document.isolated is not None:
+        return _Listed(document.isolated.count, simple=True)
+    representation = document.representation
+    if representation is None:
+        if document.poses:
+            raise rejected("representation: missing, but poses are listed")
+        return _Listed(0, simple=True)
+    number = int(representation.eliminant.degree())
+    if are_regular(primitive_part(representation.eliminant), representation, document.mechanism):
+        return _Listed(number, simple=True)
+    return _Listed(number, False, tuple(irregular_factors(representation, document.mechanism)))
+
+
+def _proved(document: MechanismDocument, listed: _Listed) -> Generator[str, None, _Proved]:
+    """The strongest claim that the certificate proves; a generator that returns it."""
+    mechanism = document.mechanism
+    doubled = tuple((factor, 2) for factor in listed.irregular)
+    complete = "complete" if listed.distinct else "inconsistent"
+    if document.infinity is not None:
+        if mechanism.group.dimension != 6:
+            raise rejected("infinity: points at infinity are counted for spatial motions only")
+        yield from check_infinity(document.infinity, mechanism)
+        if listed.weight + document.infinity.multiplicity != mechanism.degree_bound:
+            raise rejected(
+                f"infinity: {listed.weight} finite and {document.infinity.multiplicity} at infinity are not "
+                f"{mechanism.degree_bound}, the degree of the motions"
+            )
+        if not is_finite(mechanism):
+            raise rejected("infinity: not proved that the section is finite")
+        yield "section: finite, points at infinity included"
+        return _Proved(complete, "counting-at-infinity", listed.weight, doubled)
+    if document.elimination is not None:
+        total, multiple = _filling(document, listed)
+        return _Proved(complete, "exact-elimination", total, multiple)
+    if listed.distinct and listed.simple and listed.distinct == mechanism.bound:
+        route = "refined-bezout" if mechanism.bound == mechanism.degree_bound else "product-bound"
+        return _Proved("complete", route, listed.distinct)
+    if document.route == "modular-rank" and solutions_at_most(mechanism) == listed.weight:
+        return _Proved(complete, "modular-rank", listed.weight, doubled)
+    if not listed.distinct and document.claim == "positive-dimensional-detected":
+        return _Proved(document.claim, None, 0)
+    return _Proved("not-proven-complete", None, listed.distinct if listed.simple else None)
+
+
+def _filling(document: MechanismDocument, listed: _Listed) -> tuple[int, tuple[tuple[fmpz_poly, int], ...]]:
+    """Number of all solutions with multiplicity, and the multiple factors; those listed must fill the elimination."""
+    mechanism = document.mechanism
+    section = Section(mechanism)
+    if section.is_empty:
+        elimination = Elimination(section.size, ({(0,) * section.size: 1},))
+    else:
+        elimination = follow(section.size, section.elements, document.elimination or ())
+    if document.elimination and section.is_empty:
+        raise rejected("elimination: a step names an element that there is not")
+    left = len(elimination.standard(mechanism.degree_bound))
+    if listed.weight == left:
+        return left, tuple((factor, 2) for factor in listed.irregular)
+    if listed.simple or document.representation is None:
+        raise rejected(
+            f"elimination: it leaves {left} monomials, the solutions listed are proved to fill {listed.weight}"
+        )
+    return left, _by_algebra(elimination, document.representation, document, section.free, listed)
+
+
+def _by_algebra(
+    elimination: Elimination,
+    representation: Representation,
+    document: MechanismDocument,
+    free: Sequence[int],
+    listed: _Listed,
+) -> tuple[tuple[fmpz_poly, int], ...]:
+    """The multiple factors, as the algebra that the elimination leaves tells them."""
+    algebra = quotient_algebra(elimination)
+    if algebra is None or algebra.distinct_solutions() != listed.distinct:
+        raise rejected("elimination: the solutions are not proved to fill the monomials that it leaves")
+    found = multiplicities_of(algebra, representation, document.mechanism.metric, free)
+    if found is None:
+        raise rejected("elimination: no form in its unknowns tells the multiple solutions apart")
+    return tuple((factor, multiplicity) for factor, multiplicity in found if multiplicity > 1)
+
+
+def _check_total(document: MechanismDocument, listed: _Listed, proved: _Proved) -> None:
+    """The number with multiplicity is the proved one; an unproved one must at least be possible."""
+    claimed = document.complex_solutions
+    if proved.total is not None and claimed != proved.total:
+        raise rejected(f"complex solutions: {claimed} claimed, {proved.total} proved")
+    if not listed.distinct <= claimed <= max(listed.distinct, document.mechanism.bound):
+        raise rejected(f"complex solutions: {claimed} claimed, {listed.distinct} distinct ones proved")
+
+
+def _line(document: MechanismDocument, listed: _Listed, proved: _Proved) -> str:
+    if proved.claim == "inconsistent":
+        return "inconsistent: no pose, real or complex, has what the constraints ask"
+    if proved.claim == "positive-dimensional-detected":
+        return "positive dimension detected: evidence found by the solver, no proof"
+    if proved.claim == "complete":
+        total = f"{listed.distinct} distinct, {proved.total} with multiplicity"
+        return f"complete: {total}, by {document.route}; there is no other solution"
+    return f"not proven complete: {listed.distinct} solutions are proved, others are not excluded"
+
+
+def _beside(document: MechanismDocument, listed: _Listed) -> Iterator[str]:
+    """Isolated solutions in boxes beside a set of positive dimension that was only detected."""
+    alone = document.representation is None and document.infinity is None and document.elimination is None
+    if not alone or (document.claim, document.route) != ("positive-dimensional-detected", None):
+        raise rejected(f"claim: {document.claim} is not proved by what is in the certificate")
+    _require_isolated(document, listed.distinct)
+    yield f"isolated: {listed.distinct} solutions lie on no curve of poses"
+    yield "positive dimension detected: evidence found by the solver, no proof"
+
+
+def _require_isolated(document: MechanismDocument, count: int) -> None:
+    """The numbers are those of the boxes, which are fewer than there can be isolated solutions."""
+    if (document.complex_solutions, document.distinct_solutions) != (count, count):
+        raise rejected(f"complex solutions: {document.complex_solutions} claimed, {count} proved in boxes")
+    if count >= document.mechanism.bound:
+        raise rejected(f"claim: {document.claim}, but {count} isolated solutions are all that there are")
+    if any(pose.multiplicity != 1 for pose in document.poses):
+        raise rejected("multiplicity: that of a pose in a box differs from what is proved")
+
+
+def _moving(document: MechanismDocument) -> Iterator[str]:
+    """A set of positive dimension that is proved; isolated solutions beside it need boxes."""
+    if document.self_motion is None:
+        raise rejected("claim: positive-dimensional-proved, but no self-motion is given")
+    if document.route is not None or document.elimination is not None or document.infinity is not None:
+        raise rejected("claim: beside positive dimension, completeness is claimed")
+    if document.method != "exact":
+        raise rejected("claim: a self-motion is proved by the method exact")
+    if document.isolated is None:
+        if (document.complex_solutions, document.distinct_solutions, len(document.poses)) != (0, 0, 0):
+            raise rejected("claim: beside positive dimension, isolated solutions are claimed without boxes")
+    else:
+        _require_isolated(document, document.isolated.count)
+        yield f"isolated: {document.isolated.count} solutions lie on no curve of poses"
+    yield from check_mechanism_motion(document, document.self_motion)
