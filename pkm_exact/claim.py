@@ -39,10 +39,22 @@ class CompletenessRoute(StrEnum):
     its section by six hyperplanes have degrees that sum to at most 40 (Fulton, Intersection Theory, 12.3);
     40 distinct isolated solutions leave room for no other.
 
+    ``PRODUCT_BOUND``: the constraints have low degrees on a variety of low degree, and as many isolated solutions as
+    the theorem of Bezout then admits are listed.
+
+    ``MODULAR_RANK``: ranks of integer matrices modulo a prime, which are no greater than over Q, leave room for as many
+    solutions as are listed, with their multiplicities.
+
+    ``COUNTING_AT_INFINITY``: the constraints and the variety of rigid motions meet in finitely many points, and the
+    multiplicities of the solutions and of the points at infinity sum to the degree.
+
     ``EXACT_ELIMINATION``: an elimination over Q shows that the ideal of the poses contains polynomials whose leading
     monomials leave only as many others as there are distinct solutions listed (or as many, counted with the
     multiplicities that the trace form over Q shows); there cannot be more.
     """
 
     REFINED_BEZOUT = "refined-bezout"
+    PRODUCT_BOUND = "product-bound"
+    MODULAR_RANK = "modular-rank"
+    COUNTING_AT_INFINITY = "counting-at-infinity"
     EXACT_ELIMINATION = "exact-elimination"

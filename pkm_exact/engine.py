@@ -12,6 +12,13 @@ from flint import fmpz_poly
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.claim import Claim
 from pkm_exact.claim_wording import DETECTED_NOTE, NO_SOLUTION_NOTE
+from pkm_exact.completeness.completeness_proof import (
+    CompletenessProof,
+    has_as_many_legs_as_freedoms,
+    prove_complete,
+    prove_inconsistent,
+)
+from pkm_exact.completeness.slices import MorePoses, more_poses
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.failures.contradiction import attached
@@ -21,7 +28,6 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.notes import inconsistent_note, isolated_note, motion_note, open_question, singular_notes, turn_notes
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width, in_order, pose_boxes, root_enclosures
-from pkm_exact.poses.completeness import CompletenessProof, prove_complete, prove_inconsistent
 from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.modular_start import Start
 from pkm_exact.poses.pose import Pose
@@ -116,9 +122,22 @@ class _Run:
     def _without_list(self, start: Start, exponent: int, width: Fraction) -> Solution:
         """The answer where there are infinitely many solutions modulo two primes, or none."""
         if start.count is None:
+            motion = self._slices()
+            if motion is not None:
+                note = motion_note(motion, self.problem)
+                result = self._result(Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, note)
+                result = replace(result, self_motion=motion, statistics=self._statistics(start))
+                return self._with_isolated(result, width)
             result = self._result(Claim.POSITIVE_DIMENSIONAL_DETECTED, exponent, DETECTED_NOTE)
             return self._with_isolated(replace(result, statistics=self._statistics(start)), width)
         return replace(self._without_solutions(exponent), statistics=self._statistics(start))
+
+    def _slices(self) -> MorePoses | None:
+        """A proof that the poses are infinitely many over Q, where they are modulo two primes, or None."""
+        if has_as_many_legs_as_freedoms(self.problem) and not self.policy.short_proofs:
+            return None
+        self.stages.enter("slices")
+        return more_poses(self.problem, self.policy, self.stages.amount)
 
     def _without_solutions(self, exponent: int) -> Solution:
         """The answer where there is no solution modulo a prime, not even a complex one."""
@@ -170,6 +189,8 @@ class _Run:
 
     def _with_isolated(self, result: Solution, width: Fraction) -> Solution:
         """The solution with the isolated poses beside a set of positive dimension, as far as they can be certified."""
+        if not has_as_many_legs_as_freedoms(self.problem):
+            return result  # paths are tracked from such robots to such robots only
         # Floating point is needed for this alone.
         from pkm_exact.numeric.poses import isolated_poses
 

@@ -9,18 +9,20 @@ representation must vanish on the robot modulo a prime, boxes must lie apart and
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 from typing import Final
 
 from flint import fmpq, fmpz_poly, nmod_mat, nmod_poly
 
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.claim import Claim, CompletenessRoute, RealMotion
+from pkm_exact.completeness.completeness_proof import CompletenessProof
+from pkm_exact.completeness.slices import MorePoses
 from pkm_exact.digests import digest
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import evaluate, linear_quadrics, motion_quadrics, pose_quadrics, pose_quartics
 from pkm_exact.numeric.box_consistency import require_sound_boxes
-from pkm_exact.poses.completeness import CompletenessProof
 from pkm_exact.poses.pose_consistency import (
     has_degree_zero,
     require_apart,
@@ -57,6 +59,8 @@ def consistent(solution: Solution) -> Solution:
         require_sound_boxes(solution.isolated, solution.problem)
     if isinstance(solution.self_motion, SelfMotion):
         _require_mobility(solution.self_motion, solution.problem)
+    if isinstance(solution.self_motion, MorePoses):
+        _require_slices(solution.self_motion, solution.problem)
     _require_poses(solution)
     return solution
 
@@ -76,9 +80,12 @@ def _require_proof_of_claim(solution: Solution) -> None:
         return
     counts = {"total": proof.total, "complex": solution.complex_solutions, "distinct": solution.distinct_solutions}
     require(proof.total == solution.complex_solutions, "the proof is one of another number of solutions", **counts)
+    degree = solution.problem.solution_bound
     if proof.route == CompletenessRoute.REFINED_BEZOUT:
-        degree = solution.problem.solution_bound
         require(solution.distinct_solutions == proof.total == degree, "fewer solutions than the degree", **counts)
+    if proof.route == CompletenessRoute.COUNTING_AT_INFINITY:
+        beyond = 0 if proof.infinity is None else proof.infinity.multiplicity
+        require(proof.total + beyond == degree, "fewer solutions and points at infinity than the degree", **counts)
     _require_multiplicities(proof, solution)
 
 
@@ -157,6 +164,15 @@ def _require_mobility(motion: SelfMotion, problem: ForwardProblem) -> None:
     if motion.real is RealMotion.NO_REAL_POSE:
         gaps = roots_in_gaps(motion.representation.univariate.primitive_polynomial, [])
         require(gaps != [True], "a witness is real, but no pose is")
+
+
+def _require_slices(motion: MorePoses, problem: ForwardProblem) -> None:
+    """Slices with different constants, whose poses are on the robot, and more of them than can be isolated."""
+    constants = [found.constant for found in motion.slices]
+    require(all(a < b for a, b in pairwise(constants)), "two slices are the same", slices=len(constants))
+    require(motion.count > motion.bound, "no more poses than can be isolated", poses=motion.count, bound=motion.bound)
+    for found in motion.slices:
+        _require_representation(found.representation, motion.problem_of(problem, found))
 
 
 def _require_poses(solution: Solution) -> None:

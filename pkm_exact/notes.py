@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pkm_exact.claim_wording import INCONSISTENT_CONSTRAINTS_NOTE, INCONSISTENT_NOTE, PARALLEL, REAL_MOTION
+from pkm_exact.completeness.slices import MorePoses
 from pkm_exact.formulations.turned import Turn
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.self_motion import Cause, SelfMotion, TranslationalMotion
@@ -39,8 +40,13 @@ _CAUSES = {
 }
 
 
-def motion_note(motion: SelfMotion | TranslationalMotion, problem: ForwardProblem) -> str:
+def motion_note(motion: SelfMotion | TranslationalMotion | MorePoses, problem: ForwardProblem) -> str:
     """Says why the poses form a set of positive dimension, and what is known of real ones."""
+    if isinstance(motion, MorePoses):
+        return (
+            f"{motion.count} distinct complex poses are certified, more than the {motion.bound} that can be isolated; "
+            f"so the complex poses form a set of dimension 1 at least; {REAL_MOTION[motion.real]}"
+        )
     if isinstance(motion, TranslationalMotion):
         return PARALLEL.format(path="a circle" if problem.motion.is_planar else "a sphere")
     bound = motion.mobility

@@ -34,6 +34,9 @@ class Policy:
         Largest degree of a critical pair before the elimination is declared out of reach.
     dimension_limit : int
         Largest dimension of a quotient algebra.
+    short_proofs : bool
+        Whether short ways to completeness are tried on hexapods before an elimination, and slices where the poses of
+        robots with legs only seem to be infinitely many. Their certificates are of version 2.
     """
 
     prime_bits: int = 62
@@ -43,6 +46,7 @@ class Policy:
     lifting_bits: int = 1 << 17
     degree_limit: int = 40
     dimension_limit: int = 2000
+    short_proofs: bool = False
 
     def seed_for(self, *data: Data) -> int:
         """The seed of a choice about these data: the same for the same data, and for others another.

@@ -14,8 +14,9 @@ if TYPE_CHECKING:
     from pandas import DataFrame
     from scipy.spatial.transform import Rotation
 
+    from pkm_exact.completeness.completeness_proof import CompletenessProof
+    from pkm_exact.completeness.slices import MorePoses
     from pkm_exact.poses.arrays import PoseArrays
-    from pkm_exact.poses.completeness import CompletenessProof
     from pkm_exact.poses.isolated_solutions import IsolatedSolutions
     from pkm_exact.poses.pose_representation import PoseRepresentation
     from pkm_exact.poses.self_motion import SelfMotion, TranslationalMotion
@@ -79,7 +80,7 @@ class Solution:
         The real poses, by their boxes from left to right (``poses.boxes.in_order``).
     notes : tuple of str
         What else the user should know.
-    self_motion : SelfMotion or TranslationalMotion or None
+    self_motion : SelfMotion or TranslationalMotion or MorePoses or None
         The proof, if the claim is that the poses form a set of positive dimension.
     isolated : IsolatedSolutions or None
         Boxes around solutions, each with exactly one, if the method is Krawczyk's: the real ones in the order of the
@@ -109,7 +110,7 @@ class Solution:
     box_exponent: int
     poses: tuple[Pose, ...]
     notes: tuple[str, ...] = ()
-    self_motion: SelfMotion | TranslationalMotion | None = None
+    self_motion: SelfMotion | TranslationalMotion | MorePoses | None = None
     isolated: IsolatedSolutions | None = None
     statistics: Statistics = field(default_factory=Statistics, repr=False, compare=False)
 

@@ -170,14 +170,19 @@ EXACT: dict[str, Fault] = {
     "a multiplicity is wrong": (T, "pkm_exact.engine", "prove_complete", _multiplied),
     "multiplicities are too small": (
         T,
-        "pkm_exact.poses.completeness",
+        "pkm_exact.completeness.completeness_proof",
         "exact_multiplicities",
         lambda found: tuple((factor, 1) for factor, _ in found),
     ),
-    "the bound is too small": (S, "pkm_exact.poses.completeness", "solution_bound", lambda bound: bound - 1),
+    "the bound is too small": (
+        S,
+        "pkm_exact.completeness.completeness_proof",
+        "solution_bound",
+        lambda bound: bound - 1,
+    ),
     "the trace form has too small a rank": (
         T,
-        "pkm_exact.poses.completeness",
+        "pkm_exact.completeness.completeness_proof",
         "exact_quotient",
         lambda quotient: replace(quotient, unknowns=tuple(matrix * 0 for matrix in quotient.unknowns)),
     ),

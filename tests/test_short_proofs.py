@@ -26,6 +26,7 @@ from mechanisms import (
 import pkm_exact
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.primes import primes_from
+from pkm_exact.claim import CompletenessRoute
 from pkm_exact.completeness.closed_section import closed_section
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.finite_section import is_finite
@@ -33,7 +34,7 @@ from pkm_exact.completeness.infinity import PointsAtInfinity, is_at_infinity, po
 from pkm_exact.completeness.modular_rank import modular_rank
 from pkm_exact.completeness.pose_bound import pose_bound
 from pkm_exact.completeness.rigid_motions import variety_quadrics
-from pkm_exact.completeness.short_proof import ShortRoute, short_proof
+from pkm_exact.completeness.short_proof import short_proof
 from pkm_exact.policy import Policy
 
 ROOT = Path(__file__).parent.parent
@@ -91,7 +92,7 @@ def test_mechanisms_close_by_their_route(problem: Any, number: int, route: str) 
     proof = short_proof(conditions, number, number, Policy())
     assert counted == number
     assert proof is not None
-    assert proof.route == ShortRoute(route)
+    assert proof.route == CompletenessRoute(route)
     assert short_proof(conditions, number - 1, number - 1, Policy()) is None
 
 
@@ -154,7 +155,7 @@ def test_contradictions_of_linear_algebra_are_empty() -> None:
     assert modular_rank(section, next(_primes()), 40) == 0
     proof = short_proof(other, 0, 0, Policy())
     assert proof is not None
-    assert proof.route == ShortRoute.MODULAR_RANK
+    assert proof.route == CompletenessRoute.MODULAR_RANK
 
 
 def test_a_prime_at_which_a_solution_goes_to_infinity_bounds_nothing() -> None:

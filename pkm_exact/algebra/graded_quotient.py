@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import TypeAlias
 
 from flint import nmod_mat
 
@@ -45,7 +46,13 @@ def pairs(size: int) -> list[tuple[int, int]]:
     return [(i, j) for i in range(size) for j in range(i, size)]
 
 
-def graded_parts(size: int, quadrics: Sequence[Sequence[int]], prime: int) -> Iterator[Degree]:
+Chosen: TypeAlias = dict[int, list[int]]
+"""By degree the numbers of relations from which the others follow."""
+
+
+def graded_parts(
+    size: int, quadrics: Sequence[Sequence[int]], prime: int, chosen: Chosen | None = None
+) -> Iterator[Degree]:
     """A_0, A_1, A_2, .. of the algebra that quadrics define; after a part of dimension 0 it ends.
 
     Parameters
@@ -55,6 +62,9 @@ def graded_parts(size: int, quadrics: Sequence[Sequence[int]], prime: int) -> It
     quadrics : sequence of sequence of int
         Coefficients modulo the prime, on ``pairs(size)``.
     prime : int
+    chosen : dict, optional
+        Relations to be used alone in the degrees that it has; for other degrees it learns which ones would do. At
+        another prime they nearly always do, and leave a part too large if not.
 
     Examples
     --------
@@ -66,10 +76,10 @@ def graded_parts(size: int, quadrics: Sequence[Sequence[int]], prime: int) -> It
     yield below
     if not size:
         return
-    part = _second(size, quadrics, prime)
+    part = _second(size, quadrics, prime, chosen)
     yield part
     while part.dimension:
-        below, part = part, _following(size, part, prime)
+        below, part = part, _following(size, part, prime, chosen)
         yield part
 
 
@@ -96,31 +106,40 @@ def hilbert_function(
     return tuple(dimensions)
 
 
-def _second(size: int, quadrics: Sequence[Sequence[int]], prime: int) -> Degree:
+def _second(size: int, quadrics: Sequence[Sequence[int]], prime: int, chosen: Chosen | None) -> Degree:
     columns = pairs(size)
     place = {pair: number for number, pair in enumerate(columns)}
-    relations = [[(number, value) for number, value in enumerate(quadric) if value] for quadric in quadrics]
+    wanted = range(len(quadrics)) if chosen is None else chosen.get(2, range(len(quadrics)))
+    relations = [[(number, value) for number, value in enumerate(quadrics[k]) if value] for k in wanted]
     normal = _NormalForms(relations, len(columns), prime)
+    if chosen is not None and 2 not in chosen:
+        chosen[2] = normal.independent()
     tables = ([normal.row(place[min(i, j), max(i, j)]) for j in range(size)] for i in range(size))
     return Degree(2, normal.dimension, tuple(_matrix(table, normal.dimension, prime) for table in tables))
 
 
-def _following(size: int, part: Degree, prime: int) -> Degree:
+def _following(size: int, part: Degree, prime: int, chosen: Chosen | None) -> Degree:
     """A_(t+1) from A_t: symbols x_i a, in the order of i, then a."""
     count = part.dimension
     rows = [
         [[(place, int(value)) for place, value in enumerate(row) if value] for row in matrix.tolist()]
         for matrix in part.unknowns
     ]
-    relations = []
-    for i, j in combinations(range(size), 2):
-        for left, right in zip(rows[j], rows[i], strict=True):
-            relation = [(i * count + place, value) for place, value in left]
-            relations.append(relation + [(j * count + place, -value) for place, value in right])
+    degree, below = part.degree + 1, len(rows[0])
+    products = [(i, j, c) for i, j in combinations(range(size), 2) for c in range(below)]
+    if chosen is not None and degree in chosen:
+        products = [products[number] for number in chosen[degree]]
+    relations = [
+        [(i * count + place, value) for place, value in rows[j][c]]
+        + [(j * count + place, -value) for place, value in rows[i][c]]
+        for i, j, c in products
+    ]
     normal = _NormalForms(relations, size * count, prime)
+    if chosen is not None and degree not in chosen:
+        chosen[degree] = normal.independent()
     tables = ([normal.row(i * count + a) for a in range(count)] for i in range(size))
     matrices = tuple(_matrix(table, normal.dimension, prime) for table in tables)
-    return Degree(part.degree + 1, normal.dimension, matrices)
+    return Degree(degree, normal.dimension, matrices)
 
 
 class _NormalForms:
@@ -131,10 +150,15 @@ class _NormalForms:
         for row, relation in enumerate(relations):
             for column, value in relation:
                 matrix[row, column] = value
+        self._matrix = matrix
         self._echelon, pivots = row_echelon(matrix)
         self._pivots = {pivot: row for row, pivot in enumerate(pivots)}
         self._free = [column for column in range(size) if column not in self._pivots]
         self.dimension = len(self._free)
+
+    def independent(self) -> list[int]:
+        """Numbers of relations that are a basis of all."""
+        return row_echelon(self._matrix.transpose())[1]
 
     def row(self, symbol: int) -> list[int]:
         if symbol in self._pivots:

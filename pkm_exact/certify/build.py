@@ -1,21 +1,21 @@
 """Certificates: what a solve found, written down so that a program that shares nothing with the solver can replay it.
 
 The format is described field by field in ``docs/certificates.md``; its schema is ``certificate-1.schema.json`` in
-this folder. The same input gives the same bytes: nothing in a certificate depends on the time, the machine, a
-precision or a prime.
+this folder. What version 1 cannot say is written in version 2 (``build_constraints``). The same input gives the same
+bytes: nothing in a certificate depends on the time, the machine, a precision or a prime.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
 from hashlib import sha256
 from json.encoder import encode_basestring_ascii
 from typing import TYPE_CHECKING, Any, Final
 
-from pkm_exact.certify.witness import translation_witnesses
-from pkm_exact.errors import PkmExactError
+from pkm_exact.certify.build_constraints import constraints_content
+from pkm_exact.certify.certificate_entries import isolated_entry, solutions_entry, steps_entry, texts
+from pkm_exact.claim import CompletenessRoute
 from pkm_exact.files import write_whole
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.robot import Robot
@@ -23,11 +23,11 @@ from pkm_exact.poses.pose_spelling import pose_entry
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
-    from pkm_exact.poses.isolated_solutions import IsolatedSolutions
     from pkm_exact.solution import Solution
 
 FORMAT: Final = "pkm_exact certificate"
 VERSION: Final = 1
+_ROUTES: Final = (None, CompletenessRoute.REFINED_BEZOUT, CompletenessRoute.EXACT_ELIMINATION)
 
 
 def certificate(robot: Machine, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
@@ -56,20 +56,24 @@ def certificate_bytes(robot: Machine, configuration_name: str | None, solution: 
     return body.removesuffix(b"\n}\n") + f',\n "digest": "{_digest(body)}"\n}}\n'.encode("ascii")
 
 
-def _content(robot: Machine, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
-    """The certificate without its digest."""
-    if not isinstance(robot, Robot):
-        raise PkmExactError("certificate: a mechanism declared by constraints needs version 2 of the format")
+def _content(machine: Machine, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
+    """The certificate without its digest, of version 1 where that can say it."""
+    if not isinstance(machine, Robot):
+        if not _is_of(machine, solution):
+            raise ValueError(f"the solution is not one of {machine!r}: constraints or metric differ")
+        return constraints_content(machine, configuration_name, solution)
     # The checker knows legs only: cranks and slides are certified as the 6-UPS robot with their knees as base joints.
-    robot = robot.as_gough(robot.configuration(configuration_name) if robot.chains else None)
+    robot = machine.as_gough(machine.configuration(configuration_name) if machine.chains else None)
     lengths_squared = [leg.length_squared for leg in solution.problem.distances]
     if robot.problem(lengths_squared) != solution.problem:
         raise ValueError(f"the solution is not one of {robot!r}: joints or metric differ")
+    if not is_of_version_1(solution):
+        return constraints_content(machine, configuration_name, solution)
     return {
         "format": FORMAT,
         "version": VERSION,
         "robot": robot_entry(robot),
-        "configuration": {"name": configuration_name, "lengths_squared": _texts(lengths_squared)},
+        "configuration": {"name": configuration_name, "lengths_squared": texts(lengths_squared)},
         "formulation": solution.formulation,
         "method": solution.method,
         "claim": str(solution.claim),
@@ -77,13 +81,30 @@ def _content(robot: Machine, configuration_name: str | None, solution: Solution)
         "complex_solutions": solution.complex_solutions,
         "distinct_solutions": solution.distinct_solutions,
         "real_poses": len(solution.poses),
-        "representation": _representation(solution),
-        "elimination": _elimination(solution),
-        "krawczyk": None if solution.isolated is None else _isolated(solution.isolated),
+        "representation": solutions_entry(solution),
+        "elimination": steps_entry(solution),
+        "krawczyk": None if solution.isolated is None else isolated_entry(solution.isolated),
         "box_exponent": solution.box_exponent if solution.poses else 0,
         "poses": [pose_entry(pose) for pose in solution.poses],
         "notes": list(solution.notes),
     }
+
+
+def is_of_version_1(solution: Solution) -> bool:
+    """Whether version 1 has the words for what is proved of a robot with as many legs as freedoms."""
+    from pkm_exact.completeness.slices import MorePoses
+
+    return solution.completeness_route in _ROUTES and not isinstance(solution.self_motion, MorePoses)
+
+
+def _is_of(machine: Machine, solution: Solution) -> bool:
+    """Whether the problem solved is one of the machine's, with whatever values of its actuators."""
+    found = {constraint.name: constraint for constraint in solution.problem.constraints}
+    if not all(name in found for name in machine.actuated):
+        return False
+    actuated = [found[name] for name in machine.actuated]
+    values = [getattr(constraint, constraint.value_field or "", None) for constraint in actuated]
+    return None not in values and machine.problem(values) == solution.problem
 
 
 def robot_entry(robot: Robot) -> dict[str, Any]:
@@ -94,9 +115,9 @@ def robot_entry(robot: Robot) -> dict[str, Any]:
         "kind": robot.kind,
         "unit": robot.unit,
         "source": robot.source,
-        "metric": _texts(metric),
-        "base": [_texts(joint) for joint in robot.base_joints],
-        "platform": [_texts(joint) for joint in robot.platform_joints],
+        "metric": texts(metric),
+        "base": [texts(joint) for joint in robot.base_joints],
+        "platform": [texts(joint) for joint in robot.platform_joints],
     }
 
 
@@ -148,69 +169,3 @@ def write_certificate(path: str | os.PathLike[str], content: dict[str, Any]) -> 
         If the file cannot be written; what stood there before is then untouched.
     """
     write_whole(path, canonical_bytes(content))
-
-
-def _texts(values: Iterable[object]) -> list[str]:
-    """Rationals as "p" or "p/q"."""
-    return [str(value) for value in values]
-
-
-def _representation(solution: Solution) -> dict[str, Any] | None:
-    """The solutions listed, or complex poses that witness a self-motion."""
-    from pkm_exact.poses.self_motion import SelfMotion, TranslationalMotion
-
-    representation = solution.representation
-    if isinstance(solution.self_motion, TranslationalMotion):
-        return _spelled(translation_witnesses(solution.problem, solution.self_motion))
-    if isinstance(solution.self_motion, SelfMotion):
-        representation = solution.self_motion.representation
-    if representation is None:
-        return None
-    keys = ("chart", "separating_form", "eliminant", "quaternion", "translation")
-    return _spelled({key: getattr(representation, key) for key in keys})
-
-
-def _spelled(lists: Mapping[str, Any]) -> dict[str, Any]:
-    return {
-        "chart": list(lists["chart"]),
-        "separating_form": list(lists["separating_form"]),
-        "eliminant": _coefficients(lists["eliminant"]),
-        "quaternion": [_coefficients(numerator) for numerator in lists["quaternion"]],
-        "translation": [_coefficients(numerator) for numerator in lists["translation"]],
-    }
-
-
-def _elimination(solution: Solution) -> list[list[str]] | None:
-    """The products in each step: index of an element, then the indices of the unknowns that multiply it."""
-    if solution.completeness is None or solution.completeness.route != "exact-elimination":
-        return None
-    return [
-        [" ".join(map(str, (index, *_factors(exponents)))) for index, exponents in step]
-        for step in solution.completeness.elimination
-    ]
-
-
-def _isolated(isolated: IsolatedSolutions) -> dict[str, Any]:
-    """Boxes with exactly one solution each; of a pair of conjugate ones, one."""
-    return {
-        "chart": list(isolated.chart),
-        "real": [
-            {"exponents": list(box.exponents), "centre": [hex(real) for real, _ in box.centre]} for box in isolated.real
-        ],
-        "complex": [
-            {"exponents": list(box.exponents), "centre": [[hex(part) for part in parts] for parts in box.centre]}
-            for box in isolated.pairs
-        ],
-    }
-
-
-def _factors(exponents: Iterable[int]) -> list[int]:
-    return [unknown for unknown, exponent in enumerate(exponents) for _ in range(exponent)]
-
-
-def _coefficients(values: Iterable[int]) -> list[str]:
-    """Hexadecimal integers, lowest degree first, without zeros of highest degree."""
-    texts = [hex(value) for value in values]
-    while texts and texts[-1] == "0x0":
-        texts.pop()
-    return texts

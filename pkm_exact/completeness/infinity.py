@@ -15,7 +15,7 @@ from random import Random
 
 from flint import fmpz_poly, nmod_mat, nmod_poly
 
-from pkm_exact.algebra.graded_quotient import Degree, graded_parts
+from pkm_exact.algebra.graded_quotient import Chosen, Degree, graded_parts
 from pkm_exact.algebra.lifting import lift_by_primes
 from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.algebra.rur import ModularRepresentation, squarefree_part
@@ -67,7 +67,8 @@ def points_at_infinity(conditions: Conditions, primes: Iterator[int], limit_bits
     limit_bits : int
         Of the product of the primes used.
     """
-    section = _Section.at(conditions, next(primes))
+    chosen: Chosen = {}
+    section = _Section.at(conditions, next(primes), chosen)
     if section is None or not section.dimension:
         return None
     random = Random(conditions.digest)
@@ -78,7 +79,7 @@ def points_at_infinity(conditions: Conditions, primes: Iterator[int], limit_bits
             form = _random_form(random, size)
             image = section.representation(chart, form)
             if image is not None and image.degree == distinct:
-                return _lifted(conditions, primes, (chart, form, image), limit_bits)
+                return _lifted(conditions, primes, (chart, form, image), chosen, limit_bits)
     return None
 
 
@@ -86,6 +87,7 @@ def _lifted(
     conditions: Conditions,
     primes: Iterator[int],
     start: tuple[tuple[int, ...], tuple[int, ...], ModularRepresentation],
+    chosen: Chosen,
     limit_bits: int,
 ) -> PointsAtInfinity | None:
     chart, form, first = start
@@ -93,7 +95,7 @@ def _lifted(
     def images() -> Iterator[ModularRepresentation]:
         yield first
         for prime in primes:
-            section = _Section.at(conditions, prime)
+            section = _Section.at(conditions, prime, chosen)
             image = None if section is None else section.representation(chart, form)
             if image is not None:
                 yield image
@@ -161,14 +163,14 @@ class _Section:
     part: Degree
 
     @classmethod
-    def at(cls, conditions: Conditions, prime: int) -> _Section | None:
+    def at(cls, conditions: Conditions, prime: int, chosen: Chosen) -> _Section | None:
         """None if the dimension does not settle."""
         forms = [*conditions.forms, _HORIZON]
         quadrics = [*boundary_quadrics(conditions.metric), *conditions.quadrics]
         size, equations = restricted(quadrics, forms, prime)
         basis = zero_space(forms, prime)
         below = -1
-        for part in islice(graded_parts(size, equations, prime), LAST_DEGREE):
+        for part in islice(graded_parts(size, equations, prime, chosen), LAST_DEGREE):
             if part.degree > 1 and part.dimension == below:
                 return cls(prime, basis, part)
             if part.dimension > MOST_POINTS:

@@ -8,26 +8,18 @@ together, the section being finite (``finite_section``, ``infinity``).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 
 from pkm_exact.algebra.primes import primes_from
+from pkm_exact.claim import CompletenessRoute
 from pkm_exact.completeness.closed_section import closed_section
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.finite_section import is_finite
 from pkm_exact.completeness.infinity import PointsAtInfinity, points_at_infinity
 from pkm_exact.completeness.modular_rank import modular_rank
 from pkm_exact.completeness.pose_bound import form_rank, pose_bound
+from pkm_exact.failures.contradiction import require
 from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.policy import Policy
-
-
-class ShortRoute(StrEnum):
-    """Arguments by which nothing is missing from a list."""
-
-    REFINED_BEZOUT = "refined-bezout"
-    PRODUCT_BOUND = "product-bound"
-    MODULAR_RANK = "modular-rank"
-    COUNTING_AT_INFINITY = "counting-at-infinity"
 
 
 @dataclass(frozen=True)
@@ -36,12 +28,12 @@ class ShortProof:
 
     Attributes
     ----------
-    route : ShortRoute
+    route : CompletenessRoute
     infinity : PointsAtInfinity or None
         For counting at infinity.
     """
 
-    route: ShortRoute
+    route: CompletenessRoute
     infinity: PointsAtInfinity | None = None
 
 
@@ -62,15 +54,20 @@ def short_proof(conditions: Conditions, distinct: int, total: int, policy: Polic
     primes = primes_from(policy.seed_for(conditions.digest), policy.prime_bits)
     bound = pose_bound(conditions)
     if distinct == total == bound.least:
-        return ShortProof(ShortRoute.PRODUCT_BOUND if bound.least < bound.degree else ShortRoute.REFINED_BEZOUT)
+        is_lower = bound.least < bound.degree
+        return ShortProof(CompletenessRoute.PRODUCT_BOUND if is_lower else CompletenessRoute.REFINED_BEZOUT)
     if modular_rank(closed_section(conditions), next(primes), total) == total:
-        return ShortProof(ShortRoute.MODULAR_RANK)
+        return ShortProof(CompletenessRoute.MODULAR_RANK)
     if conditions.motion != SPATIAL or not _is_square(conditions) or not is_finite(conditions, next(primes)):
         return None
     found = points_at_infinity(conditions, primes, policy.lifting_bits)
-    if found is None or total + found.multiplicity != bound.degree:
+    if found is None:
         return None
-    return ShortProof(ShortRoute.COUNTING_AT_INFINITY, found)
+    counts = {"listed": total, "infinity": found.multiplicity}
+    require(total + found.multiplicity <= bound.degree, "more solutions than the degree of the motions", **counts)
+    if total + found.multiplicity < bound.degree:
+        return None
+    return ShortProof(CompletenessRoute.COUNTING_AT_INFINITY, found)
 
 
 def _is_square(conditions: Conditions) -> bool:

@@ -26,7 +26,7 @@ from flint import fmpz_poly, nmod_mat, nmod_poly
 from pkm_exact.algebra.exact_quotient import ExactQuotient
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.errors import InternalContradictionError
-from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, SE3
+from pkm_exact.formulations.motion_variety import MOTION_COORDINATES
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import evaluate, motion_quadrics
 from pkm_exact.policy import Policy
@@ -57,7 +57,11 @@ def total_of(found: Multiplicities) -> int:
 
 
 def exact_multiplicities(
-    representation: PoseRepresentation, problem: ForwardProblem, quotient: ExactQuotient, policy: Policy
+    representation: PoseRepresentation,
+    problem: ForwardProblem,
+    quotient: ExactQuotient,
+    unknowns: Sequence[str],
+    policy: Policy,
 ) -> Multiplicities:
     """The multiplicities of all poses.
 
@@ -67,6 +71,9 @@ def exact_multiplicities(
         Of all poses, verified.
     quotient : ExactQuotient
         The quotient algebra of the poses, its matrices commuting.
+    unknowns : sequence of str
+        Names of its unknowns, of ``MOTION_COORDINATES``.
+    policy : Policy
 
     Raises
     ------
@@ -74,11 +81,10 @@ def exact_multiplicities(
         If no combination of the unknowns that was tried takes different values at poses that are not conjugate.
     """
     factors = [factor for factor, _ in representation.univariate.primitive_polynomial.factor()[1]]
-    names = SE3().formulate(problem).system.unknowns
     seed = policy.seed_for(problem.digest, "multiplicities")
     random = Random(seed)
     for prime in islice(primes_from(seed, policy.prime_bits), policy.attempts):
-        weights = {name: random.randrange(1, prime) for name in names}
+        weights = {name: random.randrange(1, prime) for name in unknowns}
         found = _modulo(representation, problem.metric, factors, quotient, weights, prime)
         if found is not None:
             return tuple(zip(factors, found, strict=True))

@@ -59,11 +59,16 @@ class Singularity:
 
 
 def are_isolated(
-    representation: PoseRepresentation, problem: ForwardProblem, policy: Policy, factor: fmpz_poly | None = None
+    representation: PoseRepresentation,
+    problem: ForwardProblem,
+    policy: Policy,
+    factor: fmpz_poly | None = None,
+    further: int = 0,
 ) -> bool:
     """Whether the Jacobian is proved regular at every pose, by its image modulo some prime.
 
-    "No" means that no proof was found at the primes tried. With a ``factor`` of h only its roots are looked at.
+    "No" means that no proof was found at the primes tried. With a ``factor`` of h only its roots are looked at. With
+    ``further`` rows chosen at random it is proved that at most so many freedoms are left.
     """
     h = representation.univariate.polynomial
     looked_at = h if factor is None else factor
@@ -82,6 +87,7 @@ def are_isolated(
         if any(unit.gcd(modulus).degree() != 0 for unit in (slope, quantities[16])):
             continue
         rows = exact_rows(problem, quantities, partial(_residue, prime))
+        rows += [[nmod_poly([random.randrange(prime)], prime) for _ in problem.motion.twist] for _ in range(further)]
         if _have_full_rank([[value % modulus for value in row] for row in rows], modulus, random):
             return True
     return False

@@ -13,6 +13,9 @@ leading monomials divide span its quotient algebra. If these are as many as the 
 they are more, some poses are multiple. A pose at which the Jacobian has corank c counts 2^c times at least
 (``poses.multiple_poses``): if these numbers sum to the bound, again there is no other. Or else the trace form over Q
 counts the distinct ones (``algebra.exact_quotient``), and there must be as many as listed.
+
+The short ways (``short_proof``) are tried before an elimination. Robots with as many legs as freedoms are eliminated in
+the coordinates of ``SE3``, as certificates of version 1 have it, others in those of the closed section.
 """
 
 from __future__ import annotations
@@ -26,13 +29,19 @@ from pkm_exact.algebra.exact_quotient import exact_quotient
 from pkm_exact.algebra.groebner import Trace, UnluckyPrimeError
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.quotient import standard_monomials
+from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.claim import CompletenessRoute
+from pkm_exact.completeness.closed_section import closed_section
+from pkm_exact.completeness.conditions import Conditions
+from pkm_exact.completeness.infinity import PointsAtInfinity
+from pkm_exact.completeness.short_proof import short_proof
 from pkm_exact.failures.contradiction import require
 from pkm_exact.formulations.motion_variety import SE3
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.policy import Policy
 from pkm_exact.poses.multiple_poses import Multiplicities, exact_multiplicities, least_multiplicities, total_of
 from pkm_exact.poses.pose_representation import PoseRepresentation
+from pkm_exact.poses.self_motion import is_of_legs
 from pkm_exact.poses.singularity import are_isolated
 from pkm_exact.stages import Watch
 
@@ -48,16 +57,31 @@ class CompletenessProof:
         Number of complex poses with multiplicity.
     elimination : tuple of tuple of (int, tuple of int)
         For exact elimination: the rows of every matrix, each an element's index and the exponents that multiply it
-        (see ``algebra.exact_basis``), on the section of the variety of rigid motions as ``SE3`` writes it.
+        (see ``algebra.exact_basis``), on the section of the variety of rigid motions that ``elimination_system`` gives.
     multiplicities : tuple of (fmpz_poly, int)
         The irreducible factors of the eliminant with the multiplicity of the poses at their roots, if some are
         multiple; empty if all are simple.
+    infinity : PointsAtInfinity or None
+        For counting at infinity: the points there.
     """
 
     route: CompletenessRoute
     total: int
     elimination: tuple[tuple[tuple[int, tuple[int, ...]], ...], ...] = ()
     multiplicities: Multiplicities = ()
+    infinity: PointsAtInfinity | None = None
+
+
+def has_as_many_legs_as_freedoms(problem: ForwardProblem) -> bool:
+    """Whether it is a hexapod or a planar robot with three legs, which certificates of version 1 can describe."""
+    return is_of_legs(problem) and len(problem.constraints) == problem.motion.dimension
+
+
+def elimination_system(problem: ForwardProblem) -> PolynomialSystem:
+    """The system that is eliminated over Q."""
+    if has_as_many_legs_as_freedoms(problem):
+        return SE3().formulate(problem).system
+    return closed_section(Conditions.of(problem)).system
 
 
 def prove_complete(
@@ -77,8 +101,31 @@ def prove_complete(
         and are_isolated(representation, problem, policy)
     ):
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)
+    if _goes_shortly(problem, policy):
+        proof = _shortly(representation, problem, policy)
+        if proof is not None:
+            return proof
     proofs = (_by_elimination(basis, representation, problem, policy) for basis in bases(problem, policy, watch))
     return next((proof for proof in proofs if proof is not None), None)
+
+
+def _goes_shortly(problem: ForwardProblem, policy: Policy) -> bool:
+    """Whether short ways are tried: not on planar robots with three legs, whose eliminations are shorter."""
+    if not has_as_many_legs_as_freedoms(problem):
+        return True
+    return policy.short_proofs and not problem.motion.is_planar
+
+
+def _shortly(representation: PoseRepresentation, problem: ForwardProblem, policy: Policy) -> CompletenessProof | None:
+    """A proof without an elimination, in which multiple poses count twice."""
+    degree = representation.univariate.degree
+    found: Multiplicities = ()
+    if not are_isolated(representation, problem, policy):
+        least = least_multiplicities(representation, problem, policy)
+        found = tuple((factor, min(multiplicity, 2)) for factor, multiplicity in least)
+    total = total_of(found) if found else degree
+    proof = short_proof(Conditions.of(problem), degree, total, policy)
+    return None if proof is None else CompletenessProof(proof.route, total, (), found, proof.infinity)
 
 
 def _by_elimination(
@@ -100,14 +147,19 @@ def _by_elimination(
         if rank > degree:
             raise UnluckyPrimeError(f"there are {rank} poses, and {degree} of them were found")
         require(rank == degree, "the trace form counts other solutions than were verified", rank=rank, verified=degree)
-        found = exact_multiplicities(representation, problem, quotient, policy)
+        names = elimination_system(problem).unknowns
+        found = exact_multiplicities(representation, problem, quotient, names, policy)
     total = total_of(found)
     require(total == bound, "the multiplicities do not sum to the number of solutions", sum=total, bound=bound)
     return _elimination_proof(basis, bound, found)
 
 
 def prove_inconsistent(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> CompletenessProof | None:
-    """A proof that no complex pose exists, by an elimination over Q that ends in a constant; None if it does not."""
+    """A proof that no complex pose exists, a short one or by an elimination over Q that ends in a constant, or None."""
+    if _goes_shortly(problem, policy):
+        proof = short_proof(Conditions.of(problem), 0, 0, policy)
+        if proof is not None:
+            return CompletenessProof(proof.route, 0, infinity=proof.infinity)
     found = (solution_bound(basis, policy) == 0 and basis for basis in bases(problem, policy, watch))
     return next((_elimination_proof(basis, 0) for basis in found if basis), None)
 
@@ -118,7 +170,7 @@ def bases(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -
     What one trace does not prove, another may, if its prime was unlucky; but a prime that gives a trace a second time
     shows that it is the robot's. None follows.
     """
-    system = SE3().formulate(problem).system
+    system = elimination_system(problem)
     elimination = Elimination(system, policy)
     traces: list[Trace | None] = []
     for _ in range(policy.attempts):

@@ -1,0 +1,124 @@
+"""Certificates of version 2, as they are built: the schema, both versions side by side, and what the checker says."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from functools import cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from mechanisms import cylinders, h4, mixed, point_and_spheres, pssc, three_rps
+
+import pkm_exact
+from pkm_exact.certify.build import canonical_bytes, certificate
+from pkm_exact.certify.check import check_bytes
+from pkm_exact.engine import solve
+from pkm_exact.geometry.mechanism import Mechanism
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.policy import Policy
+from pkm_exact.solution import Solution
+
+ROOT = Path(__file__).parent.parent
+POLICY = Policy(short_proofs=True)
+
+
+@cache
+def _schema() -> jsonschema.Draft202012Validator:
+    text = resources.files("pkm_exact.certify").joinpath("certificate-2.schema.json").read_text("utf-8")
+    return jsonschema.Draft202012Validator(json.loads(text))
+
+
+def _machine(problem: ForwardProblem) -> Mechanism:
+    named = []
+    for number, constraint in enumerate(problem.constraints, 1):
+        data = {field: getattr(constraint, field) for field in constraint.fields}
+        named.append(type(constraint)(**data, name=f"constraint {number}"))
+    return Mechanism("mechanism", "1", "made up", tuple(named), motion=problem.motion, metric=problem.metric)
+
+
+def _solved(problem: ForwardProblem) -> tuple[Mechanism, Solution]:
+    machine = _machine(problem)
+    return machine, solve(machine.problem(machine.configuration()))
+
+
+def _accepted(content: dict[str, Any]) -> None:
+    _schema().validate(content)
+    verdict = check_bytes(canonical_bytes(content))
+    assert verdict.status == "accepted", verdict
+
+
+@pytest.mark.parametrize(
+    ("problem", "route"),
+    [
+        (three_rps(), "counting-at-infinity"),
+        (h4(), "refined-bezout"),
+        (cylinders(), "product-bound"),
+        (point_and_spheres(), "modular-rank"),
+        (mixed(0, 6), "product-bound"),
+        (pssc((Fraction(0),) * 3), "exact-elimination"),
+    ],
+)
+def test_mechanisms_are_certified(problem: ForwardProblem, route: str) -> None:
+    machine, solution = _solved(problem)
+    content = certificate(machine, "home", solution)
+    assert (content["version"], content["completeness_route"]) == (2, route)
+    assert (content["infinity"] is not None) == (route == "counting-at-infinity")
+    assert (content["elimination"] is not None) == (route == "exact-elimination")
+    _accepted(content)
+
+
+def test_contradictory_constraints_are_certified() -> None:
+    problem = h4()
+    first = problem.constraints[0]
+    machine = _machine(ForwardProblem((*problem.constraints, first), problem.metric, problem.motion))
+    changed = {field: getattr(first, field) for field in first.fields} | {"length_squared": Fraction(5291)}
+    wrong = Mechanism(
+        "wrong",
+        "1",
+        "made up",
+        (*machine.constraints[:-1], type(first)(**changed, name="other")),
+        motion=problem.motion,
+    )
+    solution = solve(wrong.problem(wrong.configuration()))
+    content = certificate(wrong, "home", solution)
+    assert (content["claim"], content["completeness_route"]) == ("inconsistent", "modular-rank")
+    _accepted(content)
+    redundant = solve(machine.problem(machine.configuration()))
+    content = certificate(machine, "home", redundant)
+    assert (content["claim"], content["complex_solutions"]) == ("complete", 8)
+    _accepted(content)
+
+
+def test_mechanisms_with_freedoms_are_certified() -> None:
+    problem = h4()
+    machine, solution = _solved(ForwardProblem(problem.constraints[:3], problem.metric, problem.motion))
+    content = certificate(machine, "home", solution)
+    assert content["claim"] == "positive-dimensional-proved"
+    assert content["self_motion"]["cause"] == "dependent-forms"
+    _accepted(content)
+
+
+@pytest.mark.parametrize("name", ["hexaglide", "mssm"])
+def test_robots_with_shorter_proofs_need_version_2(name: str) -> None:
+    robot = pkm_exact.read_robot(ROOT / "models" / f"{name}.toml")
+    problem = robot.problem(robot.configuration())
+    solution = solve(problem, policy=POLICY)
+    content = certificate(robot, robot.configuration().name, solution)
+    old = json.loads((ROOT / "certs" / f"{name}.json").read_text())
+    assert content["version"] == 2
+    assert content["completeness_route"] == "counting-at-infinity"
+    same = ("claim", "complex_solutions", "distinct_solutions", "poses", "representation")
+    assert all(content[key] == old[key] for key in same)
+    _accepted(content)
+
+
+def test_a_solution_of_another_mechanism_is_refused() -> None:
+    machine, solution = _solved(h4())
+    other = _machine(three_rps())
+    with pytest.raises(ValueError, match="constraints or metric differ"):
+        certificate(other, "home", solution)
+    assert certificate(machine, None, solution)["configuration"] is None
