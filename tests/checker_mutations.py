@@ -247,7 +247,7 @@ def _changes(node: ast.AST, parent: ast.AST, field: str) -> Iterator[ast.AST]:
         case ast.Expr(value=ast.Call()):
             yield ast.Pass()
         case ast.Compare():
-            yield from _changed_comparison(node)
+            yield from _changed_comparison(node, parent)
         case ast.BoolOp():
             yield from _without_an_operand(node)
         case ast.For():
@@ -287,10 +287,18 @@ def _changed_test(node: ast.AST, parent: ast.AST) -> Iterator[ast.AST]:
             yield ast.Constant(True)
 
 
-def _changed_comparison(node: ast.Compare) -> Iterator[ast.AST]:
+def _changed_comparison(node: ast.Compare, parent: ast.AST) -> Iterator[ast.AST]:
+    """Other operators; an equality that only chooses is not weakened to an order, nor is one of texts."""
+    is_word = any(isinstance(side, ast.Tuple) or _is_text(side) for side in (node.left, *node.comparators))
+    is_word |= isinstance(parent, ast.IfExp) or (isinstance(parent, ast.If) and isinstance(node.ops[0], ast.Eq))
     for place, operator in enumerate(node.ops):
-        for other in _ORDERED[type(operator)]:
+        for other in _ORDERED[type(operator)][: 1 if is_word else None]:
             yield ast.Compare(node.left, [*node.ops[:place], other(), *node.ops[place + 1 :]], node.comparators)
+
+
+def _is_text(node: ast.AST) -> bool:
+    """Whether a value is a text: such have no order."""
+    return isinstance(node, ast.Constant) and isinstance(node.value, str)
 
 
 def _without_an_operand(node: ast.BoolOp) -> Iterator[ast.AST]:

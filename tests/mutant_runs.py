@@ -31,8 +31,13 @@ PATIENCE = 2.0, 10.0
 """A mutant may take so many seconds of processor time, and so many times that of the checker, with a certificate."""
 
 LARGE = 1 << 20
+"""Certificates of so many bytes are not kept in memory."""
+OFTEN = 500
+"""Calls of a function that are traced for each certificate."""
 
 Answer = tuple[str, tuple[str, ...]]
+Line = tuple[str, int]
+Places = dict[Line, "array[int]"]
 
 
 @dataclass
@@ -83,16 +88,18 @@ class Reach:
     """Examples in the order in which they are tried, and which of them reach a line of a file."""
 
     examples: list[Example]
-    by_line: dict[tuple[str, int], array[int]] = field(default_factory=dict)
+    by_line: Places = field(default_factory=dict)
+    refused: Places = field(default_factory=dict)
 
     def of(self, mutant: Mutant) -> list[int]:
-        """The examples that reach a mutant; all of them, if it is in a constant."""
+        """The examples that reach a mutant, first those that are refused there; all, if it is in a constant."""
         if not mutant.function:
             return list(range(len(self.examples)))
-        found: set[int] = set()
-        for line in mutant.lines:
-            found.update(self.by_line.get((str(mutant.path), line), ()))
-        return sorted(found)
+        found, there = (
+            {number for line in mutant.lines for number in places.get((str(mutant.path), line), ())}
+            for places in (self.by_line, self.refused)
+        )
+        return sorted(found, key=lambda number: (number not in there, number))
 
 
 def measured(checker: str, examples: Sequence[Example]) -> Reach:
@@ -102,37 +109,49 @@ def measured(checker: str, examples: Sequence[Example]) -> Reach:
     """
     answer = check(checker)
     files = {str(path) for path in SOURCES[checker]}
-    reached = []
+    traces = []
     for example in examples:
         data = example.data
         start = time.process_time()
         example.answer = answer(data)
         example.cost = time.process_time() - start
-        found = _traced(partial(answer, data), files)
-        reached.append({(code.co_filename, line) for code, lines in found.items() for line in lines})
+        traces.append(_traced(partial(answer, data), files))
     seen: Counter[Any] = Counter()
     ranks = [0] * len(examples)
     for number in sorted(range(len(examples)), key=lambda number: examples[number].cost):
-        sort = examples[number].answer[0], frozenset(reached[number])
+        sort = examples[number].answer[0], frozenset(traces[number][0])
         ranks[number] = seen[sort] // 3
         seen[sort] += 1
     order = sorted(range(len(examples)), key=lambda number: (ranks[number], examples[number].cost))
-    lines: dict[tuple[str, int], array[int]] = defaultdict(lambda: array("H"))
+    places: tuple[Places, Places] = (defaultdict(_numbers), defaultdict(_numbers))
     for place, number in enumerate(order):
-        for line in reached[number]:
-            lines[line].append(place)
-    return Reach([examples[number] for number in order], dict(lines))
+        for kept, lines in zip(places, traces[number], strict=True):
+            for line in lines:
+                kept[line].append(place)
+    return Reach([examples[number] for number in order], *map(dict, places))
 
 
-def _traced(call: Callable[[], Any], files: set[str]) -> dict[CodeType, set[int]]:
-    """The lines that are reached; a function whose lines are all reached is not traced any longer."""
+def _numbers() -> array[int]:
+    return array("H")
+
+
+def _traced(call: Callable[[], Any], files: set[str]) -> tuple[set[Line], set[Line]]:
+    """The lines that are reached, and those from which a refusal comes, through one function after another.
+
+    A function whose lines are all reached is not traced any longer, nor one that is called very often.
+    """
     left: dict[CodeType, set[int]] = {}
-    reached: dict[CodeType, set[int]] = {}
+    calls: Counter[CodeType] = Counter()
+    reached: set[Line] = set()
+    refused: set[Line] = set()
 
-    def local(frame: FrameType, event: str, _: Any) -> Any:
+    def local(frame: FrameType, event: str, what: Any) -> Any:
+        place = frame.f_code.co_filename, frame.f_lineno
         if event == "line":
-            reached[frame.f_code].add(frame.f_lineno)
+            reached.add(place)
             left[frame.f_code].discard(frame.f_lineno)
+        elif event == "exception" and what[0].__name__ == "Refusal":
+            refused.add(place)
         return local
 
     def enter(frame: FrameType, _event: str, _: Any) -> Any:
@@ -141,15 +160,16 @@ def _traced(call: Callable[[], Any], files: set[str]) -> dict[CodeType, set[int]
             return None
         if code not in left:
             left[code] = {line for _, _, line in code.co_lines() if line is not None}
-            reached[code] = {code.co_firstlineno}
-        return local if left[code] else None
+            reached.add((code.co_filename, code.co_firstlineno))
+        calls[code] += 1
+        return local if left[code] and calls[code] <= OFTEN else None
 
     sys.settrace(enter)
     try:
         call()
     finally:
         sys.settrace(None)
-    return reached
+    return reached, refused
 
 
 # The change, in the process that is to be thrown away
