@@ -26,6 +26,8 @@ SOURCES = {
 
 REFUSERS = ("require", "well_formed", "affordable")
 """Functions that refuse a certificate unless their first argument holds; the second is the reason, in words."""
+ESTIMATES = ("charge",)
+"""Functions that are told how much work is about to be done: estimates, from which nothing follows."""
 COMMANDS = ("main", "check_file")
 """What reads files and prints: no certificate reaches it, the tests of command lines do."""
 
@@ -185,7 +187,8 @@ def _below(
     parent: ast.AST, field: str, index: int | None, node: ast.AST, header: ast.AST, bound: ast.AST | None
 ) -> Iterator[_Site]:
     """The changes of a node and of what is below it, but for messages, annotations and default values."""
-    if isinstance(node, ast.Raise | ast.JoinedStr | ast.arg | ast.Import | ast.ImportFrom):
+    is_estimate = isinstance(node, ast.Expr) and isinstance(node.value, ast.Call) and _called(node.value) in ESTIMATES
+    if is_estimate or isinstance(node, ast.Raise | ast.JoinedStr | ast.arg | ast.Import | ast.ImportFrom):
         return
     if isinstance(node, ast.stmt):
         header, bound = node, None

@@ -1,7 +1,11 @@
 """Forged certificates that one check alone tells from the truth, and honest ones close to them."""
 
+from collections.abc import Callable
+
 import pytest
+from certificate_subjects import Content
 from certificate_tools import both_resealed, last_line
+from forged_ends import first_and_last
 from forgeries import FORGERIES
 
 
@@ -11,3 +15,10 @@ def test_a_forgery(name: str) -> None:
     answer = both_resealed(forgery.make())
     assert answer.status == forgery.status, last_line(answer)
     assert last_line(answer).startswith(forgery.reason)
+
+
+@pytest.mark.parametrize(("make", "reason"), [pytest.param(*case, id=name) for name, *case in first_and_last()])
+def test_the_first_or_the_last_is_wrong(make: Callable[[], Content], reason: str) -> None:
+    answer = both_resealed(make())
+    assert answer.status == "rejected", last_line(answer)
+    assert last_line(answer).startswith(reason)
