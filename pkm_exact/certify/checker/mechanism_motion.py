@@ -51,7 +51,7 @@ def check_mechanism_motion(document: MechanismDocument, claimed: SelfMotion) -> 
 _WORDS: Final = {
     "dependent-forms": "the constraints are dependent, their poses form sets of positive dimension",
     "symmetry": "a group of motions leaves all constraints as they are",
-    "equal-legs": "all legs are the same vector, the platform moves without turning",
+    "equal-legs": "all legs are the same vector, their poses form a sphere or circle",
 }
 
 
