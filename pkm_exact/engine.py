@@ -189,8 +189,6 @@ class _Run:
 
     def _with_isolated(self, result: Solution, width: Fraction) -> Solution:
         """The solution with the isolated poses beside a set of positive dimension, as far as they can be certified."""
-        if not has_as_many_legs_as_freedoms(self.problem):
-            return result  # paths are tracked from such robots to such robots only
         # Floating point is needed for this alone.
         from pkm_exact.numeric.poses import isolated_poses
 

@@ -18,7 +18,7 @@ from pkm_exact.failures.contradiction import attached, require
 from pkm_exact.final_checks import consistent
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.krawczyk_operator import ChartSystem
-from pkm_exact.numeric.poses import approximations, certified_solutions, real_poses
+from pkm_exact.numeric.poses import approximations, certified_solutions, is_tracked, real_poses
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width
@@ -71,7 +71,7 @@ def solve_krawczyk(
     policy, stages = policy or Policy(), Stages(progress)
     exponent_for_width(width)  # refuses what is no width before the work
     with attached(problem, stages, method="krawczyk", width=width, policy=policy):
-        found = _by_numbers(problem, width, policy, stages, start)
+        found = _by_numbers(problem, width, policy, stages, start) if is_tracked(problem) else None
         if found is not None:
             return consistent(found)
     return solve_exactly_instead(problem, width=width, policy=policy, progress=progress)
@@ -115,10 +115,12 @@ def solve_exactly_instead(
     """
     exact = solve(problem, width=width, policy=policy, progress=progress)
     # How many solutions were certified depends on rounding, and so on the machine: it is not for a certificate.
-    note = (
-        f"{FALLBACK_NOTE} certify all of the {problem.solution_bound} solutions that would prove its list "
-        "complete; the exact engine answered instead"
+    reason = (
+        f"certify all of the {problem.solution_bound} solutions that would prove its list complete"
+        if is_tracked(problem)
+        else "start: it is for as many linear constraints as freedoms"
     )
+    note = f"{FALLBACK_NOTE} {reason}; the exact engine answered instead"
     return replace(exact, notes=(*exact.notes, note))
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pkm_exact.certify import check
+from pkm_exact.certify import check, pure
 
 ROOT = Path(__file__).parents[1]
 CASES = Path(__file__).parent / "cases"
@@ -19,13 +19,21 @@ GOLDENS = [
 
 @pytest.mark.parametrize("path", GOLDENS)
 def test_honest_certificates_need_half_of_the_work_allowed_at_most(path: Path) -> None:
-    verdict, budget = check.check_counted(path.read_bytes())
+    data = path.read_bytes()
+    verdict, budget = check.check_counted(data)
     assert verdict, verdict
     assert 0 < 2 * budget.spent <= budget.limit
+    answer, work = pure.check_counted(data)
+    assert answer.status == "accepted", answer
+    assert 0 < 2 * work.spent <= work.allowed
 
 
 def test_a_step_that_would_take_minutes_is_not_begun() -> None:
     """5,000 dense products in a file of 178 kB kept a checker busy for eight minutes."""
-    verdict, budget = check.check_counted((CASES / "slow-elimination.json").read_bytes())
+    data = (CASES / "slow-elimination.json").read_bytes()
+    verdict, budget = check.check_counted(data)
     assert verdict.status is check.Status.TOO_LARGE
     assert budget.spent < budget.limit // 4
+    answer, work = pure.check_counted(data)
+    assert answer.status == "too-large"
+    assert work.spent < work.allowed // 4

@@ -99,10 +99,10 @@ BAD_MODELS = {
     "kind": ("6-UPS", "7-UPS", "kind: '7-UPS' is unknown; use one of: 6-UPS"),
     "five legs": ("    [2, 0, 0],\n", "", "base.joints: 5 rows; give 6"),
     "two numbers": ("[1, 0, 1]", "[1, 0]", "platform.joints[2]: a list of 2"),
-    "nan": ("0.8", "nan", "configurations[1].lengths[3]: nan is not a finite number"),
-    "negative": ("0.8", "-0.8", "configurations[1].lengths[3]: -0.8 is not positive"),
-    "million": ("0.8", "8" * 10**6, "(1000000 digits) is too long a number"),
-    "code": ("0.8", "\"exec('1')\"", "configurations[1].lengths[3]: \"exec('1')\" is not a number"),
+    "nan": ('"4/5"', "nan", "configurations[1].lengths[3]: nan is not a finite number"),
+    "negative": ('"4/5"', "-0.8", "configurations[1].lengths[3]: -0.8 is not positive"),
+    "million": ('"4/5"', "8" * 10**6, "(1000000 digits) is too long a number"),
+    "code": ('"4/5"', "\"exec('1')\"", "configurations[1].lengths[3]: \"exec('1')\" is not a number"),
 }
 
 

@@ -11,8 +11,8 @@ FLINT, shows as a disagreement. The three ideas that make plain integers suffice
 
 * A polynomial of bounded coefficients is its value at X = 2^k, for k large enough. So an identity modulo the eliminant
   is one division of integers (``Multiples``).
-* What is computed modulo a prime is proved over Q by putting it back into the equations (``echelon_form``), or by a
-  resultant that too many moduli would divide (``vanishes_at_roots``).
+* What is computed modulo a number is proved over Q by putting it back into the equations (``echelon_form``), or because
+  the number is greater than what would be if it were not 0 (``has_dependent_lines``).
 * Real numbers are pairs of integers over 2^p, rounded outward (``Interval``).
 """
 
@@ -25,11 +25,12 @@ import re
 import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from hashlib import sha256
-from itertools import accumulate, combinations, pairwise
+from itertools import accumulate, combinations, count, islice, pairwise
 from math import gcd, isqrt, lcm
 from typing import Any, Final, NamedTuple, TypeAlias
 
@@ -52,7 +53,8 @@ MAX_BOX_GRID: Final = 2048  # of boxes around solutions
 MAX_ISOLATION: Final = 4096  # real roots in cells of the grid 2^-4096 that touch are too close
 MAX_PRECISION: Final = 1 << 14
 MAX_PRODUCTS: Final = 5000
-MAX_ECHELON_BITS: Final = 1 << 36
+MAX_TERMS: Final = 1 << 20  # of the products of a step, and of all elements
+MAX_ENTRIES_OF_A_MATRIX: Final = 1 << 22
 
 GREATEST_NUMBER: Final = 40
 """Degree of the variety of rigid motions: six legs have no more isolated poses."""
@@ -101,6 +103,47 @@ def affordable(holds: object, line: str) -> None:
     """Refuse what exceeds a limit."""
     if not holds:
         raise Refusal("too-large", line)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Work: counted before it is done, from sizes alone; an operation stands for about a nanosecond
+# ---------------------------------------------------------------------------------------------------------------------
+
+WORK_OF_ANY_FILE: Final = 200 * 10**9
+WORK_OF_A_BYTE: Final = 600 * 10**3
+
+
+class Work:
+    """What a file of a size may cost, and what was spent on it."""
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+        self.allowed = WORK_OF_ANY_FILE + WORK_OF_A_BYTE * size
+        self.spent = 0
+
+    def spend(self, operations: float) -> None:
+        """Count operations; refuse if they are too many."""
+        self.spent += int(operations)
+        affordable(
+            self.spent <= self.allowed,
+            f"work: checking takes more than {self.allowed} operations, all that a file of {self.size} bytes may cost",
+        )
+
+
+WORK: Final[ContextVar[Work | None]] = ContextVar("WORK", default=None)
+"""That of the file being checked."""
+
+
+def spend(operations: float) -> None:
+    """Count operations, about to be done, on the file being checked, if it is a file that is checked."""
+    work = WORK.get()
+    if work is not None:
+        work.spend(operations)
+
+
+def product_cost(a: float, b: float) -> float:
+    """Operations for a product of integers of a and b bits, or for a quotient of b bits by a divisor of a bits."""
+    return 150 + a * b / 1200
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -261,6 +304,7 @@ class Certificate:
 def parsed(data: bytes) -> dict[str, Any]:
     """The JSON object without its digest, in its one spelling."""
     affordable(len(data) <= MAX_BYTES, f"file: more than {MAX_BYTES} bytes")
+    spend(1000 * len(data))
     entries = data.count(b",") + data.count(b"[") + data.count(b"{")
     affordable(entries <= MAX_ENTRIES, f"file: more than {MAX_ENTRIES} entries")
     try:
@@ -887,11 +931,16 @@ def check_poses(representation: Representation, legs: Sequence[Leg], g: Metric) 
 
 def evaluated(representation: Representation, g: Metric, scale: int) -> tuple[Multiples, Motion]:
     """The quantities of the motion at a power of 2 that is large enough for forms in them of size ``scale``."""
-    largest = max(map(size, representation.numerators))
-    bound = 4 * max(g) ** 3 * largest**2  # each quantity is a quadratic form in (e, f) of size 4 max(g)^3 at most
+    bound = size_of_quantities(representation, g)
     multiples = Multiples(primitive_part(representation.h), bound * max(scale, 1))
     values = [at_power(numerator, multiples.k) for numerator in representation.numerators]
     return multiples, motion(values[:4], values[4:], g)
+
+
+def size_of_quantities(representation: Representation, g: Metric) -> int:
+    """A bound for the sizes of the quantities of the motion, quadratic forms in (e, f) of size 4 max(g)^3 at most."""
+    largest: int = max(map(size, representation.numerators))
+    return 4 * max(g) ** 3 * largest**2
 
 
 def norm_modulo(representation: Representation, g: Metric, p: int) -> Polynomial:
@@ -1215,6 +1264,77 @@ def lines_modulo(
         yield p, reduced(h0, p), determinant(leg_lines(legs, placed)).polynomial()
 
 
+def double_factor(representation: Representation, legs: Sequence[Leg], g: Metric, degree: int) -> Polynomial | None:
+    """A factor of h0 of a degree at whose roots the leg lines are dependent, hence the solutions multiple.
+
+    None if it is not found. Modulo a prime it is the greatest common divisor of h0 and the determinant.
+    """
+    h0 = primitive_part(representation.h)
+    for p in ((1 << n) - 1 for n in MERSENNE[:4] if degree > 0):
+        if h0[-1] % p:
+            lines = determinant(leg_lines(legs, motion_modulo(representation, g, h0, p))).polynomial()
+            factor = lifted_factor(common_divisor(reduced(h0, p), lines, p), p)
+            if len(factor) - 1 != degree:
+                return None
+            if is_factor(factor, h0):
+                return factor if has_dependent_lines(factor, representation, legs, g) else None
+    return None
+
+
+def lifted_factor(monic: Polynomial, p: int) -> Polynomial:
+    """A primitive polynomial over Z that is a multiple of a monic one modulo p, its coefficients small if possible."""
+    lead, bound = 1, isqrt(p) >> 8
+    for value in monic:
+        lead *= least_denominator(value * lead % p, p, bound)
+    values = [value * lead % p for value in monic[:-1]]
+    return primitive_part([*(value - p if 2 * value > p else value for value in values), lead])
+
+
+def is_factor(a: Polynomial, b: Polynomial) -> bool:
+    """Whether a, primitive, divides b over Z."""
+    spend(len(a) * len(b) * (300 + product_cost(max(map(abs, a)).bit_length(), 2 * max(map(abs, b)).bit_length())))
+    rest = list(b)
+    for place in reversed(range(len(b) - len(a) + 1)):
+        factor, remainder = divmod(rest[place + len(a) - 1], a[-1])
+        if remainder:
+            return False
+        for power, coefficient in enumerate(a, place):
+            rest[power] -= factor * coefficient
+    return not any(rest)
+
+
+def has_dependent_lines(a: Polynomial, representation: Representation, legs: Sequence[Leg], g: Metric) -> bool:
+    """Whether the determinant of the leg lines is 0 at all roots of a factor a of h0, over Q.
+
+    It is a form of degree 4 in (E, F) for each leg, so a polynomial in T of degree d = 4 legs (D - 1) at most, and of
+    some size S at most; with l the leading coefficient of a, l^d times its remainder has integer coefficients below
+    S (2 size(a))^d. If they are 0 modulo a number greater than this, they are 0.
+    """
+    quantity = size_of_quantities(representation, g)
+    bound = 720
+    for leg in legs:
+        scale, *joints = cleared([Fraction(1), *leg.base, *leg.platform])
+        arm, line = 3 * size(joints[3:]) * quantity, (scale + size(joints)) * quantity
+        bound *= scale * line + 2 * arm * line
+    bound *= (2 * size(a)) ** (4 * len(legs) * (len(representation.h) - 2))
+    n = next(prime_exponents(bound.bit_length() + 1))
+    try:
+        placed = motion_modulo(representation, g, a, (1 << n) - 1)
+    except ValueError:  # the leading coefficient has no inverse
+        return False
+    return not determinant(leg_lines(legs, placed)).polynomial()
+
+
+def doubled(factor: Polynomial, representation: Representation) -> dict[Ends, int]:
+    """2 at the real roots of a factor of h0, by the texts of their isolating intervals."""
+    found = {}
+    for root in isolated(primitive_part(representation.h)):
+        low, high = value_at(factor, root.m, root.k), value_at(factor, root.m + 1, root.k)
+        if (not low and root.exact) or (not root.exact and low * high < 0):
+            found[ends(root.m, root.m + (not root.exact), root.k)] = 2
+    return found
+
+
 def leg_lines(legs: Sequence[Leg], placed: Motion) -> list[list[Any]]:
     """Rows (d, b x d) with d = N (C + R B - A) and b = N R B, times q^2; for planar robots d1, d2 and the third moment.
 
@@ -1273,6 +1393,7 @@ class Elimination:
 
     def basis(self) -> list[Monomial]:
         """The standard monomials, smallest first; at most 40 of them."""
+        spend(2000 * (GREATEST_NUMBER + 1) * (len(self.places) + 1) * (1 + len(self.leading)))
         found: list[Monomial] = []
         layer = list(filter(self.is_standard, [(0,) * len(self.places)]))
         while layer:
@@ -1310,15 +1431,24 @@ def eliminate(legs: Sequence[Leg], g: Metric, steps: Sequence[Step]) -> Eliminat
     for number, step in enumerate(steps, 1):
         known = all(index < len(elements) and max(factors, default=-1) < len(places) for index, *factors in step)
         require(known, f"elimination: step {number} names an element or an unknown that there is not")
+        limit_terms(sum(len(elements[index]) for index, *_ in step))
         products = [
             {times(monomial, *factors): value for monomial, value in elements[index].items()}
             for index, *factors in step
         ]
         found = echelon_form(products)
+        spend(2000 * len(found) * len(leading))
         new = [element for element in found if not any(is_divisor(lead, next(iter(element))) for lead in leading)]
         elements += new
         leading += [next(iter(element)) for element in new]
+        limit_terms(sum(map(len, elements)))
     return Elimination(places, elements, leading)
+
+
+def limit_terms(number: int) -> None:
+    """Refuse more terms than the products of a step, or all elements, may have; count going over them."""
+    affordable(number <= MAX_TERMS, f"elimination: more than {MAX_TERMS} terms")
+    spend(3000 * number)
 
 
 def section(legs: Sequence[Leg], g: Metric) -> tuple[tuple[int, ...], list[Terms]]:
@@ -1400,35 +1530,50 @@ def echelon_form(rows: Sequence[Mapping[Monomial, int]]) -> list[Terms]:
     """The reduced echelon form over Q, as primitive integer rows, monomials decreasing.
 
     The columns of the pivots are found modulo a prime, where the rank r is at most that over Q. For them, rows E are
-    computed modulo a larger prime and lifted to rationals. If each given row is, over Q, the combination of E that its
+    computed modulo a larger number and lifted to rationals. If each given row is, over Q, the combination of E that its
     entries at the pivots demand, then E spans all given rows, so their rank is r; if moreover each row of E begins at
-    its pivot, then E is the reduced echelon form, which is unique. If not, the prime was too small.
+    its pivot, then E is the reduced echelon form, which is unique. If not, a prime was unlucky, or a number too small.
     """
+    spend(3000 * sum(map(len, rows)))
     columns = sorted({monomial for row in rows for monomial in row}, key=order, reverse=True)
     place = {monomial: number for number, monomial in enumerate(columns)}
     matrix = [{place[monomial]: value for monomial, value in row.items() if value} for row in rows]
     matrix = [row for row in matrix if row]
     if not matrix:
         return []
-    rank = min(len(rows), len(columns))
-    bits = max(abs(value).bit_length() for row in matrix for value in row.values())
-    estimate = rank * rank * (len(columns) - rank + 1) * (bits + len(columns).bit_length())
-    affordable(estimate <= MAX_ECHELON_BITS, "elimination: a matrix is too large")
-    pivots = pivots_modulo(matrix, MERSENNE[0])
-    for n in [n for n in MERSENNE if n >= min(2 * bits, MERSENNE[-1])]:
-        lifted = lifted_rows(solved_modulo(matrix, pivots, n), n)
-        if (
-            lifted is not None
-            and all(min(row) == pivot for pivot, row in lifted.items())
-            and all(is_combination(row, lifted) for row in matrix)
-        ):
-            return [{columns[c]: lifted[pivot][c] for c in sorted(lifted[pivot])} for pivot in sorted(lifted)]
-    raise Refusal("too-large", f"elimination: an echelon form has numbers of more than {MERSENNE[-1] // 2} bits")
+    few = len(rows) * len(columns) <= MAX_ENTRIES_OF_A_MATRIX
+    affordable(few, f"elimination: a matrix of more than {MAX_ENTRIES_OF_A_MATRIX} entries")
+    for n in MERSENNE[:3]:
+        pivots, independent = pivots_modulo(matrix, n)
+        denominator, bits = common_denominator(independent, pivots, n)
+        for larger in islice(prime_exponents(bits + 40), 2):
+            solved = solved_modulo(independent, pivots, larger)
+            lifted = lifted_rows(solved, larger, denominator) if solved is not None else None
+            if (
+                lifted is not None
+                and all(min(row) == pivot for pivot, row in lifted.items())
+                and all(is_combination(row, lifted) for row in matrix)
+            ):
+                return [{columns[c]: lifted[pivot][c] for c in sorted(lifted[pivot])} for pivot in sorted(lifted)]
+    raise Refusal("too-large", "elimination: an echelon form is not found modulo several primes")
 
 
-def pivots_modulo(matrix: Sequence[Mapping[int, int]], n: int) -> set[int]:
-    """The columns of the pivots of the echelon form modulo 2^n - 1."""
+def prime_exponents(least: int) -> Iterator[int]:
+    """Prime numbers n from a size on for which 2^n - 1 has no small factor, so hardly ever one in common with a pivot.
+
+    Its factors are 1 modulo 2 n.
+    """
+    for n in count(least | 1, 2):
+        if all(n % k for k in range(3, isqrt(n) + 1, 2)):
+            spend(10**7)
+            if all(pow(2, n, 2 * k * n + 1) != 1 for k in range(1, 1000)):
+                yield n
+
+
+def pivots_modulo(matrix: Sequence[Mapping[int, int]], n: int) -> tuple[set[int], list[Mapping[int, int]]]:
+    """The columns of the pivots of the echelon form modulo 2^n - 1, and as many rows that are independent there."""
     found: dict[int, dict[int, int]] = {}
+    independent = []
     for given in sorted(matrix, key=min):
         row = remainders(given, n)
         while row:
@@ -1436,34 +1581,144 @@ def pivots_modulo(matrix: Sequence[Mapping[int, int]], n: int) -> set[int]:
             factor = row.pop(lead)
             if lead not in found:
                 found[lead] = scaled(row, factor, n)
+                independent.append(given)
                 break
             subtract(row, factor, found[lead], n)
-    return set(found)
+    return set(found), independent
 
 
-def solved_modulo(matrix: Sequence[Mapping[int, int]], pivots: set[int], n: int) -> dict[int, dict[int, int]]:
+class Pivot(NamedTuple):
+    """A step of an elimination modulo a prime: row ``number``, times ``inverse``, is 1 at ``column`` and else ``row``.
+
+    Multiples of it, ``multiples``, were subtracted from the rows that were left.
+    """
+
+    number: int
+    column: int
+    inverse: int
+    multiples: dict[int, int]
+    row: dict[int, int]
+
+
+def factored(rows: Sequence[Mapping[int, int]], n: int) -> list[Pivot]:
+    """The elimination of a square matrix that is regular modulo 2^n - 1, sparse rows and columns first (Markowitz)."""
+    left = {number: remainders(row, n) for number, row in enumerate(rows)}
+    steps = []
+    while left:
+        spend(300 * len(left) * 40)
+        number = min(left, key=lambda i: len(left[i]))
+        row = left.pop(number)
+        column = min(row, key=lambda c: sum(c in other for other in left.values()))
+        factor = row.pop(column)
+        inverse = inverse_of(factor, n)
+        row = {c: folded(value * inverse, n) for c, value in row.items()}
+        multiples = {other: entries.pop(column) for other, entries in left.items() if column in entries}
+        for other, multiple in multiples.items():
+            subtract(left[other], multiple, row, n)
+        steps.append(Pivot(number, column, inverse, multiples, row))
+    return steps
+
+
+def solution_modulo(steps: Sequence[Pivot], right: Sequence[int], n: int) -> dict[int, int]:
+    """The solution, by columns, of the equations of an eliminated matrix with these right sides."""
+    spend(sum(2 + len(step.multiples) + len(step.row) for step in steps) * (300 + product_cost(n, n)))
+    values = list(right)
+    for step in steps:
+        value = values[step.number] = folded(values[step.number] * step.inverse, n)
+        for other, multiple in step.multiples.items():
+            values[other] = folded(values[other] - multiple * value, n)
+    solution: dict[int, int] = {}
+    for step in reversed(steps):
+        rest = sum(value * solution[column] for column, value in step.row.items())
+        solution[step.column] = folded(values[step.number] - rest, n)
+    return solution
+
+
+def common_denominator(rows: Sequence[Mapping[int, int]], pivots: set[int], n: int) -> tuple[int, int]:
+    """A common denominator D of X, where B X = C for the columns B at the pivots and the others C; the bits of D X.
+
+    They are those of one vector X v, its digits to the base p = 2^n - 1 found one after another (Dixon 1982). It may,
+    rarely, lack a small factor of D.
+    """
+    square = [{column: value for column, value in row.items() if column in pivots} for row in rows]
+    steps, p = factored(square, n), (1 << n) - 1
+    spend(1000 * sum(map(len, rows)))
+    weights = {column: pow(3, 1000 + column, 65537) for row in rows for column in row if column not in pivots}
+    right = [sum(value * weights[column] for column, value in row.items() if column in weights) for row in rows]
+    bits = max(abs(value).bit_length() for row in rows for value in row.values())
+    terms = sum(map(len, square))
+    solution, modulus, due = dict.fromkeys(pivots, 0), 1, 1
+    for number in count(1):
+        digit = solution_modulo(steps, [folded(value, n) for value in right], n)
+        spend(terms * (200 + product_cost(bits, n)) + len(rows) * (500 + product_cost(n, modulus.bit_length() + bits)))
+        right = [
+            (value - sum(entry * digit[column] for column, entry in row.items())) // p
+            for value, row in zip(right, square, strict=True)
+        ]
+        solution = {column: value + digit[column] * modulus for column, value in solution.items()}
+        modulus *= p
+        if number >= due:
+            due += number // 6 + 1
+            found = denominator_of(list(solution.values()), modulus)
+            if found is not None:
+                return found
+    raise AssertionError("endless")
+
+
+def denominator_of(residues: Sequence[int], modulus: int) -> tuple[int, int] | None:
+    """A common denominator of fractions with these residues and the bits of all when it is cleared; None if unclear."""
+    bits = modulus.bit_length()
+    spend(len(residues) * (1000 + product_cost(bits, bits)))
+    bound = isqrt(modulus) >> 16
+    mixed = sum(value * pow(5, 1000 + place, 65537) for place, value in enumerate(residues))
+    denominator = least_denominator(mixed % modulus, modulus, bound)
+    largest = denominator
+    for residue in residues:
+        value = residue * denominator % modulus
+        if bound < value < modulus - bound:
+            further = least_denominator(value, modulus, bound)
+            denominator, largest = denominator * further, largest * further
+            value = value * further % modulus
+        largest = max(largest, min(value, modulus - value))
+        if largest > bound:
+            return None
+    return denominator, largest.bit_length()
+
+
+def inverse_of(value: int, n: int) -> int:
+    """The inverse modulo 2^n - 1; ValueError if there is none."""
+    spend(8000 + n * n / 8)
+    return pow(value, -1, (1 << n) - 1)
+
+
+def solved_modulo(rows: Sequence[Mapping[int, int]], pivots: set[int], n: int) -> dict[int, dict[int, int]] | None:
     """The rows modulo p = 2^n - 1 that have a 1, left out, at one of the pivots, by pivot, and 0 at the others.
 
     Any order of elimination serves; to keep the rows sparse, the one with the fewest pivots is next (Markowitz 1957).
+    None if p is not prime and divides, in part, a pivot.
     """
-    rows = [remainders(row, n) for row in matrix]
+    left = [remainders(row, n) for row in rows]
     done = []
-    while rows:
-        row = rows.pop(min(range(len(rows)), key=lambda i: len(rows[i].keys() & pivots)))
+    while left:
+        spend(300 * len(left) * 40)
+        row = left.pop(min(range(len(left)), key=lambda i: len(left[i].keys() & pivots)))
         candidates = sorted(row.keys() & pivots)
         if not candidates:
             continue
-        pivot = min(candidates, key=lambda column: sum(column in other for other in rows))
-        factor = row.pop(pivot)
-        row = scaled(row, factor, n)
+        pivot = min(candidates, key=lambda column: sum(column in other for other in left))
+        try:
+            row = scaled(row, row.pop(pivot), n)
+        except ValueError:
+            return None
         done.append((pivot, row))
-        for other in rows:
+        for other in left:
             if pivot in other:
                 subtract(other, other.pop(pivot), row, n)
     solved: dict[int, dict[int, int]] = {}
     for pivot, row in reversed(done):
         total = {column: value for column, value in row.items() if column not in pivots}
         for known in sorted(row.keys() & pivots):
+            spend(len(solved[known]) * (300 + product_cost(n, n)))
             for column, value in solved[known].items():
                 total[column] = total.get(column, 0) - row[known] * value
         solved[pivot] = remainders(total, n)
@@ -1472,6 +1727,7 @@ def solved_modulo(matrix: Sequence[Mapping[int, int]], pivots: set[int], n: int)
 
 def remainders(row: Mapping[int, int], n: int) -> dict[int, int]:
     """A row modulo 2^n - 1, without zeros."""
+    spend(400 * len(row))
     return {column: rest for column, value in row.items() if (rest := folded(value, n))}
 
 
@@ -1484,12 +1740,14 @@ def folded(value: int, n: int) -> int:
 
 def scaled(row: Mapping[int, int], divisor: int, n: int) -> dict[int, int]:
     """A row divided by a number, modulo 2^n - 1."""
-    inverse = pow(divisor, -1, (1 << n) - 1)
+    inverse = inverse_of(divisor, n)
+    spend(len(row) * (300 + product_cost(n, n)))
     return {column: folded(value * inverse, n) for column, value in row.items()}
 
 
 def subtract(row: dict[int, int], factor: int, other: Mapping[int, int], n: int) -> None:
     """Subtract a multiple of another row, modulo 2^n - 1."""
+    spend(len(other) * (300 + product_cost(n, n)))
     p = (1 << n) - 1
     for column, value in other.items():
         entry = row.get(column, 0) - factor * value
@@ -1502,27 +1760,29 @@ def subtract(row: dict[int, int], factor: int, other: Mapping[int, int], n: int)
             row.pop(column, None)
 
 
-def lifted_rows(pivots: Mapping[int, Mapping[int, int]], n: int) -> dict[int, dict[int, int]] | None:
-    """Primitive integer rows that are the given ones modulo p = 2^n - 1; None if they are not clearly smaller."""
+def lifted_rows(pivots: Mapping[int, Mapping[int, int]], n: int, denominator: int) -> dict[int, dict[int, int]] | None:
+    """Primitive integer rows that are the given ones modulo 2^n - 1, of about this denominator; None if it fails."""
     p, lifted = (1 << n) - 1, {}
-    for pivot in sorted(pivots, reverse=True):
-        denominator = 1
-        for value in pivots[pivot].values():
-            denominator *= least_denominator(value * denominator % p, p)
-            if 2 * denominator.bit_length() > n:
-                return None
-        row = {column: value * denominator % p for column, value in pivots[pivot].items()}
-        row = {column: value - p if 2 * value > p else value for column, value in row.items()}
-        largest = max(map(abs, row.values()), default=0)
-        if largest.bit_length() + denominator.bit_length() + 20 > n:
+    bound = p >> 20
+    for pivot, row in pivots.items():
+        spend(len(row) * (1000 + 5 * product_cost(n, n)))
+        lead = denominator
+        for value in row.values():
+            value = value * lead % p
+            if bound < value < p - bound:
+                lead *= least_denominator(value, p, bound)
+        cleared_row = {column: value * lead % p for column, value in row.items()}
+        if lead > bound or any(bound < value < p - bound for value in cleared_row.values()):
             return None
-        lifted[pivot] = {pivot: denominator, **row}
+        cleared_row = {column: value - p if 2 * value > p else value for column, value in cleared_row.items()}
+        content = gcd(lead, *cleared_row.values())
+        lifted[pivot] = {pivot: lead // content, **{column: value // content for column, value in cleared_row.items()}}
     return lifted
 
 
-def least_denominator(value: int, p: int) -> int:
-    """The denominator of the fraction, numerator below sqrt(p), that is this value modulo p (Wang 1981)."""
-    bound = isqrt(p)
+def least_denominator(value: int, p: int, bound: int) -> int:
+    """The denominator of the fraction, numerator up to a bound, that is this value modulo p (Wang 1981)."""
+    spend(1000 + (p.bit_length() - bound.bit_length()) * (300 + p.bit_length() / 8))
     older, newer, before, now = p, min(value, p - value), 0, 1
     while newer > bound:
         quotient = older // newer
@@ -1534,7 +1794,11 @@ def least_denominator(value: int, p: int) -> int:
 def is_combination(row: Mapping[int, int], lifted: Mapping[int, Mapping[int, int]]) -> bool:
     """Whether a row is the combination of the lifted rows that its entries at their pivots demand, over Q."""
     pivots = [column for column in row if column in lifted]
+    spend(300 * len(row) + sum(lifted[pivot][pivot].bit_length() for pivot in pivots) ** 2 / 1000)
     scale = lcm(*(lifted[pivot][pivot] for pivot in pivots))
+    entry = max(max(map(abs, lifted[pivot].values())).bit_length() for pivot in pivots) if pivots else 0
+    given = max(map(abs, row.values())).bit_length()
+    spend(sum(len(lifted[pivot]) for pivot in pivots) * (500 + product_cost(scale.bit_length() + given, entry)))
     rest = {column: -scale * value for column, value in row.items()}
     for pivot in pivots:
         factor = row[pivot] * (scale // lifted[pivot][pivot])
@@ -1695,7 +1959,7 @@ def multiplicity_polynomial(
             set(range(len(h0) - 1)),
             n,
         )
-        if len(solved) == len(h0) - 1:
+        if solved is not None and len(solved) == len(h0) - 1:
             s = [solved[j].get(len(h0) - 1, 0) for j in range(len(h0) - 1)]
             v = [sum(x * y for x, y in zip(h0[i:], s, strict=False)) % p for i in range(1, len(h0))]
             return [x - p if 2 * x > p else x for x in v]
@@ -1884,11 +2148,7 @@ def solution_lines(number: int, total: int, proved: Proved) -> Iterator[str]:
 
 
 def proved_of_all(certificate: Certificate, representation: Representation) -> Proved:
-    """The strongest claim that is proved.
-
-    Argument (1) of check 10 is used for simple solutions alone. Where it closes with double ones, n is the dimension of
-    the algebra of all poses, so the standard monomials are a basis of it, and argument (2), used here, closes as well.
-    """
+    """The strongest claim that is proved."""
     number = len(representation.h) - 1
     simple = are_simple(representation, certificate.legs, certificate.metric)
     if certificate.elimination is None:
@@ -1901,6 +2161,9 @@ def proved_of_all(certificate: Certificate, representation: Representation) -> P
         return Proved("complete", "exact-elimination", number, False, {})
     line = f"elimination: it leaves {len(basis)} monomials, but the {number} solutions are proved simple"
     require(not simple, line)
+    double = double_factor(representation, certificate.legs, certificate.metric, len(basis) - number)
+    if double is not None:
+        return Proved("complete", "exact-elimination", len(basis), True, doubled(double, representation))
     algebra = quotient_algebra(elimination, basis) if basis else None
     v = multiplicity_polynomial(algebra, representation, certificate, elimination.places) if algebra else None
     if v is None:
@@ -2937,15 +3200,23 @@ def check_bytes(data: bytes) -> Verdict:
     >>> check_bytes(b"{}\n")
     Verdict(status='malformed', lines=('file: not a JSON object with a digest',))
     """
-    lines = []
+    return check_counted(data)[0]
+
+
+def check_counted(data: bytes) -> tuple[Verdict, Work]:
+    """The verdict, and the work spent on it."""
+    lines, work = [], Work(len(data))
+    token = WORK.set(work)
     try:
         lines_proved = replayed(parsed(data))
         lines.append("digest: that of the content")
         for line in lines_proved:
             lines.append(line)  # noqa: PERF402 - the lines before a refusal stay
     except Refusal as refusal:
-        return Verdict(refusal.status, (*lines, refusal.line))
-    return Verdict("accepted", tuple(lines))
+        return Verdict(refusal.status, (*lines, refusal.line)), work
+    finally:
+        WORK.reset(token)
+    return Verdict("accepted", tuple(lines)), work
 
 
 def replayed(body: dict[str, Any]) -> Iterator[str]:

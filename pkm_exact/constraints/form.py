@@ -73,6 +73,34 @@ def ordinary(values: Sequence[Any], roots: Sequence[Any]) -> list[Any]:
     ]
 
 
+def in_frames(
+    values: Form, base: Sequence[Fraction], platform: Sequence[Fraction], unit: Fraction, metric: Sequence[int]
+) -> Form:
+    """The form in other frames and another unit of length: a point x of the base becomes (x - base) / unit.
+
+    With b and a the new origins, C = b + unit C' - R a and u = unit u' + R^-1 b - a.
+
+    Examples
+    --------
+    >>> height = form(position=(_ZERO, _ZERO, Fraction(1)), constant=Fraction(-5))
+    >>> moved = in_frames(height, (0, 0, Fraction(3)), (0, 0, 0), Fraction(2), (1, 1, 1))
+    >>> str(moved[6]), str(moved[16])
+    ('2', '-2')
+    """
+    g, b, a, c = metric, base, platform, values
+    turned = [unit * (c[1 + j] - 2 * c[0] * g[j] * a[j]) for j in range(3)]
+    position = [unit * (c[4 + i] + 2 * c[0] * g[i] * b[i]) for i in range(3)]
+    rotation = [
+        c[7 + 3 * i + j] + g[i] * b[i] * (c[1 + j] / g[j] - 2 * c[0] * a[j]) - c[4 + i] * a[j]
+        for i in range(3)
+        for j in range(3)
+    ]
+    constant = c[16] + sum(
+        (c[0] * g[k] * (a[k] ** 2 + b[k] ** 2) - c[1 + k] * a[k] + c[4 + k] * b[k] for k in range(3)), _ZERO
+    )
+    return (unit**2 * c[0], *turned, *position, *rotation, constant)
+
+
 def scale(values: Form, metric: Sequence[int], length: Fraction) -> Fraction:
     """The square of the size of the force in a form's wrench, as far as its coefficients tell; else of the moment.
 

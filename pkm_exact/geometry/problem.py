@@ -16,7 +16,7 @@ from pkm_exact.constraints.form import Form, Vector
 from pkm_exact.digests import digest
 from pkm_exact.errors import InputError
 from pkm_exact.motions.motion import Motion
-from pkm_exact.motions.motion_groups import SPATIAL
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 
 
 @dataclass(frozen=True)
@@ -62,6 +62,25 @@ class ForwardProblem:
                     f"constraint{called}: is of the type {found.type}, but this question is for legs of known length "
                     "only; ask it about a robot all of whose constraints are distances"
                 )
+        return legs
+
+    @property
+    def gough_legs(self) -> tuple[Distance, ...]:
+        """The legs of a Gough platform or of its planar sister: six of known length in space, or three in the plane.
+
+        Raises
+        ------
+        InputError
+            If it is another robot.
+        """
+        legs = self.distances
+        if self.motion not in (SPATIAL, PLANAR) or len(legs) != self.motion.dimension:
+            raise InputError(
+                f"constraints: {len(legs)} legs and {self.motion.name} motions, but this question is for six legs in "
+                "space or three in the plane; ask another one, or about another robot"
+            )
+        if self.motion == PLANAR and any(leg.base[2] or leg.platform[2] for leg in legs):
+            raise InputError("constraints: a joint is out of the plane; give third coordinates 0")
         return legs
 
     @property

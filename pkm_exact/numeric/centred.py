@@ -53,7 +53,7 @@ class CentredFrames:
 
 def centred_frames(problem: ForwardProblem) -> CentredFrames:
     """The frames at the centroids, and a unit of about the size of the robot."""
-    base = _centroid([leg.base for leg in problem.distances])
+    base = _centroid([leg.base for leg in problem.gough_legs])
     platform = _centroid([leg.platform for leg in problem.distances])
     squares = [leg.length_squared for leg in problem.distances]
     for leg in problem.distances:
@@ -173,7 +173,7 @@ class CentredRobot:
 
 def centred_robot(problem: ForwardProblem, frames: CentredFrames) -> CentredRobot:
     """The robot at the precision in force."""
-    base = [centred_joint(leg.base, frames.base, frames.unit, problem.metric) for leg in problem.distances]
+    base = [centred_joint(leg.base, frames.base, frames.unit, problem.metric) for leg in problem.gough_legs]
     platform = [centred_joint(leg.platform, frames.platform, frames.unit, problem.metric) for leg in problem.distances]
     squares = [ball(leg.length_squared / frames.unit**2) for leg in problem.distances]
     rows = [] if problem.motion.is_planar else [study_row()]

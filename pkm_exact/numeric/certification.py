@@ -173,10 +173,9 @@ def _is_settled(system: ChartSystem, step: Balls, point: Balls, exponent: int) -
 
 def _grids(system: ChartSystem, values: Sequence[Dyadic], exponent: int) -> tuple[int, int]:
     """The exponents of the grids of e and f: that of f is coarser where f is larger."""
-    halves = [
-        max(_exponent(value) for index, value in zip(system.support, values, strict=True) if index // 4 == half)
-        for half in (0, 1)
-    ]
+    places = list(zip(system.support, values, strict=True))
+    # Turns about a point have no f.
+    halves = [max((_exponent(value) for index, value in places if index // 4 == half), default=0) for half in (0, 1)]
     return exponent, max(0, exponent - max(0, halves[1] - halves[0]))
 
 

@@ -83,8 +83,8 @@ def numeric_robot(problem: ForwardProblem) -> NumericRobot:
     >>> robot.unit, robot.lengths.tolist(), robot.base_centre.tolist()
     (4.0, [0.75, 0.75, 0.75], [2.0, 1.0, 0.0])
     """
+    base = [leg.base for leg in problem.gough_legs]
     _require_moderate(problem)
-    base = [leg.base for leg in problem.distances]
     platform = [leg.platform for leg in problem.distances]
     centres = _centroid(base), _centroid(platform)
     squares = [leg.length_squared for leg in problem.distances]

@@ -60,6 +60,17 @@ class Approximations:
     points: Complex
 
 
+def is_tracked(problem: ForwardProblem) -> bool:
+    """Whether paths lead to its solutions: it has as many linear forms as freedoms, and no quadrics.
+
+    Examples
+    --------
+    >>> is_tracked(ForwardProblem(()))
+    False
+    """
+    return len(problem.forms) == problem.motion.dimension and not problem.squares
+
+
 def approximations(
     problem: ForwardProblem, start: StartSection | None = None, seed: int = 0, watch: Watch | None = None
 ) -> Approximations:
@@ -145,9 +156,11 @@ def real_poses(
 def isolated_poses(problem: ForwardProblem, width: Fraction) -> tuple[IsolatedSolutions, int, tuple[Pose, ...]] | None:
     """The isolated solutions that path tracking finds and Krawczyk's operator proves, as ``real_poses`` gives them.
 
-    None if there is none, or the robot's numbers are too large for floating point. Every isolated simple solution is
-    the end of a path, but that all paths arrive is not proved.
+    None if there is none, or paths do not lead to such a problem, or its numbers are too large for floating point.
+    Every isolated simple solution is the end of a path, but that all paths arrive is not proved.
     """
+    if not is_tracked(problem):
+        return None
     try:
         system, isolated = certified_solutions(problem, approximations(problem))
     except OverflowError:

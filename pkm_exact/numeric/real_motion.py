@@ -33,6 +33,7 @@ from pkm_exact.formulations.registry import formulation_codes
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import support, translation_coordinates
 from pkm_exact.numeric.certification import isolated_solutions
+from pkm_exact.numeric.constraint_descent import approximate_poses
 from pkm_exact.numeric.krawczyk_operator import ChartSystem
 from pkm_exact.numeric.levenberg_marquardt import DescentPolicy, distinct_poses, levenberg_marquardt
 from pkm_exact.numeric.numeric_robot import numeric_robot
@@ -42,7 +43,7 @@ from pkm_exact.poses.coaxial_motion import screws
 from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.real_pose import are_out_of_reach, has_real_point
 from pkm_exact.poses.search import PoseSearch
-from pkm_exact.poses.self_motion import Cause, SelfMotion, form_rank, is_of_legs
+from pkm_exact.poses.self_motion import Cause, SelfMotion, form_rank, is_of_legs, size_of
 from pkm_exact.poses.singularity import are_isolated
 from pkm_exact.roots.isolation import real_root_enclosures
 from pkm_exact.stages import Stages
@@ -67,7 +68,7 @@ def real_motion(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> 
     """What is proved of real motions on a set of complex poses."""
     causes = motion.mobility.causes
     if not is_of_legs(problem):
-        return _by_witness(problem, motion, policy)
+        return _by_witnesses(problem, motion, policy)
     for cause, side in _POINTS.items():
         if cause in causes:
             joints = [getattr(leg, side) for leg in problem.distances]
@@ -83,26 +84,43 @@ def real_motion(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> 
     return RealMotion.PROVED if _is_proved(problem, motion, policy, turns=turns) else RealMotion.OPEN
 
 
-def _by_witness(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> RealMotion:
-    """What a real one among the poses that are known tells of constraints of any type.
+def _by_witnesses(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> RealMotion:
+    """What is proved for constraints of any type: by the poses that are known, or by others where constraints hold."""
+    if _witnesses(problem, motion, motion.legs, motion.representation, policy):
+        return RealMotion.PROVED
+    for pose in _approximate_poses(problem, policy.seed):
+        further = _further_legs(problem, motion.mobility.dimension, pose, policy.seed)
+        extended = replace(problem, constraints=(*problem.constraints, *further))
+        representation = PoseSearch(extended, formulation_codes()[0], policy, Stages()).found()[1]
+        if representation is not None and _witnesses(problem, motion, further, representation, policy):
+            return RealMotion.PROVED
+    return RealMotion.OPEN
+
+
+def _witnesses(
+    problem: ForwardProblem,
+    motion: SelfMotion,
+    legs: Sequence[Distance],
+    representation: PoseRepresentation,
+    policy: Policy,
+) -> bool:
+    """Whether poses in which further legs have their lengths prove a real motion under constraints of any type.
 
     If a motion keeps all of them, it goes on from there. If the pose is regular for them and the further legs together,
     as many as freedoms, the independent ones among them define a real manifold of positive dimension there, on which
     the others hold too.
     """
-    representation = motion.representation
     if not _has_real_root(representation):
-        return RealMotion.OPEN
+        return False
     if any(cause in _KEEPING for cause in motion.mobility.causes):
-        return RealMotion.PROVED
-    extended = replace(problem, constraints=(*problem.constraints, *motion.legs))
+        return True
+    extended = replace(problem, constraints=(*problem.constraints, *legs))
     missing = problem.motion.dimension - motion.mobility.rank - len(problem.squares)
-    regular = len(motion.legs) == missing > 0 and are_isolated(representation, extended, policy)
-    return RealMotion.PROVED if regular else RealMotion.OPEN
+    return len(legs) == missing > 0 and are_isolated(representation, extended, policy)
 
 
 def _is_proved(problem: ForwardProblem, motion: SelfMotion, policy: Policy, *, turns: bool) -> bool:
-    rank, degrees = motion.mobility.rank, 3 if problem.motion.is_planar else 6
+    rank, degrees = motion.mobility.rank, problem.motion.dimension
     for pose in _approximate_poses(problem, policy.seed):
         if rank < degrees and _is_regular(problem, rank, pose, policy.seed):
             return True
@@ -116,7 +134,7 @@ def _approximate_poses(problem: ForwardProblem, seed: int) -> Iterator[NumericPo
     try:
         robot = numeric_robot(problem)
     except InputError:
-        return iter(())
+        return islice(approximate_poses(problem, STARTS, seed), TRIED)
     limits = DescentPolicy(starts=STARTS, seed=seed)
     return islice(iter(distinct_poses(robot, levenberg_marquardt(robot, limits), limits.distinct)), TRIED)
 
@@ -124,7 +142,7 @@ def _approximate_poses(problem: ForwardProblem, seed: int) -> Iterator[NumericPo
 def _is_regular(problem: ForwardProblem, rank: int, pose: NumericPose, seed: int) -> bool:
     """Whether a real pose near the given one is certified, regular for as many legs as are independent."""
     legs = _independent_legs(problem, rank)
-    further = _further_legs(problem, len(problem.distances) - rank, pose, seed)
+    further = _further_legs(problem, problem.motion.dimension - rank, pose, seed)
     x = _study_coordinates(pose, problem.metric)
     weights = [round(CHART_SIZE * float(value)) for value in x[:4] / np.linalg.norm(x[:4])]
     system = ChartSystem(replace(problem, constraints=(*legs, *further)), weights)
@@ -144,7 +162,7 @@ def _independent_legs(problem: ForwardProblem, rank: int) -> list[Distance]:
 def _further_legs(problem: ForwardProblem, count: int, pose: NumericPose, seed: int) -> list[Distance]:
     """Legs between random points, with the lengths that they have at a pose, rounded."""
     random = Random(seed)
-    size = 1 + max(abs(value) for leg in problem.distances for value in (*leg.base, *leg.platform)).__ceil__()
+    size = size_of(problem)
     scales = np.sqrt(np.array(problem.metric, dtype=float))
     legs: list[Distance] = []
     while len(legs) < count:

@@ -2,7 +2,8 @@
 
 Six leg forms of a robot with random complex joints and lengths, found by monodromy: one solution is chosen first and
 legs through it, then loops in the space of leg forms permute the solutions until there are 40, the degree of the rigid
-motions. `python -m pkm_exact.numeric.start` computes it again. Planar robots have three legs and 6 solutions.
+motions. `python -m pkm_exact.numeric.start` computes it again. The same for every smaller group of motions: planar
+robots have three legs and 6 solutions.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from typing import Final
 import numpy as np
 
 from pkm_exact.motions.motion import Motion
-from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
+from pkm_exact.motions.motion_groups import MOTIONS
 from pkm_exact.numeric.study_system import Complex, Frames, leg_forms, motion_values, section_quadrics
 from pkm_exact.numeric.tracker import normalised, polished, track
 
@@ -37,7 +38,7 @@ class StartSection:
     ----------
     legs : (m, 17) complex array
     solutions : (p, n) complex array
-        p = 40 and n = 8, or 6 and 4 if planar.
+        p = 40 and n = 8, or 6 and 4 if planar, ..: the degree, and the number of coordinates.
     frames : Frames or None
         Those of the robot for which the section was made: of a robot that is tracked from here, they are used as well.
     """
@@ -49,7 +50,7 @@ class StartSection:
 
 @cache
 def generic_start(motion: Motion) -> StartSection:
-    """The shipped section of spatial or planar motions."""
+    """The shipped section of a group of motions."""
     text = files("pkm_exact.numeric").joinpath("start.json").read_text(encoding="utf-8")
     entry = json.loads(text)[motion.name]
     return StartSection(_complex(entry["legs"]), _complex(entry["solutions"]))
@@ -111,11 +112,12 @@ def _random_legs(random: np.random.Generator, motion: Motion) -> Complex:
 
 def _random_motion(random: np.random.Generator, motion: Motion) -> Complex:
     e, f = _gaussian(random, 4), _gaussian(random, 4)
-    if motion.is_planar:
-        e[[1, 2]] = f[[0, 3]] = 0
-    else:
-        f -= (e @ f) / (e @ e) * e
-    return np.concatenate([e, f])
+    point = np.concatenate([e, f])
+    point[[k for k in range(len(point)) if k not in motion.support]] = 0
+    if motion.has_study_condition:
+        e = point[:4]
+        point[4:] -= (e @ point[4:]) / (e @ e) * e
+    return point
 
 
 def _gaussian(random: np.random.Generator, *shape: int) -> Complex:
@@ -132,9 +134,9 @@ def joined(known: Complex, further: Complex) -> Complex:
 
 
 def main() -> int:
-    """Compute both sections again and write them beside this module."""
+    """Compute all sections again and write them beside this module."""
     content = {}
-    for motion in (SPATIAL, PLANAR):
+    for motion in MOTIONS.values():
         start = find_start(SEED, motion)
         content[motion.name] = {key: _pairs(getattr(start, key)) for key in ("legs", "solutions")}
     lines = json.dumps(content).replace("]], [[", "]],\n[[").replace('": [[[', '": [\n[[')

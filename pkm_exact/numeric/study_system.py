@@ -1,27 +1,35 @@
-"""The leg equations in floating point: quadrics in Study coordinates, for many points at once.
+"""The constraints in floating point: quadrics in Study coordinates, for many points at once.
 
 All in ordinary coordinates, after a change of frames and of the unit of length that gives base and platform their
 centroids as origins and the robot the size 1. A pose is x = (e, f) up to a complex factor; each of the 17 quantities
-(|C|^2; u; C; R; 1) of ``geometry.study`` is a quadratic form x^T M x, and a leg is a linear form on these 17. So six
-legs are a 6 x 17 matrix, a section of the rigid motions, and the equations are
+(|C|^2; u; C; R; 1) of ``geometry.study`` is a quadratic form x^T M x, and a leg is a linear form on these 17, as are
+most constraints. So six legs are a 6 x 17 matrix, a section of the rigid motions, and the equations are
 
     x^T Q_k x = 0,   Q_0 Study's condition,   Q_k = sum_i legs[k, i] M_i.
 
-Planar robots have three legs and four of the coordinates, and Study's condition holds by itself.
+Planar robots have three legs and four of the coordinates, and Study's condition holds by itself; other groups of
+motions have their own coordinates.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.constraints.carries import Carries
+from pkm_exact.constraints.constraint import Role
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import SIZE, Vector, in_frames
+from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.geometry.problem import ForwardProblem, points
 from pkm_exact.geometry.study import STUDY_CONDITION, Quadric, motion_quadrics
 from pkm_exact.motions.motion import Motion
+from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 
 Complex: TypeAlias = NDArray[np.complex128]
 Real: TypeAlias = NDArray[np.float64]
@@ -53,12 +61,12 @@ class Frames:
 
 @dataclass(frozen=True)
 class Section:
-    """The legs of a robot in floating point.
+    """The legs of a robot, or its constraints of other types, in floating point.
 
     Attributes
     ----------
     legs : (m, 17) array
-        Leg forms on (|C|^2; u; C; R; 1) of the robot in its normalised frames; m = 6, or 3 if planar.
+        Forms on (|C|^2; u; C; R; 1) of the robot in its normalised frames, as many as freedoms: 6, or 3 if planar.
     frames : Frames
     motion : Motion
     """
@@ -78,6 +86,8 @@ def numeric_section(problem: ForwardProblem, frames: Frames | None = None) -> Se
 
     Sections of one robot in the same frames differ by the constants of their legs only.
     """
+    if not problem.has_only_distances or problem.motion not in (SPATIAL, PLANAR):
+        return _general_section(problem, frames)
     scales = np.sqrt(np.array(problem.metric, dtype=float))
     base = np.array([[float(value) for value in leg.base] for leg in problem.distances]) * scales
     platform = np.array([[float(value) for value in leg.platform] for leg in problem.distances]) * scales
@@ -95,6 +105,45 @@ def _fitting_frames(base: Real, platform: Real, squares: Real, scales: Real) -> 
     return Frames(*origins, float(np.sqrt(total / (3 * len(squares)))), scales)
 
 
+def _general_section(problem: ForwardProblem, frames: Frames | None) -> Section:
+    """The section of constraints of any type: frames are changed exactly, before anything is rounded."""
+    metric, scales = problem.metric, np.sqrt(np.array(problem.metric, dtype=float))
+    base, platform = landmarks(problem)
+    if frames is None:
+        joints = [np.array([[float(value) for value in point] for point in side]) * scales for side in (base, platform)]
+        legs = [float(found.length_squared) for found in problem.constraints if isinstance(found, Distance)]
+        spreads = [((side - side.mean(axis=0)) ** 2).sum(axis=1).mean() for side in joints]
+        total = spreads[0] + spreads[1] + (float(np.mean(legs)) if legs else 0.0)
+        # Origins are moved along those axes only along which the platform can move: the motions remain the same group.
+        free = np.array([float(axis in problem.motion.twist) for axis in range(3)])
+        origins = [side.mean(axis=0) * free for side in joints]
+        frames = Frames(origins[0], origins[1], float(np.sqrt(total / 3)) or 1.0, scales)
+    b, a = ([Fraction(value) for value in side / scales] for side in (frames.base, frames.platform))
+    moved = [in_frames(form, b, a, Fraction(frames.unit), metric) for form in problem.forms]
+    # A number beyond doubles raises OverflowError, as one of a leg does.
+    forms = np.array([[float(value) for value in form] for form in moved])
+    forms *= np.concatenate([[1], 1 / scales, 1 / scales, (scales[None, :] / scales[:, None]).ravel(), [1]])
+    forms /= np.abs(forms[:, : SIZE - 1]).max(axis=1, keepdims=True)
+    return Section(forms.astype(np.complex128), frames, problem.motion)
+
+
+def landmarks(problem: ForwardProblem) -> tuple[list[Vector], list[Vector]]:
+    """Points of base and platform that tell where a mechanism is, and of what size; the origins, if it names none.
+
+    Planes have the point nearest to the origin.
+    """
+    sides = []
+    for role, kind in ((Role.BASE_POINT, InPlane), (Role.PLATFORM_POINT, Carries)):
+        found = points(problem, role)
+        for plane in problem.constraints:
+            if isinstance(plane, kind):
+                norm = sum((g * n * n for g, n in zip(problem.metric, plane.normal, strict=True)), Fraction(0))
+                x, y, z = (plane.offset * n / norm for n in plane.normal)
+                found.append((x, y, z))
+        sides.append(found or [(Fraction(0),) * 3])
+    return sides[0], sides[1]
+
+
 def leg_forms(base: Inexact, platform: Inexact, squares: Inexact) -> Inexact:
     """Leg forms on (|C|^2; u; C; R; 1) from joints (.., m, 3) and squared lengths (.., m) in ordinary coordinates."""
     ones = np.ones((*squares.shape, 1))
@@ -104,12 +153,16 @@ def leg_forms(base: Inexact, platform: Inexact, squares: Inexact) -> Inexact:
 
 
 def section_quadrics(legs: Complex, motion: Motion) -> Complex:
-    """The symmetric matrices of the equations of leg forms (.., m, 17).
+    """The symmetric matrices of the equations of the forms (.., m, 17) of legs or other constraints.
 
-    The first leg is taken off the others: |C|^2 is left in one equation only, and does not drown the others when the
-    platform is far away.
+    The first leg, or the form with most of |C|^2, is taken off the others: |C|^2 is left in one equation only, and does
+    not drown the others when the platform is far away.
     """
-    legs = np.concatenate([legs[..., :1, :], legs[..., 1:, :] - legs[..., :1, :]], axis=-2)
+    pivot = int(np.argmax(np.abs(legs[..., 0]).reshape(-1, legs.shape[-2])[0]))
+    chosen = legs[..., pivot : pivot + 1, :]
+    if chosen[..., 0].all():
+        legs = legs - legs[..., :1] / chosen[..., :1] * chosen
+        legs[..., pivot, :] = chosen[..., 0, :]
     forms = _motion_forms()
     quadrics: Complex = np.tensordot(legs, forms[:QUANTITIES], axes=1)
     if motion.has_study_condition:

@@ -119,7 +119,7 @@ def mobility(problem: ForwardProblem) -> Mobility | None:
 
 def is_of_legs(problem: ForwardProblem) -> bool:
     """Whether it is a robot with legs of known length only, in space or in the plane."""
-    return problem.has_only_distances and problem.motion in (SPATIAL, PLANAR)
+    return bool(problem.constraints) and problem.has_only_distances and problem.motion in (SPATIAL, PLANAR)
 
 
 def _by_joints(problem: ForwardProblem) -> dict[Cause, int]:
@@ -176,11 +176,16 @@ def _dependence(problem: ForwardProblem) -> Cause:
     return Cause.SIMILAR_ON_CONIC if similar and conic.rank() < len(base) else Cause.DEPENDENT_LEGS
 
 
+def size_of(problem: ForwardProblem) -> int:
+    """An integer beyond all coordinates of points of base and platform."""
+    joints = [*points(problem, Role.BASE_POINT), *points(problem, Role.PLATFORM_POINT)]
+    return 1 + max((abs(value) for joint in joints for value in joint), default=Fraction(1)).__ceil__()
+
+
 def extended_problem(problem: ForwardProblem, count: int, seed: int) -> ForwardProblem:
     """The problem with ``count`` further legs, random joints of the size of the robot's own."""
     random = Random(seed)
-    joints = [*points(problem, Role.BASE_POINT), *points(problem, Role.PLATFORM_POINT)]
-    size = 1 + max((abs(value) for joint in joints for value in joint), default=Fraction(1)).__ceil__()
+    size = size_of(problem)
     squares = [found.length_squared for found in problem.constraints if isinstance(found, Distance)]
     square = 1 + max(squares, default=Fraction(size * size)).__ceil__()
     further = []
@@ -215,7 +220,7 @@ class TranslationalMotion:
 
 def translational_motion(problem: ForwardProblem) -> TranslationalMotion | None:
     """The sphere or circle of poses of a robot with congruent base and platform and equal legs, or None."""
-    if not is_of_legs(problem) or not problem.constraints:
+    if not is_of_legs(problem):
         return None
     legs = problem.distances
     if len({leg.length_squared for leg in legs}) != 1:
