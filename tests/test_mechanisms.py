@@ -12,6 +12,8 @@ from hypothesis import strategies as st
 from mechanism_samples import DEAR, MECHANISMS, ORIGIN, Some, distance, general, h4, hinged, plane, solved, vector
 
 from pkm_exact.claim import Claim, RealMotion
+from pkm_exact.cli.table import print_table
+from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.constraint_types import CONSTRAINTS
 from pkm_exact.constraints.distance import Distance
@@ -21,6 +23,7 @@ from pkm_exact.engine import solve
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.moved_platform import moved_platform
 from pkm_exact.geometry.inverse import distance_squared, rotation_of
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.motions.motion_groups import MOTIONS, PLANAR, SCHOENFLIES, TRANSLATION
@@ -140,6 +143,25 @@ def test_the_condition_of_redundant_legs_is_that_of_all_rows() -> None:
     values = np.linalg.svd(np.array(rows), compute_uv=False)
     assert float(pose.jacobian.sigma_min.midpoint) == pytest.approx(values[-1])
     assert float(pose.condition.midpoint) == pytest.approx(values[0] / values[-1])  # type: ignore[union-attr]
+
+
+def test_redundant_mechanisms_are_shown_without_a_sign(capsys: pytest.CaptureFixture[str]) -> None:
+    legs = legs_at_a_pose(7)
+    named = tuple(replace(leg, name=f"leg {k}") for k, leg in enumerate(legs, 1))
+    robot = Mechanism("seven legs", "m", "made up for a test", named)
+    solution = solve(robot.problem(robot.configuration()))
+    print_table(robot, "home", solution, "", verbose=False)
+    shown = capsys.readouterr().out
+    assert "assembly modes" not in shown
+    assert shown.splitlines()[-1].split()[-2:] == ["none", "12.06"]
+
+
+def test_the_mechanism_that_is_a_point_has_a_form_that_is_not_zero() -> None:
+    planes = (plane(vector(0, 0, 1), 1, ORIGIN), plane(vector(0, 1, 1), 2, ORIGIN), plane(vector(1, 0, 1), 5, ORIGIN))
+    representation = solve(ForwardProblem(planes, motion=TRANSLATION)).representation
+    assert representation is not None
+    assert representation.univariate.degree == 1
+    assert any(representation.separating_form)
 
 
 def test_a_leg_too_long_is_inconsistent() -> None:
@@ -325,3 +347,28 @@ def test_forms_in_other_frames_have_the_same_values(type_: str, metric: tuple[in
     ]
     inside = in_frames(form, base, platform, unit, metric)
     assert value_at(inside, PLACE, rotation, metric) == value_at(form, moved, rotation, metric)
+
+
+def mixed_types() -> ForwardProblem:
+    """One constraint of each linear type that takes one freedom, and two legs: 6 equations."""
+    some = Some(21)
+    cosine = Angle(some.point(), some.point(), Fraction(11))
+    sensor = LinearForm(
+        (Fraction(0), *some.point(), *some.point(), *some.point(), *some.point(), *some.point(), Fraction(7))
+    )
+    return ForwardProblem((some.distance(), some.distance(), some.in_plane(), some.carries(), cosine, sensor))
+
+
+@pytest.mark.slow
+def test_rigid_motions_and_units_change_no_claim() -> None:
+    exact = solve(mixed_types())
+    base, platform, unit = Some(1).point(), Some(2).point(), Fraction(5, 3)
+    moved = tuple(LinearForm(in_frames(form, base, platform, unit, (1, 1, 1))) for form in exact.problem.forms)
+    other = solve(moved_platform(ForwardProblem(moved), rotation_of(TURN, (1, 1, 1))))
+    counts = [(s.claim, s.complex_solutions, s.distinct_solutions, len(s.poses)) for s in (exact, other)]
+    assert counts[0] == counts[1]
+    assert len(exact.poses) > 0
+    rotations = exact.to_numpy().rotation
+    a, b = (np.array(list(map(float, point))) for point in (platform, base))
+    expected = (positions(exact) + rotations @ a - b) / float(unit)
+    assert np.allclose(sorted(map(tuple, positions(other))), sorted(map(tuple, expected)), atol=1e-6)

@@ -30,7 +30,9 @@ def print_table(robot: Machine, configuration: str | None, solution: Solution, h
     planar = solution.problem.motion.is_planar
     rows = [pose_cells(number, pose, solution.problem.motion) for number, pose in enumerate(solution.poses, 1)]
     rotation = "angle [degrees]" if planar else "unit quaternion (scalar first)"
-    sys.stdout.write(f"\nassembly modes: {summary(assembly_modes(solution.poses))}\n")
+    # A redundant mechanism has no determinant: its Jacobian has more rows than columns.
+    has_signs = solution.problem.equation_count == solution.problem.motion.dimension
+    sys.stdout.write(f"\nassembly modes: {summary(assembly_modes(solution.poses))}\n" if has_signs else "\n")
     sys.stdout.write(f"position [{robot.unit}], {rotation}, right to one unit of the last digit\n")
     print_rows(rows, pose_header(solution.problem.motion))
 

@@ -118,6 +118,8 @@ def _general_section(problem: ForwardProblem, frames: Frames | None) -> Section:
         free = np.array([float(axis in problem.motion.twist) for axis in range(3)])
         origins = [side.mean(axis=0) * free for side in joints]
         frames = Frames(origins[0], origins[1], float(np.sqrt(total / 3)) or 1.0, scales)
+        if not np.isfinite([*origins[0], *origins[1], frames.unit]).all():
+            raise OverflowError("the mechanism is too large for doubles")
     b, a = ([Fraction(value) for value in side / scales] for side in (frames.base, frames.platform))
     moved = [in_frames(form, b, a, Fraction(frames.unit), metric) for form in problem.forms]
     # A number beyond doubles raises OverflowError, as one of a leg does.
@@ -138,7 +140,7 @@ def landmarks(problem: ForwardProblem) -> tuple[list[Vector], list[Vector]]:
         for plane in problem.constraints:
             if isinstance(plane, kind):
                 norm = sum((g * n * n for g, n in zip(problem.metric, plane.normal, strict=True)), Fraction(0))
-                x, y, z = (plane.offset * n / norm for n in plane.normal)
+                x, y, z = (plane.offset * n / (norm or 1) for n in plane.normal)
                 found.append((x, y, z))
         sides.append(found or [(Fraction(0),) * 3])
     return sides[0], sides[1]

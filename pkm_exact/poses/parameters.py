@@ -31,8 +31,10 @@ def choose_parameters(poses: ModularPoses, problem: ForwardProblem, policy: Poli
             continue
         count = poses.distinct_poses(coordinates, own)
         require(0 < count <= poses.count, "more distinct poses than poses", distinct=count, poses=poses.count)
-        for form in islice(candidate_forms(chart, policy.seed, own), policy.attempts):
-            modular = poses.representation(coordinates, form, free_coordinates(chart, problem))
+        free = free_coordinates(chart, problem)
+        forms = (form for form in candidate_forms(chart, policy.seed, own) if any(form[k] for k in free))
+        for form in islice(forms, policy.attempts):
+            modular = poses.representation(coordinates, form, free)
             if modular.degree == count:
                 return Parameters(chart, form, modular)
     return None
