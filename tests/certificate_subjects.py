@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cache, partial
 from typing import Any
 
+import pytest
 from certificate_tools import boxed_certificate, golden, tolerant_certificate, without_proof
 
 from pkm_exact.certify.build import certificate
@@ -98,7 +99,7 @@ SUBJECTS = {
     "special robot, 28 solutions": Subject(partial(golden, "ssm-exact"), 0, 200),
     "Gram metric, exact elimination": Subject(partial(golden, "robocrane-r"), 4, 200),
     "chain 6-RUS, representation": Subject(partial(golden, "hexa"), 0, 100),
-    "chain 6-RUS in a Gram metric, boxes": Subject(partial(boxed_certificate, "hexa"), 2, 100),
+    "chain 6-RUS in a Gram metric, boxes": Subject(partial(boxed_certificate, "hexa"), 0, 100),
     "planar, representation": Subject(partial(golden, "3-rrr"), complete=1500),
     "planar, multiple solutions": Subject(partial(golden, "3-rpr-triple")),
     "planar, boxes": Subject(partial(boxed_certificate, "3-rpr-merlet-p")),
@@ -118,6 +119,9 @@ SUBJECTS = {
     "nothing known": Subject(_nothing),
 }
 """Certificates of every kind, by name; the first word of the name is the kind that ``FREE`` speaks of."""
+
+EACH = [pytest.param(name, marks=() if entry.quick else pytest.mark.slow) for name, entry in SUBJECTS.items()]
+"""The names as parameters of a test; the larger certificates are for the slow tests."""
 
 
 @cache

@@ -1,4 +1,4 @@
-"""The family of hexapods: how many poses each member has, all of them, proved."""
+"""The family of hexapods: what special shapes do to the number of poses."""
 
 from fractions import Fraction
 
@@ -11,42 +11,6 @@ from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
-
-COUNTS = {
-    "mssm": (16, 16),
-    "tssm": (16, 16),
-    "ssm-exact": (28, 16),
-    "6-6pp": (40, 16),
-    "6-6p": (40, 16),
-    "rolland-6-6": (40, 16),
-    "dietmaier": (40, 40),
-    "hexa": (40, 8),
-    "hexaglide": (36, 8),
-    "linapod-n": (40, 2),
-    "linuxcnc-hexapod": (16, 8),
-    "robocrane-r": (16, 4),
-    "similar-planar-s": (16, 8),
-}
-
-
-def _is_complete(name: str, complex_solutions: int, real_poses: int) -> None:
-    solution = solved(name)
-    assert solution.claim is Claim.COMPLETE
-    assert solution.complex_solutions == solution.distinct_solutions == complex_solutions
-    assert len(solution.poses) == real_poses
-
-
-SLOW = "hexaglide"  # its completeness takes an elimination with long numbers
-
-
-@pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.slow if n == SLOW else ()) for n in COUNTS])
-def test_all_poses_are_found_and_proved_to_be_all(name: str) -> None:
-    _is_complete(name, *COUNTS[name])
-
-
-@pytest.mark.slow
-def test_rounding_the_hexagons_adds_eight_complex_poses() -> None:
-    _is_complete("ssm-rounded", 36, 16)
 
 
 def test_a_hexa_with_equal_crank_angles_is_an_ssm() -> None:

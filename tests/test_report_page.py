@@ -17,10 +17,10 @@ from subprocess import run
 from typing import Any
 
 import pytest
+from certificate_subjects import EACH, subject
 from certificate_tools import golden, golden_bytes
 from hypothesis import given
 from hypothesis import strategies as st
-from mutations import SUBJECTS, subject
 
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import Status, check_bytes
@@ -191,7 +191,7 @@ def test_short_numbers_of_the_table_are_right_to_one_unit() -> None:
         assert width / 2 <= Fraction(row[12]) <= width * Fraction(6, 10)
 
 
-@pytest.mark.parametrize("kind", SUBJECTS)
+@pytest.mark.parametrize("kind", EACH)
 def test_every_kind_of_certificate_has_a_page(kind: str) -> None:
     content = subject(kind)
     shown = Page(written(content))
