@@ -82,7 +82,9 @@ def test_no_other_module_says_that_a_robot_moves() -> None:
         texts = (n.value for n in ast.walk(tree) if isinstance(n, ast.Constant) and id(n) not in docs)
         if any(isinstance(text, str) and MOVING.search(text) for text in texts):
             found[path.relative_to(ROOT / "pkm_exact").as_posix()] = path
-    assert set(found) == {"claim_wording.py", "certify/pure.py", "certify/checker/selfmotion.py"}
+    checkers = {name for name in found if name.startswith("certify/checker/") or name == "certify/pure.py"}
+    assert set(found) - checkers == {"claim_wording.py"}
+    assert checkers
 
 
 # Real motions: proved, excluded, open
