@@ -1,7 +1,8 @@
-"""The certified numeric engine: floating point finds all solutions, Krawczyk's operator proves them, Bezout the rest.
+"""The certified numeric engine: floating point finds all solutions, Krawczyk's operator proves them, counting the rest.
 
-If 40 solutions (6 of a planar robot) are certified, they are all, by the refined theorem of Bezout. If not, because
-the robot has fewer finite ones or some are too close to each other, the exact engine answers instead, and says so.
+If 40 solutions (6 of a planar robot) are certified, they are all, by the refined theorem of Bezout; if the robot has
+fewer finite ones, by a short proof (``completeness.short_proof``), such as exact points at infinity for the others. If
+none closes, or some solutions are too close to each other, the exact engine answers instead, and says so.
 """
 
 from __future__ import annotations
@@ -12,7 +13,9 @@ from fractions import Fraction
 from typing import Final
 
 from pkm_exact.claim import Claim, CompletenessRoute
-from pkm_exact.completeness.completeness_proof import CompletenessProof
+from pkm_exact.completeness.completeness_proof import CompletenessProof, goes_shortly
+from pkm_exact.completeness.conditions import Conditions
+from pkm_exact.completeness.short_proof import short_proof
 from pkm_exact.engine import solve
 from pkm_exact.failures.contradiction import attached, require
 from pkm_exact.final_checks import consistent
@@ -93,10 +96,22 @@ def _by_numbers(
         system, isolated = certified_solutions(problem, found, stages.amount)
         count = isolated.count
         require(count <= degree, "more solutions than the variety of motions allows", certified=count, degree=degree)
-        if count == degree:
-            return _solution(system, isolated, width, stages)
+        proof = _proof(problem, count, policy, stages)
+        if proof is not None:
+            return _solution(system, isolated, proof, width, stages)
     stages.leave()
     return None
+
+
+def _proof(problem: ForwardProblem, count: int, policy: Policy, stages: Stages) -> CompletenessProof | None:
+    """A proof that so many simple solutions are all, or None."""
+    if count == problem.solution_bound:
+        return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, count)
+    if not goes_shortly(problem, policy):
+        return None
+    stages.enter("completeness")
+    proof = short_proof(Conditions.of(problem), count, count, policy)
+    return None if proof is None else CompletenessProof(proof.route, count, infinity=proof.infinity)
 
 
 def solve_exactly_instead(
@@ -124,7 +139,9 @@ def solve_exactly_instead(
     return replace(exact, notes=(*exact.notes, note))
 
 
-def _solution(system: ChartSystem, isolated: IsolatedSolutions, width: Fraction, stages: Stages) -> Solution:
+def _solution(
+    system: ChartSystem, isolated: IsolatedSolutions, proof: CompletenessProof, width: Fraction, stages: Stages
+) -> Solution:
     """The answer when all solutions are certified."""
     stages.enter("boxes and Jacobians")
     isolated, exponent, poses = real_poses(system, isolated, width)
@@ -134,7 +151,7 @@ def _solution(system: ChartSystem, isolated: IsolatedSolutions, width: Fraction,
         formulation=FORMULATION,
         method="krawczyk",
         claim=Claim.COMPLETE,
-        completeness=CompletenessProof(CompletenessRoute.REFINED_BEZOUT, isolated.count),
+        completeness=proof,
         complex_solutions=isolated.count,
         distinct_solutions=isolated.count,
         representation=None,

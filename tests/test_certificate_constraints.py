@@ -19,6 +19,7 @@ from pkm_exact.certify.check import check_bytes
 from pkm_exact.engine import solve
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.policy import Policy
 from pkm_exact.solution import Solution
 
@@ -114,6 +115,24 @@ def test_robots_with_shorter_proofs_need_version_2(name: str) -> None:
     same = ("claim", "complex_solutions", "distinct_solutions", "poses", "representation")
     assert all(content[key] == old[key] for key in same)
     _accepted(content)
+
+
+@pytest.mark.parametrize("problem", [three_rps(), mixed(0, 6)])
+def test_boxes_stand_beside_exact_points_at_infinity(problem: ForwardProblem) -> None:
+    machine = _machine(problem)
+    solution = solve_krawczyk(machine.problem(machine.configuration()))
+    content = certificate(machine, "home", solution)
+    assert content["method"] == "krawczyk"
+    assert content["representation"] is None
+    assert content["claim"] == "complete"
+    _accepted(content)
+
+
+def test_boxes_of_a_robot_with_symmetries_need_no_representation() -> None:
+    robot = pkm_exact.read_robot(ROOT / "models" / "hexaglide.toml")
+    solution = solve_krawczyk(robot.problem(robot.configuration()), policy=POLICY)
+    assert (solution.method, solution.completeness_route) == ("krawczyk", "counting-at-infinity")
+    _accepted(certificate(robot, "home", solution))
 
 
 def test_a_solution_of_another_mechanism_is_refused() -> None:

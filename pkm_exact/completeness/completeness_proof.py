@@ -101,7 +101,7 @@ def prove_complete(
         and are_isolated(representation, problem, policy)
     ):
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)
-    if _goes_shortly(problem, policy):
+    if goes_shortly(problem, policy):
         proof = _shortly(representation, problem, policy)
         if proof is not None:
             return proof
@@ -109,7 +109,7 @@ def prove_complete(
     return next((proof for proof in proofs if proof is not None), None)
 
 
-def _goes_shortly(problem: ForwardProblem, policy: Policy) -> bool:
+def goes_shortly(problem: ForwardProblem, policy: Policy) -> bool:
     """Whether short ways are tried: not on planar robots with three legs, whose eliminations are shorter."""
     if not has_as_many_legs_as_freedoms(problem):
         return True
@@ -156,7 +156,7 @@ def _by_elimination(
 
 def prove_inconsistent(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> CompletenessProof | None:
     """A proof that no complex pose exists, a short one or by an elimination over Q that ends in a constant, or None."""
-    if _goes_shortly(problem, policy):
+    if goes_shortly(problem, policy):
         proof = short_proof(Conditions.of(problem), 0, 0, policy)
         if proof is not None:
             return CompletenessProof(proof.route, 0, infinity=proof.infinity)
