@@ -31,8 +31,8 @@ from pkm_exact.stages import Stages
 
 ATTEMPTS: Final = 2
 """Times that all paths are tracked, each time along other paths, before the exact engine takes over."""
-FORMULATION: Final = "AFD5"
-"""The equations are those of the legs and Study's condition in Study coordinates."""
+FORMULATION: Final = "AFD6"
+"""The equations are those of the constraints and Study's condition in Study coordinates."""
 FALLBACK_NOTE: Final = "the numeric engine did not"
 """How the note begins that says that the exact engine answered in its place."""
 
