@@ -29,6 +29,7 @@ CASES = Path(__file__).parent / "cases"
         ("pure_rejects_spatial", solve_krawczyk),
         ("fast_checker_gives_up", solve),
         ("fast_checker_gives_up", solve_krawczyk),
+        ("equations-of-different-sizes", solve_krawczyk),
     ],
 )
 def test_both_checkers_accept_what_is_written(name: str, solver: Any) -> None:

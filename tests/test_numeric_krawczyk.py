@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from pathlib import Path
 from random import Random
 from typing import Any
 
 import numpy as np
 import pytest
+from flint import arb_mat
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
@@ -18,6 +20,7 @@ from samples import MODELS, boxed, random_placed, random_vector, shipped, solved
 from pkm_exact.claim import CompletenessRoute
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.reader import read_robot
 from pkm_exact.numeric import poses as numeric_poses
 from pkm_exact.numeric.certification import GRIDS, isolated_solutions, nearest_box, refined
 from pkm_exact.numeric.krawczyk_operator import ChartSystem, centre, certified
@@ -25,8 +28,10 @@ from pkm_exact.numeric.poses import Approximations, approximations, box_enclosur
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
 from pkm_exact.poses.pose import Interval, Pose
+from pkm_exact.precision import working_precision
 from pkm_exact.solution import Solution
 
+CASES = Path(__file__).parent / "cases"
 GENERAL = "rolland-6-6"
 SLOW = {"hexa", "hexaglide", "linuxcnc-hexapod", "ssm-rounded"}
 NAMES = [pytest.param(path.stem, marks=pytest.mark.slow if path.stem in SLOW else ()) for path in MODELS]
@@ -201,6 +206,19 @@ def test_enclosures_hold_the_poses_of_the_exact_engine(precision: int) -> None:
         ]
         assert len(holding) == 1
         assert all(value.rad() * 2 ** (precision - 40) < 1 for value in values)
+
+
+def test_equations_are_of_one_size_and_exact_at_every_precision() -> None:
+    robot = read_robot(CASES / "equations-of-different-sizes.toml")
+    system = ChartSystem(robot.problem(robot.configuration()), (3, 0, 0, 1))
+    points = [arb_mat(4, 1, [int(k == place) for k in range(4)]) for place in range(4)]
+    with working_precision(64):
+        system.jacobians(points[0])
+    with working_precision(2000):
+        rows = [jacobian.tolist()[:3] for jacobian in map(system.jacobians, points) for jacobian in jacobian]
+    assert all(entry.is_exact() for block in rows for row in block for entry in row)
+    largest = [max(abs(float(entry)) for block in rows for entry in block[place]) for place in range(3)]
+    assert all(0.5 <= size <= 1 for size in largest)
 
 
 @pytest.mark.parametrize("lost_bits", [None, -12, 40])

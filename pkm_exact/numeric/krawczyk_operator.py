@@ -64,8 +64,18 @@ class ChartSystem:
 
     @cached_property
     def _balls(self) -> tuple[arb_mat, acb_mat]:
-        """The same, exactly, to multiply real and complex points with."""
-        balls = arb_mat(self._gradients)
+        """The same, exactly, to multiply real and complex points with.
+
+        Each equation is divided by the power of 2 next to its largest coefficient: elimination takes the largest pivot,
+        and among equations of very different sizes that is a bad one.
+        """
+        rows = self._gradients.tolist()
+        scaled: list[list[arb]] = []
+        for start in range(0, len(rows), self.size):
+            block = rows[start : start + self.size]
+            power = -max(int(abs(value)).bit_length() for row in block for value in row)
+            scaled += [[arb((value, power)) for value in row] for row in block]
+        balls = arb_mat(scaled)
         return balls, acb_mat(balls)
 
     @cached_property
