@@ -8,7 +8,7 @@ from enum import StrEnum
 from fractions import Fraction
 from typing import ClassVar, Protocol, Self
 
-from pkm_exact.constraints.form import Form, scale
+from pkm_exact.constraints.form import Form, integral, scale
 
 
 class Role(StrEnum):
@@ -36,6 +36,23 @@ class SquareForm:
     linear: Form
     root: Form
     factor: Fraction
+
+    def over_integers(self) -> tuple[tuple[int, ...], tuple[int, ...], int, int]:
+        """Integers L, M, a and b for which it vanishes where a L = b M^2.
+
+        Examples
+        --------
+        >>> half, zero = Fraction(1, 2), Fraction(0)
+        >>> SquareForm((half, *[zero] * 16), (zero, *[half] * 16), Fraction(3)).over_integers()[2:]
+        (2, 3)
+        """
+        linear, root = integral(self.linear), integral(self.root)
+        scale, root_scale = (
+            next((m / v for m, v in zip(multiple, form, strict=True) if v), Fraction(1))
+            for multiple, form in ((linear, self.linear), (root, self.root))
+        )
+        ratio = self.factor * scale / root_scale**2
+        return linear, root, ratio.denominator, ratio.numerator
 
 
 class Constraint(Protocol):

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import lru_cache
 from itertools import permutations, product
 from typing import Any
@@ -162,18 +161,8 @@ def _pose_quadrics(problem: ForwardProblem) -> tuple[tuple[Quadric, ...], tuple[
 
 def _quartic(square: SquareForm, metric: Sequence[int], restricted: Callable[[Quadric], Quadric]) -> Quartic:
     """The quartic of a quadric linear - factor root^2 on rigid motions, over the integers."""
-    linear, root = integral(square.linear), integral(square.root)
-    scale, root_scale = (
-        next((m / v for m, v in zip(multiple, form, strict=True) if v), Fraction(1))
-        for multiple, form in ((linear, square.linear), (root, square.root))
-    )
-    ratio = square.factor * scale / root_scale**2
-    return Quartic(
-        restricted(form_quadric(linear, metric)),
-        restricted(form_quadric(root, metric)),
-        ratio.denominator,
-        ratio.numerator,
-    )
+    linear, root, weight, factor = square.over_integers()
+    return Quartic(restricted(form_quadric(linear, metric)), restricted(form_quadric(root, metric)), weight, factor)
 
 
 def _quotient(quartic: Quartic, norm: Quadric) -> Quadric | None:

@@ -125,7 +125,7 @@ def _general_section(problem: ForwardProblem, frames: Frames | None) -> Section:
     # A number beyond doubles raises OverflowError, as one of a leg does.
     forms = np.array([[float(value) for value in form] for form in moved])
     forms *= np.concatenate([[1], 1 / scales, 1 / scales, (scales[None, :] / scales[:, None]).ravel(), [1]])
-    forms /= np.abs(forms[:, : SIZE - 1]).max(axis=1, keepdims=True)
+    forms /= np.maximum(np.abs(forms[:, : SIZE - 1]).max(axis=1, keepdims=True), np.finfo(float).tiny)
     return Section(forms.astype(np.complex128), frames, problem.motion)
 
 

@@ -13,10 +13,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from fractions import Fraction
 from functools import partial
 from itertools import islice
-from math import lcm
+from math import lcm, prod
 from random import Random
 from typing import Any
 
@@ -73,7 +72,8 @@ def are_isolated(
     h = representation.univariate.polynomial
     looked_at = h if factor is None else factor
     seed = policy.seed_for(problem.digest, "regularity")
-    usable = (prime for prime in primes_from(seed, policy.prime_bits) if int(h.leading_coefficient()) % prime)
+    needed = prod(problem.metric) * int(h.leading_coefficient())
+    usable = (prime for prime in primes_from(seed, policy.prime_bits) if needed % prime)
     random = Random(seed)
     for prime in islice(usable, policy.attempts):
         modulus = nmod_poly([int(value) % prime for value in looked_at.coeffs()], prime)
@@ -93,8 +93,8 @@ def are_isolated(
     return False
 
 
-def _residue(prime: int, value: Fraction) -> nmod:
-    return nmod(value.numerator % prime, prime) / nmod(value.denominator % prime, prime)
+def _residue(prime: int, value: int) -> nmod:
+    return nmod(value % prime, prime)
 
 
 def _have_full_rank(rows: list[list[nmod_poly]], relation: nmod_poly, random: Random) -> bool:
@@ -136,7 +136,7 @@ def singularity(representation: PoseRepresentation, problem: ForwardProblem, fac
     field = fmpq_poly(factor)
     x = [fmpq_poly(numerator) % field for numerator in representation.univariate.numerator_polynomials]
     quantities = [value % field for value in _quantities(x, problem.metric)]
-    rank = _rank(exact_rows(problem, quantities, _rational), field)
+    rank = _rank(exact_rows(problem, quantities, fmpq), field)
     special: list[SpecialPose] = []
     if rank == problem.motion.dimension or not problem.has_only_distances:
         return Singularity(rank)
@@ -149,10 +149,6 @@ def singularity(representation: PoseRepresentation, problem: ForwardProblem, fac
     elif _have_common_point(base, lines, field):
         special.append(SpecialPose.POINT)
     return Singularity(rank, tuple(special))
-
-
-def _rational(value: Fraction) -> fmpq:
-    return fmpq(value.numerator, value.denominator)
 
 
 def _legs(problem: ForwardProblem, quantities: Sequence[Element]) -> tuple[list[list[Element]], list[list[Element]]]:

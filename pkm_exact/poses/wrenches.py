@@ -13,16 +13,17 @@ from typing import Any
 
 from flint import arb, arb_mat, fmpq
 
-from pkm_exact.constraints.form import Form, ordinary, rational_wrench, value_at, wrench
+from pkm_exact.constraints.form import Form, integral, ordinary, rational_wrench, value_at, wrench
 from pkm_exact.geometry.problem import ForwardProblem
 
 _ORDINARY = (1, 1, 1)
 
 
-def exact_rows(
-    problem: ForwardProblem, quantities: Sequence[Any], scalar: Callable[[Fraction], Any]
-) -> list[list[Any]]:
-    """The rows in rational coordinates over a field, up to factors of rows and columns that are not 0.
+def exact_rows(problem: ForwardProblem, quantities: Sequence[Any], scalar: Callable[[int], Any]) -> list[list[Any]]:
+    """The rows in rational coordinates over a ring, of integer multiples of the constraints.
+
+    Over a field in which N(e) and the metric are not 0 their rank is that of the Jacobian, or less where a multiple is
+    0.
 
     Parameters
     ----------
@@ -31,25 +32,25 @@ def exact_rows(
         N(e) times (|C|^2; u; C; R; 1) at the pose (``geometry.study.motion_quadrics``). Columns of forces are
         multiplied by N(e), those of moments by its square.
     scalar : callable
-        The field's element that a rational number is.
+        The ring's element that an integer is; it can be divided by the numbers of the metric.
     """
     position, norm = quantities[4:7], quantities[16]
     rotation = [quantities[7 + 3 * i : 10 + 3 * i] for i in range(3)]
 
-    def row(form: Form) -> list[Any]:
+    def row(form: Sequence[int]) -> list[Any]:
         values = [scalar(value) for value in form]
         homogeneous = [*values[:4], *(norm * value for value in values[4:16]), values[16]]
         found = rational_wrench(homogeneous, position, rotation, problem.metric)
         return [found[k] for k in problem.motion.twist]
 
-    rows = [row(form) for form in problem.forms]
+    rows = [row(integral(form)) for form in problem.forms]
     for square in problem.squares:
-        root = norm * scalar(square.root[16])
-        for value, quantity in zip(square.root[:16], quantities[:16], strict=True):
-            root = root + quantity * scalar(value)
-        factor = root * scalar(-2 * square.factor)
-        pairs = zip(row(square.linear), row(square.root), strict=True)
-        rows.append([norm * left + factor * right for left, right in pairs])
+        linear, root, weight, factor = square.over_integers()
+        value = norm * scalar(root[16])
+        for coefficient, quantity in zip(root[:16], quantities[:16], strict=True):
+            value = value + quantity * scalar(coefficient)
+        slope, pairs = value * scalar(-2 * factor), zip(row(linear), row(root), strict=True)
+        rows.append([norm * scalar(weight) * left + slope * right for left, right in pairs])
     return rows
 
 
