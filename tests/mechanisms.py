@@ -119,4 +119,10 @@ def cylinders() -> ForwardProblem:
     return ForwardProblem(tuple(found), (1, 1, 1), TRANSLATION)
 
 
+def cylinder_and_planes() -> ForwardProblem:
+    """A point at a known distance from an axis, and five points in planes."""
+    draw = random_vectors(5)
+    return ForwardProblem((*mixed(0, 5, seed=3).constraints, AxisDistance(draw(), draw(), draw(), F(30))))
+
+
 __all__ = ["SPATIAL", *(name for name in dir() if not name.startswith("_"))]

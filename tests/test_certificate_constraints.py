@@ -11,7 +11,7 @@ from typing import Any
 
 import jsonschema
 import pytest
-from mechanisms import cylinders, h4, mixed, point_and_spheres, pssc, three_rps
+from mechanisms import cylinder_and_planes, cylinders, h4, mixed, point_and_spheres, pssc, three_rps
 
 import pkm_exact
 from pkm_exact.certify.build import canonical_bytes, certificate
@@ -58,6 +58,7 @@ def _accepted(content: dict[str, Any]) -> None:
         (three_rps(), "counting-at-infinity"),
         (h4(), "refined-bezout"),
         (cylinders(), "product-bound"),
+        (cylinder_and_planes(), "product-bound"),
         (point_and_spheres(), "modular-rank"),
         (mixed(0, 6), "product-bound"),
         (pssc((Fraction(0),) * 3), "exact-elimination"),

@@ -14,14 +14,17 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
+from pkm_exact.algebra.equations import SystemEquations
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.lifting import Acceptance, lift_by_newton, lift_by_primes
+from pkm_exact.algebra.newton import Equations
 from pkm_exact.algebra.representation import UnivariateRepresentation, union
 from pkm_exact.algebra.rur import ModularRepresentation
 from pkm_exact.errors import InternalContradictionError, ReconstructionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import pose_quartics
 from pkm_exact.policy import Policy
+from pkm_exact.poses.chart_system import chart_system
 from pkm_exact.poses.expected_size import expected_bits
 from pkm_exact.poses.modular_start import Start, StartSearch
 from pkm_exact.poses.parameters import Parameters, choose_parameters
@@ -116,12 +119,15 @@ class PoseSearch:
     def _lifted(self, start: Start, chosen: Parameters) -> PoseRepresentation | None:
         """The poses of each multiplicity over Q, verified, and all of them together; None if these are not."""
         prime = start.image.prime
-        equations = StudyEquations(self.problem, chosen.chart, self.policy.seed_for(self.problem.digest, prime))
-        form = [chosen.form[k] for k in equations.free]
+        seed = self.policy.seed_for(self.problem.digest, prime)
+        equations: Equations = StudyEquations(self.problem, chosen.chart, seed)
+        if pose_quartics(self.problem):
+            equations = SystemEquations(chart_system(self.problem, chosen.chart), seed)
+        form = [chosen.form[k] for k in free_coordinates(chosen.chart, self.problem)]
         bits = self.policy.lifting_bits
         images = _further_images(start, chosen, self.problem, self.policy.attempts)
         parts = []
-        if self.policy.lifting == "multimodular" or pose_quartics(self.problem):
+        if self.policy.lifting == "multimodular":
             stage = "lifting by primes"
             accept, watch = self._acceptance(chosen, stage), self._watch(chosen.modular, start, chosen, stage)
             return pose_representation(chosen.chart, self.problem, lift_by_primes(form, images, bits, accept, watch))
