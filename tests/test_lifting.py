@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import pytest
 from flint import nmod_poly
 from samples import images, katsura, random_quadrics, shipped, solved, system
-from system_equations import SystemEquations
 
+from pkm_exact.algebra.equations import SystemEquations
 from pkm_exact.algebra.lifting import lift_by_newton, lift_by_primes
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.representation import UnivariateRepresentation, are_coprime, satisfies

@@ -4,8 +4,8 @@ from itertools import pairwise
 
 import pytest
 from samples import images, katsura, random_quadrics, system
-from system_equations import SystemEquations
 
+from pkm_exact.algebra.equations import SystemEquations
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.newton import is_regular, lift, precision_schedule
 from pkm_exact.algebra.residue_ring import ResidueRing, coefficients, combination
