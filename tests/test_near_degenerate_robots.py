@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from campaign import model
 from certificate_tools import both, both_resealed, last_line, with_entry
 from flint import fmpq, fmpz_poly
 from hypothesis import given
@@ -14,8 +15,11 @@ from pkm_exact import Robot, certificate
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.checker.descartes import dyadic, real_roots
 from pkm_exact.certify.checker.verdict import Refusal
+from pkm_exact.certify.tolerance_build import tolerance_certificate
 from pkm_exact.engine import solve
-from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.reader import read_robot, robot_from_toml
+from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.numeric.tolerance import tolerance_boxes
 from pkm_exact.numeric_engine import solve_krawczyk
 
 CASES = Path(__file__).parent / "cases"
@@ -38,6 +42,20 @@ def test_both_checkers_accept_what_is_written(name: str, solver: Any) -> None:
     solution = solver(robot.problem(configuration))
     answer = both(canonical_bytes(sealed(certificate(robot, configuration.name, solution))))
     assert (answer.status, answer.lines[-1].partition(":")[0]) == ("accepted", "complete")
+
+
+@pytest.mark.parametrize(
+    ("name", "tolerance", "proved"),
+    [("planar-33", "7e-75", 2), ("planar-59", "4e-19", 1), ("planar-22", "7e-10", 2)],
+)
+def test_both_checkers_accept_tolerance_certificates(name: str, tolerance: str, proved: int) -> None:
+    """Of the third robot two poses are closer than the grid tells apart: nothing is claimed of them."""
+    robot = robot_from_toml(model(name))
+    configuration = robot.configuration()
+    problem = robot.problem(configuration)
+    result = tolerance_boxes(problem, Tolerances.uniform(str(Fraction(tolerance))), solve_krawczyk(problem))
+    assert sum(box.is_proved for box in result.boxes) == proved
+    assert both(canonical_bytes(tolerance_certificate(robot, configuration.name, result))).status == "accepted"
 
 
 # The grid point nearest to a solution

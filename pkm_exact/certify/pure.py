@@ -2537,7 +2537,7 @@ TOLERANCE_KEYS: Final = "format version robot configuration tolerances frames ex
 MAX_TOLERANCE_GRID: Final = 4096
 MAX_CENTRE_BITS: Final = 256  # before the point
 MAX_WEIGHT: Final = 10**6
-GUARD: Final = 128  # bits beyond the grid
+GUARD: Final = 128  # bits beyond the grid and half of it: Y is at most 2^(k/2) where a core is proved
 ORDINARY: Final = (1, 1, 1)
 
 
@@ -2929,13 +2929,21 @@ class Neighbourhood:
 
         x - m = -Y F(m) + (1 - Y F'((x + m) / 2)) (x - m), used again and again; (x + m) / 2 is in the box.
         """
+        unit = self.family.p - self.exponent
+        limit = (1 << 19) + 1 << unit - 20
         steps = [inner_product(y, self.residual) for y in self.inverse]
-        defect = self.defect(widths, uncertain=False)
         found = self.family.spread(widths, self.exponent, real=self.real)
-        for _ in range(4):
-            found = [inner_product(row, found) - step for row, step in zip(defect, steps, strict=True)]
-        limit = (1 << 19) + 1 << (self.family.p - self.exponent - 20)
-        return all(part.largest() < limit for value in found for part in (value.re, value.im))
+        for _ in range(8):
+            defect = self.defect(widths, uncertain=False)
+            for _ in range(2):
+                found = [inner_product(row, found) - step for row, step in zip(defect, steps, strict=True)]
+                parts = [part for value in found for part in (value.re, value.im)]
+                if all(part.largest() < limit for part in parts):
+                    return True
+                if any(part.low > limit or part.high < -limit for part in parts):
+                    return False
+            widths = [(max(v.re.largest(), v.im.largest()) >> unit) + 1 for v in found]
+        return False
 
     def motion_in(self, widths: Sequence[int]) -> list[Rectangle]:
         """Rotation and position on a box, in the new frames."""
@@ -2967,7 +2975,8 @@ def check_tolerances(certificate: ToleranceCertificate) -> Iterator[str]:
     require(in_order and every, "boxes: poses are not numbered from 1, each once, in order")
     places = [*(box.place for box in certificate.boxes), *certificate.pairs]
     bits = max((abs(part).bit_length() for place in places for pair in place.centre for part in pair), default=0)
-    family = Family(certificate, certificate.exponent + GUARD + 2 * max(bits - certificate.exponent, 0))
+    k = certificate.exponent
+    family = Family(certificate, k + k // 2 + GUARD + 2 * max(bits - k, 0))
     core = [1 << (certificate.exponent - certificate.exponent // 2)] * len(family.places)
     cores = []
     for box in certificate.boxes:
@@ -3041,34 +3050,38 @@ def check_pose_box(at: Neighbourhood, box: PoseBox, name: str) -> None:
 
 
 def inverse_jacobians(at: Neighbourhood, widths: Sequence[int]) -> list[list[Interval]] | None:
-    """Enclosures of the inverses of all matrices in F', real; None if one may be singular.
+    """Enclosures of the inverses of all matrices in F' on a box that is mapped into its interior, real.
 
-    With M = 1 - Y F' they are V = (1 - M)^-1 Y: by Gauss and Jordan's algorithm, then narrowed by V = Y + M V.
+    With M = 1 - Y F' they are V = Y + M Y + M^2 Y + .., and |V - Y| is at most the least S that is not negative and not
+    less than |M| (|Y| + S). One near it is computed and tried, a little larger each time. None if none is found.
     """
+    p, size = at.family.p, len(widths)
+    m = [[entry.re.largest() for entry in row] for row in at.defect(widths, uncertain=True)]
     y = [[entry.re for entry in row] for row in at.inverse]
-    defect = [[entry.re for entry in row] for row in at.defect(widths, uncertain=True)]
-    zero, one = at.family.zero, at.family.one
-    rows = [
-        [*((one if i == j else zero) - entry for j, entry in enumerate(row)), *right]
-        for i, (row, right) in enumerate(zip(defect, y, strict=True))
+    rest = [
+        [Gaussian(Fraction((int(i == j) << p) - v, 1 << p), Fraction(0)) for j, v in enumerate(row)]
+        for i, row in enumerate(m)
     ]
-    for column in range(len(rows)):
-        pivot = rows[column][column]
-        if pivot.contains_zero():
-            return None
-        rows[column] = [entry.over(pivot) for entry in rows[column]]
-        for i, row in enumerate(rows):
-            if i != column:
-                factor = row[column]
-                rows[i] = [a - factor * b for a, b in zip(row, rows[column], strict=True)]
-    found = [row[len(rows) :] for row in rows]
+    powers = near_inverse(rest, p)
+
+    def applied(matrix: list[list[int]], other: list[list[int]]) -> list[list[int]]:
+        """The product, rounded up."""
+        columns = list(zip(*other, strict=True))
+        return [[-(-sum(a * b for a, b in zip(row, c, strict=True)) >> p) for c in columns] for row in matrix]
+
+    if powers is None:
+        return None
+    sizes = [[entry.largest() for entry in row] for row in y]
+    sums = [[max(0, int(entry.re * (1 << p))) for entry in row] for row in powers]
+    reach = applied(sums, applied(m, sizes))
     for _ in range(4):
-        columns = list(zip(*found, strict=True))
-        found = [
-            [entry.common(y[i][j] + inner_product(defect[i], columns[j])) for j, entry in enumerate(row)]
-            for i, row in enumerate(found)
-        ]
-    return found
+        reach = [[value + (value >> 24) + size for value in row] for row in reach]
+        least = applied(m, [[a + b for a, b in zip(*pair, strict=True)] for pair in zip(sizes, reach, strict=True)])
+        if all(a <= b for pair in zip(least, reach, strict=True) for a, b in zip(*pair, strict=True)):
+            return [
+                [v + Interval(-r, r, p) for v, r in zip(row, by, strict=True)] for row, by in zip(y, reach, strict=True)
+            ]
+    return None
 
 
 def components(family: Family, x: Sequence[Interval]) -> tuple[list[Interval], list[list[Interval]]]:

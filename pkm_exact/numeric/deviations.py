@@ -22,7 +22,7 @@ from pkm_exact.numeric.tolerance_operator import (
     LegErrors,
     Linearisation,
     form_errors,
-    jacobian_in,
+    inverse_jacobians,
     leg_errors,
     spread,
 )
@@ -115,12 +115,11 @@ def pose_bounds(near: Linearisation, errors: DataErrors, radii: Sequence[arb]) -
         Of the box.
     """
     box = spread(radii, real=True)
-    try:
-        solved = (near.inverse * jacobian_in(near, box, form_errors(near.robot, errors))).inv() * near.inverse
-    except ZeroDivisionError:
+    solved = inverse_jacobians(near, box, form_errors(near.robot, errors))
+    if solved is None:
         return None
     here = pose_map(near.robot, near.centre)
-    effect = pose_map(near.robot, near.centre + box).slopes * _real(solved.entries(), near.robot.size)
+    effect = pose_map(near.robot, near.centre + box).slopes * solved
     legs = leg_errors(near.robot, errors, near.quantities)
     first = near.robot.size - 1 - len(legs)
     effects = [[effect[k, first + i] for i in range(len(legs))] for k in range(effect.nrows())]

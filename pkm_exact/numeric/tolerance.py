@@ -58,6 +58,7 @@ from pkm_exact.stages import Amount, Progress, tell
 GRID_BITS: Final = 96
 """The grid of centres and radii is by that many bits finer than the smallest tolerance, in the centred unit."""
 GUARD_BITS: Final = 64
+"""Bits beyond those of the grid, and beyond half as many: so many are lost at most where a core can be proved."""
 SMALLEST_FRACTION: Final = 40
 """A pose that is not proved for 2^-40 of the tolerance counts as singular."""
 FRACTION_BITS: Final = 5
@@ -104,7 +105,7 @@ poses, one in each box
     show = progress or (lambda _: None)
     frames = centred_frames(problem)
     exponent = _grid(tolerances, frames)
-    with working_precision(exponent + GUARD_BITS):
+    with working_precision(exponent + exponent // 2 + GUARD_BITS):
         robot = centred_robot(problem, frames)
         boxes, near = [], []
         show("tolerance boxes")

@@ -41,6 +41,8 @@ ENLARGEMENTS: Final = 16
 GROWTH: Final = 1.125
 """By how much a box is larger than the image that should lie in it."""
 NEWTON_STEPS: Final = 40
+SETTLED_BITS: Final = 30
+"""The last step is this many bits smaller than a unit of the grid: which grid point is nearest is then certain."""
 
 
 @dataclass(frozen=True)
@@ -184,7 +186,7 @@ def linearise(robot: CentredRobot, chart: Chart, centre: acb_mat) -> Linearisati
 
 
 def refined(robot: CentredRobot, chart: Chart, point: acb_mat, exponent: int) -> acb_mat | None:
-    """The limit of Newton's method, to about 2^-exponent; None without convergence."""
+    """The limit of Newton's method, to a small part of 2^-exponent; None without convergence."""
     point = middle(point)
     for _ in range(NEWTON_STEPS):
         jacobian = system_jacobian(robot.forms, gradients(point), chart)
@@ -196,7 +198,7 @@ def refined(robot: CentredRobot, chart: Chart, point: acb_mat, exponent: int) ->
         size = max(abs(v).upper() for v in point.entries())
         if not size.is_finite():
             return None
-        if max(abs(v).upper() for v in step.entries()) < size * arb(2) ** -exponent:
+        if max(abs(v).upper() for v in step.entries()) < arb(2) ** -(exponent + SETTLED_BITS):
             return point
     return None
 
@@ -222,6 +224,26 @@ def jacobian_in(near: Linearisation, box: acb_mat, changed: acb_mat | None) -> a
     slopes = gradients(near.centre + box)
     forms = near.robot.forms if changed is None else near.robot.forms + changed
     return with_chart(forms * slopes, near.chart)
+
+
+def inverse_jacobians(near: Linearisation, box: acb_mat, changed: acb_mat | None) -> arb_mat | None:
+    """Enclosures of the inverses V of the matrices in F'(X, P), real; None if one may be singular.
+
+    With M = 1 - Y F' they are V = Y + M Y + M^2 Y + .., so V - Y is at most (1 - |M|)^-1 |M| |Y|, for |M| the matrix of
+    upper bounds, if its spectral radius is below 1: then the sum of its powers is that inverse, and not negative.
+    """
+    size = near.robot.size
+    contraction = identity(size) - near.inverse * jacobian_in(near, box, changed)
+    bounds = arb_mat(size, size, [value.real.abs_upper() for value in contraction.entries()])
+    inverse = arb_mat(size, size, [value.real for value in near.inverse.entries()])
+    try:
+        powers = (arb_mat([[int(i == j) for j in range(size)] for i in range(size)]) - bounds).inv()
+    except ZeroDivisionError:
+        return None
+    if not all(value.is_finite() and value >= 0 for value in powers.entries()):
+        return None
+    reaches = powers * bounds * arb_mat(size, size, [abs(value) for value in inverse.entries()])
+    return inverse + arb_mat(size, size, [arb(0, value.upper()) for value in reaches.entries()])
 
 
 def image(near: Linearisation, box: acb_mat, right: acb_mat, changed: acb_mat | None) -> list[acb]:

@@ -23,8 +23,10 @@ Balls: TypeAlias = list[arb]
 ORDINARY: Metric = (1, 1, 1)
 COUNT = 18
 """N, R (9), C (3), R^-1 C (3), |C|^2 and Study's condition."""
-IMAGES = 4
-"""Times that the nominal solution is enclosed more narrowly."""
+NARROWINGS = 8
+"""Times that the derivatives are taken on a narrower enclosure of the nominal solution, and their widths squared."""
+IMAGES = 2
+"""Images with the same derivatives."""
 ROTATION, POSITION, TURNED, SQUARE = 1, 10, 13, 16
 
 
@@ -215,16 +217,22 @@ def _defect(at: Expansion, box: acb_mat, *, uncertain: bool) -> acb_mat:
     return unit - at.inverse * at.jacobian(at.centre + box, uncertain=uncertain)
 
 
-def nominal_offset(at: Expansion, radii: Sequence[arb], *, real: bool) -> acb_mat:
-    """The nominal solution, less the centre, if it is in the box with these radii: an image of an image of the box.
+def is_within(at: Expansion, radii: Sequence[arb], limit: arb, *, real: bool) -> bool:
+    """Whether the nominal solution, which is in the box with these radii, is within a limit of the centre.
 
-    x - m = -Y F(m) + (1 - Y F'((x + m) / 2)) (x - m), with (x + m) / 2 in the box.
+    x - m = -Y F(m) + (1 - Y F'((x + m) / 2)) (x - m): an enclosure of x - m gives a narrower one, again and again.
     """
-    found = box_around(radii, real=real)
-    defect, step = _defect(at, found, uncertain=False), at.inverse * at.residual
-    for _ in range(IMAGES):
-        found = defect * found - step
-    return found
+    found, step = box_around(radii, real=real), at.inverse * at.residual
+    for _ in range(NARROWINGS):
+        defect = _defect(at, found / 2, uncertain=False)
+        for _ in range(IMAGES):
+            found = defect * found - step
+            parts = [abs(part) for offset in found.entries() for part in (offset.real, offset.imag)]
+            if all(part < limit for part in parts):
+                return True
+            if any(part > limit for part in parts):
+                return False
+    return False
 
 
 def components(robot: Robot, x: acb_mat) -> tuple[Balls, arb_mat]:
@@ -264,14 +272,21 @@ def components(robot: Robot, x: acb_mat) -> tuple[Balls, arb_mat]:
 
 
 def changes_of_pose(at: Expansion, radii: Sequence[arb]) -> tuple[arb_mat, arb_mat] | None:
-    """Z on the legs, and Z F(m): the pose of a robot is that at m, less Z (F(m) + E), over a box that holds it."""
-    around = at.centre + box_around(radii, real=True)
+    """Z on the legs, and Z F(m): the pose of a robot is that at m, less Z (F(m) + E), over a box that holds it.
+
+    The box must be mapped into its interior. With M = 1 - Y F' on it, |M| its upper bounds, the inverses of F' are
+    V = Y + M Y + M^2 Y + .., and |V - Y| is at most (1 - |M|)^-1 |M| |Y|; the inverse is the sum of the powers of |M|.
+    """
+    size, box = len(radii), box_around(radii, real=True)
+    defect = arb_mat(size, size, [v.real.abs_upper() for v in _defect(at, box, uncertain=True).entries()])
+    exact = arb_mat(size, size, [v.real for v in at.inverse.entries()])
+    unit = arb_mat([[int(i == j) for j in range(size)] for i in range(size)])
     try:
-        solved = (at.inverse * at.jacobian(around, uncertain=True)).inv() * at.inverse
+        change = (unit - defect).solve(defect * arb_mat(size, size, [abs(v) for v in exact.entries()]))
     except ZeroDivisionError:
         return None
-    size = len(radii)
-    effect = components(at.robot, around)[1] * arb_mat(size, size, [v.real for v in solved.entries()])
+    solved = exact + arb_mat(size, size, [arb(0, v.abs_upper()) for v in change.entries()])
+    effect = components(at.robot, at.centre + box)[1] * solved
     legs = range(at.first, size - 1)
     return (
         arb_mat([[effect[k, i] for i in legs] for k in range(effect.nrows())]),

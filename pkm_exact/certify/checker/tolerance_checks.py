@@ -24,7 +24,7 @@ from pkm_exact.certify.checker.parametric import (
     expand,
     greatest_length,
     is_contraction,
-    nominal_offset,
+    is_within,
     points_of_box,
     robot_of,
     slopes,
@@ -34,6 +34,7 @@ from pkm_exact.certify.checker.tolerance_document import DEGREES, Place, PoseBox
 from pkm_exact.certify.checker.verdict import rejected
 
 GUARD_BITS: Final = 128
+"""Bits beyond those of the grid, and beyond half as many: no more are lost, as Y is at most 2^(k/2) by the core."""
 NEAREST: Final = arb(1) / 2 + arb(2) ** -20
 """A centre is no farther from the nominal solution than this, in units of the grid."""
 
@@ -44,7 +45,7 @@ def check_tolerances(document: ToleranceDocument) -> Iterator[str]:
     numbers = list(range(1, len(labels) + len(others) + 1))
     if sorted([*labels, *others]) != numbers or labels != sorted(labels) or others != sorted(others):
         raise rejected("boxes: poses are not numbered from 1, each once, in order")
-    with ctx.workprec(document.exponent + GUARD_BITS):
+    with ctx.workprec(document.exponent + document.exponent // 2 + GUARD_BITS):
         robot = robot_of(document.legs, document.metric, document.origins, document.unit, document.tolerances)
         cores = []
         for box in document.boxes:
@@ -111,9 +112,7 @@ def _check_place(expansion: Expansion, document: ToleranceDocument, place: Place
     cores = [_on_grid(core, document)] * len(outer)
     if not is_contraction(expansion, cores, real=real, uncertain=False):
         raise rejected(f"{name}: not proved to hold a solution of the nominal robot")
-    limit = NEAREST * _on_grid(1, document)
-    offsets = nominal_offset(expansion, cores, real=real).entries()
-    if not all(abs(part) < limit for offset in offsets for part in (offset.real, offset.imag)):
+    if not is_within(expansion, cores, NEAREST * _on_grid(1, document), real=real):
         raise rejected(f"{name}: its centre is not the grid point nearest to the nominal solution")
     if not is_contraction(expansion, outer, real=real, uncertain=True):
         raise rejected(f"{name}: not proved to hold exactly one solution of every robot within tolerance")
