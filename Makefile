@@ -38,12 +38,13 @@ check-style: $(VENV)/.installed-test
 
 # Processes of tests must not compile the package each time, whatever the user has set.
 test test-slow: export PYTHONDONTWRITEBYTECODE =
+test-slow: export PKM_EXACT_LONGER = 1
 
 test: check-style
 	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile
 
 test-slow: $(VENV)/.installed-test
-	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m slow
+	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m "slow or longer"
 
 # Changes every number and word of certificates of every kind; MUTATIONS=--complete takes some minutes.
 mutations: $(VENV)/.installed-test

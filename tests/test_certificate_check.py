@@ -12,6 +12,7 @@ from random import Random
 from typing import Any
 
 import pytest
+from budgets import budget
 from certificate_tools import CERTS, NAMES, both, check_resealed, golden, golden_bytes, last_line
 from flint import arb, fmpq, fmpq_mat, fmpz, fmpz_poly
 from hypothesis import given
@@ -521,6 +522,7 @@ def test_any_bytes_get_a_verdict(data: bytes) -> None:
     assert check_bytes(data).status in (Status.MALFORMED, Status.REJECTED)
 
 
+@budget(40)
 @given(st.data())
 def test_any_json_in_place_of_an_entry_gets_a_verdict(data: st.DataObject) -> None:
     values = st.recursive(

@@ -144,7 +144,9 @@ def _modes(problem: ForwardProblem, poses: tuple[Pose, ...], limits: tuple[Numer
 # The comparison
 
 
-@pytest.mark.parametrize("name", ["rolland-6-6", "robocrane-r", "3-rrr", "3-rpr-merlet-p"])
+@pytest.mark.parametrize(
+    "name", ["rolland-6-6", pytest.param("robocrane-r", marks=pytest.mark.slow), "3-rrr", "3-rpr-merlet-p"]
+)
 def test_enough_starts_find_every_pose(name: str) -> None:
     comparison = compare_numeric(shipped(name), starts=150)
     total = len(solved(name).poses)

@@ -33,7 +33,7 @@ from pkm_exact.solution import Solution
 
 CASES = Path(__file__).parent / "cases"
 GENERAL = "rolland-6-6"
-SLOW = {"hexa", "hexaglide", "linuxcnc-hexapod", "ssm-rounded"}
+SLOW = {"6-6pp", "hexa", "hexaglide", "linuxcnc-hexapod", "ssm-exact", "ssm-rounded", "tssm"}
 NAMES = [pytest.param(path.stem, marks=pytest.mark.slow if path.stem in SLOW else ()) for path in MODELS]
 FEWER = {"mssm", "similar-planar-s", "ssm-exact", "3-rpr-double-q", "3-rpr-triple"}
 """Some of the robots that have fewer distinct finite solutions than robots of their kind can have."""

@@ -8,7 +8,8 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from hypothesis import given, settings
+from budgets import budget
+from hypothesis import given
 from hypothesis import strategies as st
 from samples import root, solved
 
@@ -134,7 +135,7 @@ def _is_among(solution: Solution, position: Vector, turn: tuple[Fraction, Fracti
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-@settings(max_examples=12)
+@budget(6)
 @given(seed=seeds, metric=st.sampled_from(METRICS))
 def test_a_known_pose_is_found_again(shape: str, seed: int, metric: Metric) -> None:
     problem, position, turn = _placed(shape, seed, metric)
@@ -173,7 +174,7 @@ def _times(k: Fraction, joint: Vector) -> Vector:
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-@settings(max_examples=4)
+@budget(2)
 @given(seed=seeds, metric=st.sampled_from(METRICS))
 def test_the_answer_does_not_depend_on_the_frame(shape: str, seed: int, metric: Metric) -> None:
     problem, _, _ = _placed(shape, seed, metric)
@@ -198,7 +199,7 @@ def test_poses_move_with_the_base() -> None:
 
 
 @given(st.tuples(*[small] * 3), st.tuples(small, small), small, seeds)
-@settings(max_examples=15)
+@budget(8)
 def test_cranks_at_a_pose_lead_back_to_it(
     tangents: tuple[Fraction, ...], place: tuple[Fraction, Fraction], t: Fraction, seed: int
 ) -> None:

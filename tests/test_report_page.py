@@ -130,7 +130,9 @@ def require_sound(page: Page) -> None:
     assert "unsafe" not in policy
 
 
-@pytest.mark.parametrize("name", ["rolland-6-6", "3-rpr-merlet-p", "ssm-exact", "dietmaier"])
+@pytest.mark.parametrize(
+    "name", ["rolland-6-6", "3-rpr-merlet-p", pytest.param("ssm-exact", marks=pytest.mark.slow), "dietmaier"]
+)
 def test_the_page_of_a_golden_certificate(name: str) -> None:
     content, shown = golden(name), page(name)
     require_sound(shown)

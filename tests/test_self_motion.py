@@ -7,8 +7,9 @@ from random import Random
 from typing import Any
 
 import pytest
+from budgets import budget
 from certificate_tools import check_resealed, last_line
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from samples import placed, random_vector
 
@@ -101,7 +102,7 @@ IN_SPACE = {
 
 
 @pytest.mark.parametrize("shape", IN_SPACE)
-@settings(max_examples=3)
+@budget(2)
 @given(seed=seeds, metric=st.sampled_from(METRICS))
 def test_collinear_and_coincident_joints_move(shape: str, seed: int, metric: Metric) -> None:
     dimension, causes, line = IN_SPACE[shape]
@@ -121,7 +122,7 @@ IN_THE_PLANE = {"platform point": "dimension 1", "platform point, base line": "d
 
 
 @pytest.mark.parametrize("shape", IN_THE_PLANE)
-@settings(max_examples=10)
+@budget(5)
 @given(seed=seeds, metric=st.sampled_from(METRICS))
 def test_planar_robots_move(shape: str, seed: int, metric: Metric) -> None:
     problem = _planar(Random(seed), shape, metric)
@@ -134,7 +135,7 @@ def test_planar_robots_move(shape: str, seed: int, metric: Metric) -> None:
 
 @pytest.mark.parametrize("shape", ["platform line", "base line", "platform point"])
 @given(seed=seeds)
-@settings(max_examples=2)
+@budget(1)
 def test_lengths_that_contradict_each_other_are_still_inconsistent(shape: str, seed: int) -> None:
     """Six lengths are one too many for five freedoms of a line; a wrong one leaves no pose, and that is proved."""
     problem = _spatial(Random(seed), shape, (1, 1, 1))

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
+from budgets import budget
+from hypothesis import given
 from hypothesis import strategies as st
 from samples import METRICS
 
@@ -81,7 +82,7 @@ def test_motion_quadrics_are_what_they_are_called(quaternion: Quaternion, positi
 
 
 @given(quaternions, vectors, vectors, vectors, metrics, numbers.filter(bool))
-@settings(max_examples=50)
+@budget(50)
 def test_a_leg_vanishes_at_its_length_and_nowhere_else(
     quaternion: Quaternion, position: Vector, base: Vector, platform: Vector, metric: Metric, other: Fraction
 ) -> None:
@@ -95,7 +96,7 @@ def test_a_leg_vanishes_at_its_length_and_nowhere_else(
 
 
 @given(quaternions, quaternions, vectors, vectors, metrics)
-@settings(max_examples=50)
+@budget(50)
 def test_different_poses_have_different_coordinates(
     first: Quaternion, second: Quaternion, here: Vector, there: Vector, metric: Metric
 ) -> None:

@@ -159,7 +159,7 @@ def test_every_row_has_the_certificate_that_solve_writes(tmp_path: Path, method:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["alone.json", "certs", "lengths.csv", "out.jsonl"]
 
 
-@pytest.mark.parametrize("name", ["rolland-6-6", "mssm", "dietmaier"])
+@pytest.mark.parametrize("name", ["rolland-6-6", pytest.param("mssm", marks=pytest.mark.slow), "dietmaier"])
 def test_spatial_rows_have_the_certificate_of_a_single_solve(tmp_path: Path, name: str) -> None:
     """Whether the near start serves (Rolland, Dietmaier) or the robot has fewer than 40 solutions (MSSM)."""
     robot = read_robot(FILES[name])
@@ -667,6 +667,7 @@ def test_an_interrupt_ends_promptly_and_can_be_taken_up(tmp_path: Path) -> None:
 
 
 @needs_proc
+@pytest.mark.slow
 def test_rows_of_killed_workers_are_answered_all_the_same(tmp_path: Path) -> None:
     lines = written(tmp_path / "lengths.csv", many(50))
     assert run(PLANAR, lines, tmp_path / "whole.jsonl") == 3

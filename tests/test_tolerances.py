@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from budgets import budget
 from certificate_tools import at, check_resealed, last_line, with_entry
 from hypothesis import given
-from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 from samples import MODELS, boxed, random_placed, shipped, solved, tolerant
 from tolerance_tools import errors_of, exact_robot, poses_near, robots_with
@@ -91,23 +91,9 @@ def test_robots_within_tolerance_have_their_poses_in_the_boxes(name: str, tolera
     require_samples_inside(result, solution, 100, 3)
 
 
-ANY_ROBOT = given(st.integers(0, 10**6), st.sampled_from([(1, 1, 1), (1, 3, 1)]), st.integers(3, 7))
-
-
-@hypothesis_settings(max_examples=5)
-@ANY_ROBOT
+@budget(5)
+@given(st.integers(0, 10**6), st.sampled_from([(1, 1, 1), (1, 3, 1)]), st.integers(3, 7))
 def test_random_robots(seed: int, metric: tuple[int, int, int], digits: int) -> None:
-    require_a_random_robot_to_be_enclosed(seed, metric, digits)
-
-
-@pytest.mark.slow
-@hypothesis_settings(max_examples=100)
-@ANY_ROBOT
-def test_many_random_robots(seed: int, metric: tuple[int, int, int], digits: int) -> None:
-    require_a_random_robot_to_be_enclosed(seed, metric, digits)
-
-
-def require_a_random_robot_to_be_enclosed(seed: int, metric: tuple[int, int, int], digits: int) -> None:
     random = Random(seed)
     placed = random_placed(random, [Fraction(random.randint(1, 5)) for _ in range(4)], metric)
     solution = solve_krawczyk(placed.problem)
