@@ -83,9 +83,15 @@ def _middle(problems: Sequence[ForwardProblem]) -> ForwardProblem | None:
     if len(problems) < SHARED_START:
         return None
     try:
-        squares = np.array([[float(leg.length_squared) for leg in problem.distances] for problem in problems])
+        squares = np.array([problem_values(problem) for problem in problems])
     except OverflowError:
         return None
     with np.errstate(all="ignore"):
         distances = np.linalg.norm(squares - squares.mean(axis=0), axis=1)
     return problems[int(np.argmin(distances))]
+
+
+def problem_values(problem: ForwardProblem) -> list[float]:
+    """In what rows of one robot differ: the values of its constraints, those of lengths squared."""
+    values = (getattr(found, found.value_field) for found in problem.constraints if found.value_field is not None)
+    return [float(value) for value in values]

@@ -17,7 +17,7 @@ from pkm_exact.wording import shown
 if TYPE_CHECKING:
     from pkm_exact.constraints.form import Vector
     from pkm_exact.geometry.inverse import Matrix, Metric
-    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.geometry.machine import Machine
 
 _PLANAR: Final = ("--half-tangent", "--cos-sin")
 
@@ -70,7 +70,8 @@ def legs(
 ) -> int:
     """Print what the legs of the robot in the file MODEL must be for its platform to stand at a pose.
 
-    Leg lengths where these are actuated; else every crank angle or slide position, all working modes. Coordinates are
+    Leg lengths where these are actuated; else every crank angle or slide position, all working modes; of a mechanism
+    declared by constraints the values of all of them, and whether those that are not actuated hold. Coordinates are
     ordinary ones, as in every output. In the table, a line to copy into a configuration comes first if the values are
     rational.
 
@@ -101,20 +102,24 @@ def legs(
     if option == "--quaternion" and not any(values):
         raise click.UsageError("--quaternion: all four numbers are 0, give one that is not.")
 
-    from pkm_exact.cli.legs_report import as_object, as_text
-    from pkm_exact.cli.model_reading import announced_robot
+    from pkm_exact.cli import constraint_values_report, legs_report
+    from pkm_exact.cli.model_reading import announced_model
+    from pkm_exact.geometry.mechanism import Mechanism
 
-    robot = announced_robot(model, "legs")
+    robot = announced_model(model)
     _require_kind(option, robot, model)
     if in_metric:
         place, rotation, used = _vector(origin), _rotation(option, values, robot.metric), None
     else:
         place, rotation, used = _in_model(_vector(origin), option, values, robot.metric, nearest)
-    if layout == "json":
-        answer: dict[str, Any] = as_object(robot, place, rotation, width, used)
-        sys.stdout.write(json.dumps(answer, indent=1) + "\n")
+    answer: dict[str, Any] | str
+    as_json = layout == "json"
+    if isinstance(robot, Mechanism):
+        report = constraint_values_report.as_object if as_json else constraint_values_report.as_text
+        answer = report(robot, place, rotation, width, used)
     else:
-        sys.stdout.write(as_text(robot, place, rotation, width, used))
+        answer = (legs_report.as_object if as_json else legs_report.as_text)(robot, place, rotation, width, used)
+    sys.stdout.write(answer if isinstance(answer, str) else json.dumps(answer, indent=1) + "\n")
     return ExitCode.DONE
 
 
@@ -162,11 +167,9 @@ def _vector(values: list[Fraction]) -> Vector:
     return x, y, z
 
 
-def _require_kind(option: str, robot: Robot, model: str) -> None:
+def _require_kind(option: str, robot: Machine, model: str) -> None:
     """Refuse the rotation of a planar robot for a spatial one, and the other way round."""
-    from pkm_exact.geometry.kinds import KINDS
-
-    planar = KINDS[robot.kind].motion.is_planar
+    planar = robot.motion.is_planar
     if planar and option not in _PLANAR:
         raise InputError(
             f"{model}: {option} is for spatial robots, but a {robot.kind} robot is planar; "

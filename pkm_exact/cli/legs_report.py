@@ -13,6 +13,7 @@ from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import Crank
 from pkm_exact.geometry.inverse import Matrix, distance_squared
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.ordinary_pose import OrdinaryMatrix, ordinary_position, ordinary_rotation
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.surds import Surd
@@ -41,13 +42,8 @@ def joint_modes(robot: Robot, position: Vector, rotation: Matrix) -> list[tuple[
     return [working_modes(c, a, platform_point(b, position, rotation), robot.metric) for c, a, b in chains]
 
 
-def as_object(
-    robot: Robot, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None
-) -> dict[str, Any]:
-    """The answer as a JSON object: every number exact, as "p", "p/q" or "p + q*sqrt(n)", and with bounds.
-
-    The pose is in ordinary coordinates; ``nearest`` is by how much it may differ from the one that was asked for.
-    """
+def pose_object(robot: Machine, position: Vector, rotation: Matrix, nearest: Fraction | None = None) -> dict[str, Any]:
+    """Who was asked, and the pose in ordinary coordinates."""
     place, rows = ordinary_position(position, robot.metric), ordinary_rotation(rotation, robot.metric)
     answer: dict[str, Any] = {
         "robot": robot_object(robot),
@@ -55,12 +51,23 @@ def as_object(
         "pose": {"position": list(map(str, place)), "rotation": [list(map(str, row)) for row in rows]},
         "nearest": None if nearest is None else str(nearest),
     }
-    if KINDS[robot.kind].motion.is_planar:
+    if robot.motion.is_planar:
         names = ("x", "y", "cos", "sin")
         answer["pose"]["planar"] = dict(zip(names, map(str, _planar(place, rows)), strict=True))
+    return answer
+
+
+def as_object(
+    robot: Robot, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None
+) -> dict[str, Any]:
+    """The answer as a JSON object: every number exact, as "p", "p/q" or "p + q*sqrt(n)", and with bounds.
+
+    The pose is in ordinary coordinates; ``nearest`` is by how much it may differ from the one that was asked for.
+    """
+    answer = pose_object(robot, position, rotation, nearest)
     if not robot.chains:
         squares = lengths_squared(robot, position, rotation)
-        lengths = [_number(Surd.root_of(square), width) for square in squares]
+        lengths = [exact_and_bounds(Surd.root_of(square), width) for square in squares]
         return answer | {"lengths_squared": list(map(str, squares)), "lengths": lengths}
     modes = joint_modes(robot, position, rotation)
     free = any(isinstance(mode, FreeCrank) for leg in modes for mode in leg)
@@ -72,21 +79,22 @@ def as_object(
 
 def _mode(mode: Mode, width: Fraction) -> dict[str, Any]:
     if isinstance(mode, SlideMode):
-        return {"position": _number(mode.position, width)}
+        return {"position": exact_and_bounds(mode.position, width)}
     if isinstance(mode, FreeCrank):
         return {"free": True}
-    tangent = None if mode.half_tangent is None else _number(mode.half_tangent, width)
-    return {"cos": _number(mode.cos, width), "sin": _number(mode.sin, width), "half_tangent": tangent}
+    tangent = None if mode.half_tangent is None else exact_and_bounds(mode.half_tangent, width)
+    return {"cos": exact_and_bounds(mode.cos, width), "sin": exact_and_bounds(mode.sin, width), "half_tangent": tangent}
 
 
-def _number(value: Surd, width: Fraction) -> dict[str, Any]:
+def exact_and_bounds(value: Surd, width: Fraction) -> dict[str, Any]:
+    """A number exactly, and with rational bounds."""
     return {"exact": str(value), "bounds": list(map(str, value.enclosure(width)))}
 
 
-def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None) -> str:
-    """The answer as a headline, a line for a configuration if there is one, and a table."""
+def pose_lines(robot: Machine, position: Vector, rotation: Matrix, nearest: Fraction | None = None) -> list[str]:
+    """The same as lines of a text."""
     ordinary, entries = ordinary_position(position, robot.metric), ordinary_rotation(rotation, robot.metric)
-    if KINDS[robot.kind].motion.is_planar:
+    if robot.motion.is_planar:
         x, y, c, s = _planar(ordinary, entries)
         place = f"position ({x}, {y}), cosine and sine ({c}, {s})"
     else:
@@ -95,14 +103,20 @@ def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction, n
     lines = [f"{robot.name} ({robot.kind}), {place}"]
     if nearest is not None:
         lines.append(f"the pose is off by at most {nearest} from the one given, which the metric does not have exactly")
+    return lines
+
+
+def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None) -> str:
+    """The answer as a headline, a line for a configuration if there is one, and a table."""
+    lines = pose_lines(robot, position, rotation, nearest)
     if robot.chains:
         lines += _chain_lines(robot, joint_modes(robot, position, rotation), width)
     else:
         squares = lengths_squared(robot, position, rotation)
         lines += [_assignment("lengths_squared", squares), ""]
         lengths = [Surd.root_of(square) for square in squares]
-        table = [(f"{i}", _decimal(x, width), _short(str(x))) for i, x in enumerate(lengths, 1)]
-        lines += _aligned([("leg", f"length [{robot.unit}]", "exact"), *table])
+        table = [(f"{i}", surd_decimal(x, width), short(str(x))) for i, x in enumerate(lengths, 1)]
+        lines += aligned([("leg", f"length [{robot.unit}]", "exact"), *table])
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -129,18 +143,18 @@ def _chain_lines(robot: Robot, modes: list[tuple[Mode, ...]], width: Fraction) -
     is_crank = KINDS[robot.kind].chain is Crank
     header = ("leg", "cos", "sin", "half tangent") if is_crank else ("leg", f"position [{robot.unit}]")
     rows = [(*_row(i, mode, width),) for i, leg in enumerate(modes, 1) for mode in leg]
-    yield from _aligned([(*header, "exact"), *rows])
+    yield from aligned([(*header, "exact"), *rows])
 
 
 def _row(leg: int, mode: Mode, width: Fraction) -> tuple[str, ...]:
     if isinstance(mode, SlideMode):
-        return str(leg), _decimal(mode.position, width), _short(str(mode.position))
+        return str(leg), surd_decimal(mode.position, width), short(str(mode.position))
     if isinstance(mode, FreeCrank):
         return str(leg), "", "", "", "any angle"
-    cosine, sine = _decimal(mode.cos, width), _decimal(mode.sin, width)
+    cosine, sine = surd_decimal(mode.cos, width), surd_decimal(mode.sin, width)
     if mode.half_tangent is None:
         return str(leg), cosine, sine, "infinite", "180 degrees"
-    return str(leg), cosine, sine, _decimal(mode.half_tangent, width), _short(str(mode.half_tangent))
+    return str(leg), cosine, sine, surd_decimal(mode.half_tangent, width), short(str(mode.half_tangent))
 
 
 def _configuration_line(modes: list[tuple[Mode, ...]]) -> str | None:
@@ -172,14 +186,17 @@ def _quoted(value: Fraction) -> str:
     return str(value) if value.denominator == 1 else f'"{value}"'
 
 
-def _decimal(value: Surd, width: Fraction) -> str:
+def surd_decimal(value: Surd, width: Fraction) -> str:
+    """Decimals that are right to one unit of the last."""
     return decimal(Interval(*value.enclosure(width)))
 
 
-def _short(text: str) -> str:
+def short(text: str) -> str:
+    """The text, if it is not too long for a table."""
     return text if len(text) <= _LONGEST_EXACT else "long: see --format json"
 
 
-def _aligned(rows: list[tuple[str, ...]]) -> list[str]:
+def aligned(rows: list[tuple[str, ...]]) -> list[str]:
+    """The rows as lines whose columns end below each other."""
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     return ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]

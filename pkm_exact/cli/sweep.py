@@ -97,10 +97,10 @@ def sweep(
         raise click.UsageError("--workers and --scheduler exclude each other: a cluster has its own workers.")
     target = Path(output)
     folder = None if certificates is None else Path(certificates)
-    from pkm_exact.cli.model_reading import announced_robot
+    from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.sweep.lengths import read_lengths
 
-    robot = announced_robot(model, "sweep")
+    robot = announced_model(model)
     rows = read_lengths(lengths, robot)
     arguments.require_other_file(target, model, "-o")
     arguments.require_other_file(target, lengths, "-o", "the file of the lengths")

@@ -128,10 +128,10 @@ class Mechanism(Machine):
         if squared or len(values) != len(fields):
             return self.problem(values)
         for name, field, value in zip(self.actuated, fields, values, strict=True):
-            if _is_square(field) and value <= 0:
+            if is_square(field) and value <= 0:
                 raise InputError(f"values, {shown(name)}: {shown(value)} is not positive; give a length greater than 0")
         return self.problem(
-            [value * value if _is_square(field) else value for field, value in zip(fields, values, strict=True)]
+            [value * value if is_square(field) else value for field, value in zip(fields, values, strict=True)]
         )
 
     def locked(self, values: Sequence[Fraction | int | str], where: str) -> tuple[Constraint, ...]:
@@ -165,6 +165,14 @@ class Mechanism(Machine):
                 values[constraint.name] = getattr(constraint, constraint.value_field or "") + rest
         return values
 
+    def holds(self, constraint: Constraint, position: Vector, rotation: Matrix) -> bool:
+        """Whether a constraint holds at a pose, exactly."""
+        linear = all(self._at(form, position, rotation) == 0 for form in constraint.forms(self.metric))
+        return linear and all(
+            self._at(found.linear, position, rotation) == found.factor * self._at(found.root, position, rotation) ** 2
+            for found in constraint.squares(self.metric)
+        )
+
     def _at(self, form: Form, position: Vector, rotation: Matrix) -> Fraction:
         return Fraction(value_at(form, position, rotation, self.metric))
 
@@ -191,7 +199,7 @@ class Mechanism(Machine):
         return found
 
 
-def _is_square(field: str) -> bool:
+def is_square(field: str) -> bool:
     """Whether the value in a field is the square of what users call the value."""
     return field.endswith("_squared")
 

@@ -18,6 +18,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank
 from pkm_exact.geometry.csv_fields import exact_number, header_names, is_header, require_length
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.wording import printable, shown
 
@@ -44,8 +45,11 @@ class JointPath:
     lines: tuple[int, ...]
 
 
-def joint_names(robot: Robot) -> tuple[str, ...]:
-    """Names of the columns of joint values."""
+def joint_names(robot: Machine) -> tuple[str, ...]:
+    """Names of the columns of joint values: of a mechanism those of its actuated constraints, in small letters."""
+    if not isinstance(robot, Robot):
+        names = tuple(name.lower() for name in robot.actuated)
+        return names if len(set(names)) == len(names) else tuple(f"v{k}" for k in range(1, len(names) + 1))
     letter = "l" if not robot.chains else "h" if isinstance(robot.chains[0], Crank) else "q"
     return tuple(f"{letter}{leg}" for leg in range(1, KINDS[robot.kind].legs + 1))
 
@@ -83,13 +87,14 @@ def _text(name: str) -> str:
 def path_from_csv(text: str, robot: Robot) -> JointPath:
     """The path that the text of a CSV file describes.
 
-    Examples
-    --------
-    >>> from pkm_exact.geometry.robot import Robot
-    >>> corners = tuple(tuple(map(Fraction, joint)) for joint in ((0, 0), (4, 0), (2, 3)))
-    >>> robot = Robot("example", "3-RPR", "m", "made up", corners, corners)
-    >>> path_from_csv("time,l1,l2,l3\\n0,1,2,3\\n0.5,1,2,3.25\\n", robot).rows[1][2]
-    Fraction(13, 4)
+        Examples
+        --------
+        >>> from pkm_exact.geometry.machine import Machine
+    from pkm_exact.geometry.robot import Robot
+        >>> corners = tuple(tuple(map(Fraction, joint)) for joint in ((0, 0), (4, 0), (2, 3)))
+        >>> robot = Robot("example", "3-RPR", "m", "made up", corners, corners)
+        >>> path_from_csv("time,l1,l2,l3\\n0,1,2,3\\n0.5,1,2,3.25\\n", robot).rows[1][2]
+        Fraction(13, 4)
     """
     names = joint_names(robot)
     columns: tuple[str, ...] | None = None

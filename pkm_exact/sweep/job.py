@@ -16,6 +16,7 @@ from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.certify.build import certificate_bytes
 from pkm_exact.errors import InputError, InternalError, PkmExactError
 from pkm_exact.failures.failure_report import internal_error
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.policy import Policy
@@ -61,7 +62,7 @@ class SweepJob:
         Whether certificates are wanted, not only their digests.
     """
 
-    robot: Robot
+    robot: Machine
     names: tuple[str, ...]
     solver: RowSolver
     squared: bool
@@ -93,7 +94,7 @@ def _internal(error: Exception) -> str:
 
 
 def sweep_job(
-    robot: Robot,
+    robot: Machine,
     lengths: LengthsFile,
     *,
     method: str,
@@ -107,7 +108,7 @@ def sweep_job(
     return SweepJob(robot, lengths.names, RowSolver.of(problems, width, policy, method), squared, certificates)
 
 
-def _problems(robot: Robot, lengths: LengthsFile, *, squared: bool) -> Iterable[ForwardProblem]:
+def _problems(robot: Machine, lengths: LengthsFile, *, squared: bool) -> Iterable[ForwardProblem]:
     """Those of the first rows that pose one."""
     for row in islice(lengths.rows(), FIRST_ROWS):
         try:
@@ -120,7 +121,14 @@ def identity(job: SweepJob, lengths: LengthsFile, certificates: Path | None) -> 
     """A digest of all that the output depends on. The start section is no part of it: answers do not depend on it."""
     folder = None if certificates is None else os.path.realpath(certificates)
     robot = job.robot
-    joints = (robot.kind, robot.metric, robot.base_joints, robot.platform_joints, robot.written_digit)
+    joints = (robot.kind, robot.metric, *_geometry(robot))
     words = (pkm_exact.__version__, robot.name, robot.unit, robot.source, joints, lengths.digest)
     options = (job.solver.method, job.solver.width, job.solver.policy, job.squared, folder)
     return sha256(repr((words, options)).encode()).hexdigest()
+
+
+def _geometry(robot: Machine) -> tuple[object, ...]:
+    """What the poses of a robot depend on beside its metric and its values."""
+    if isinstance(robot, Robot):
+        return robot.base_joints, robot.platform_joints, robot.written_digit
+    return (robot,)

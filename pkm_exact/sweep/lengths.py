@@ -1,7 +1,8 @@
 """CSV files with one length vector per row, read line by line: a million rows take no more memory than one.
 
-One column per leg (``l1``, ``l2``, ..), numbers exact. A first line with these names may be left out. Blank lines and
-lines that begin with # are skipped. What is wrong with one row is said in its answer; the others are not affected.
+One column per leg (``l1``, ``l2``, ..) or actuated constraint (its name), numbers exact. A first line with these names
+may be left out. Blank lines and lines that begin with # are skipped. What is wrong with one row is said in its answer;
+the others are not affected.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from typing import Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.csv_fields import exact_number, header_names, is_header, require_length
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.path_reader import joint_names
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
@@ -89,7 +91,7 @@ class LengthsFile:
             raise _named(self.path, error) from None
 
 
-def read_lengths(path: str | os.PathLike[str], robot: Robot) -> LengthsFile:
+def read_lengths(path: str | os.PathLike[str], robot: Machine) -> LengthsFile:
     """The file of length vectors of a robot. What concerns it as a whole is checked; its numbers are not read yet.
 
     Raises
@@ -100,7 +102,9 @@ def read_lengths(path: str | os.PathLike[str], robot: Robot) -> LengthsFile:
     name = os.fspath(path)
     names = joint_names(robot)
     try:
-        if robot.chains:
+        if not names:
+            raise InputError(f"{robot.name} has no actuated constraints; solve its configurations one by one")
+        if isinstance(robot, Robot) and robot.chains:
             raise InputError(
                 f"the rods of a {robot.kind} robot have fixed lengths; solve its configurations one by one"
             )
@@ -120,26 +124,24 @@ def read_lengths(path: str | os.PathLike[str], robot: Robot) -> LengthsFile:
     return LengthsFile(name, names, digest, count)
 
 
-def lengths_squared(row: LengthRow, names: tuple[str, ...], *, squared: bool) -> list[Fraction]:
-    """The squared lengths that a row has, exactly.
+def row_values(row: LengthRow, names: tuple[str, ...]) -> list[Fraction]:
+    """The numbers that a row has, exactly.
 
     Parameters
     ----------
     row : LengthRow
     names : tuple of str
         Of the columns.
-    squared : bool
-        Whether the row has squared lengths already.
 
     Raises
     ------
     InputError
-        If they are not as many positive numbers as there are columns.
+        If they are not as many numbers as there are columns.
 
     Examples
     --------
-    >>> lengths_squared(LengthRow(1, 2, ("7", "5/2", "0.1")), ("l1", "l2", "l3"), squared=False)
-    [Fraction(49, 1), Fraction(25, 4), Fraction(1, 100)]
+    >>> row_values(LengthRow(1, 2, ("7", "5/2", "0.1")), ("l1", "l2", "l3"))
+    [Fraction(7, 1), Fraction(5, 2), Fraction(1, 10)]
     """
     line = f"line {row.line}"
     if row.defect is not None:
@@ -148,17 +150,25 @@ def lengths_squared(row: LengthRow, names: tuple[str, ...], *, squared: bool) ->
         raise InputError(f"{line}: {len(row.fields)} values; give {len(names)}: {', '.join(names)}")
     if is_header(row.fields) and tuple(field.lower() for field in row.fields) == names:
         raise InputError(f"{line}: is a second header; remove it")
-    values = []
-    for field, name in zip(row.fields, names, strict=True):
-        value = exact_number(field, f"{line}, {name}")
-        require_length(value, f"{line}, {name}")
-        values.append(value if squared else value * value)
-    return values
+    return [exact_number(field, f"{line}, {name}") for field, name in zip(row.fields, names, strict=True)]
 
 
-def problem_of(robot: Robot, row: LengthRow, names: tuple[str, ...], *, squared: bool) -> ForwardProblem:
-    """The problem that a row poses; errors as ``lengths_squared``."""
-    return robot.problem(lengths_squared(row, names, squared=squared))
+def problem_of(robot: Machine, row: LengthRow, names: tuple[str, ...], *, squared: bool) -> ForwardProblem:
+    """The problem that a row poses; its values are lengths, or squared ones, and of a mechanism offsets and products.
+
+    Raises
+    ------
+    InputError
+        As ``row_values``, and if a length is not positive.
+    """
+    values = row_values(row, names)
+    if isinstance(robot, Robot):
+        for value, name in zip(values, names, strict=True):
+            require_length(value, f"line {row.line}, {name}")
+    try:
+        return robot.problem_at(values, squared=squared)
+    except InputError as error:
+        raise InputError(f"line {row.line}: {error}") from None
 
 
 def _rows(stream: BufferedReader, names: tuple[str, ...]) -> Iterator[LengthRow]:

@@ -6,7 +6,7 @@ import json
 from hashlib import sha256
 from typing import Any
 
-from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.indices.index import Index, Output
 from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.interactive.answer_notes import answer_notes
@@ -17,7 +17,7 @@ from pkm_exact.solution import Solution
 from pkm_exact.sweep.lengths import LengthRow
 
 
-def solution_line(row: LengthRow, robot: Robot, solution: Solution, certificate: bytes) -> bytes:
+def solution_line(row: LengthRow, robot: Machine, solution: Solution, certificate: bytes) -> bytes:
     """What was found for a row, with the digest of its certificate."""
     return _line(
         row,
