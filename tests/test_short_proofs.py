@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,7 @@ import pkm_exact
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.claim import CompletenessRoute
+from pkm_exact.completeness import short_proof as short
 from pkm_exact.completeness.closed_section import closed_section
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.finite_section import is_finite
@@ -168,6 +170,21 @@ def test_a_prime_at_which_a_solution_goes_to_infinity_bounds_nothing() -> None:
 
 
 # Points at infinity
+
+
+@pytest.mark.parametrize(("prime", "is_found"), [(3, False), (7, False), (11, True)])
+def test_a_first_prime_that_shows_other_points_ends_in_the_points_or_in_none(prime: int, is_found: bool) -> None:
+    found = points_at_infinity(_robot("hexaglide"), chain([prime], _primes()), BITS)
+    assert found == (_infinity("hexaglide") if is_found else None)
+
+
+@pytest.mark.parametrize("first", [[3, 3], [3, 101, 3], [7, 7], [7, 101, 7]])
+def test_unlucky_primes_are_not_asked_alone(first: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(short, "primes_from", lambda *_: chain(first, _primes()))
+    proof = short_proof(_robot("hexaglide"), 36, 36, Policy())
+    assert proof is not None
+    assert proof.infinity is not None
+    assert proof.infinity.multiplicity == 4
 
 
 def test_points_at_infinity_are_verified_exactly() -> None:

@@ -16,6 +16,7 @@ from random import Random
 from flint import fmpz_poly, nmod_mat, nmod_poly
 
 from pkm_exact.algebra.graded_quotient import Chosen, Degree, graded_parts
+from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.lifting import lift_by_primes
 from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.algebra.rur import ModularRepresentation, squarefree_part
@@ -29,6 +30,8 @@ LAST_DEGREE = 8
 """Of the graded algebra: a section that is not finite grows for ever."""
 MOST_POINTS = 40
 """More than that many points, with multiplicity, are none of use: the section has no more, finite ones included."""
+MISSES = 12
+"""Primes without an image of the points, one after another, after which the first one is taken for unlucky."""
 _HORIZON = (0,) * (SIZE - 1) + (1,)
 
 
@@ -94,15 +97,19 @@ def _lifted(
 
     def images() -> Iterator[ModularRepresentation]:
         yield first
+        misses = 0
         for prime in primes:
             section = _Section.at(conditions, prime, chosen)
             image = None if section is None else section.representation(chart, form)
+            misses = 0 if image is not None else misses + 1
             if image is not None:
                 yield image
+            elif misses > MISSES:
+                return
 
     try:
         found = lift_by_primes(form, images(), limit_bits, lambda found: is_at_infinity(chart, found, conditions))
-    except ReconstructionError:
+    except (ReconstructionError, UnluckyPrimeError):
         return None
     return PointsAtInfinity(chart, found, singular_points(found, conditions.metric))
 

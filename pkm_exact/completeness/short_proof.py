@@ -8,6 +8,7 @@ together, the section being finite (``finite_section``, ``infinity``).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import islice
 
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.claim import CompletenessRoute
@@ -58,9 +59,13 @@ def short_proof(conditions: Conditions, distinct: int, total: int, policy: Polic
         return ShortProof(CompletenessRoute.PRODUCT_BOUND if is_lower else CompletenessRoute.REFINED_BEZOUT)
     if modular_rank(closed_section(conditions), next(primes), total) == total:
         return ShortProof(CompletenessRoute.MODULAR_RANK)
-    if conditions.motion != SPATIAL or not _is_square(conditions) or not is_finite(conditions, next(primes)):
+    if conditions.motion != SPATIAL or not _is_square(conditions):
         return None
-    found = points_at_infinity(conditions, primes, policy.lifting_bits)
+    # "No" may be the fault of primes: it is asked twice.
+    if not any(is_finite(conditions, prime) for prime in islice(primes, 2)):
+        return None
+    tried = (points_at_infinity(conditions, primes, policy.lifting_bits) for _ in range(2))
+    found = next(filter(None, tried), None)
     if found is None:
         return None
     counts = {"listed": total, "infinity": found.multiplicity}
