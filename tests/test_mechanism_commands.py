@@ -28,7 +28,7 @@ def test_legs_gives_the_values_of_all_constraints_and_what_holds(capsys: Capture
 
 
 def test_legs_says_which_constraints_do_not_hold(capsys: Capture) -> None:
-    assert main(["legs", MODEL, "--position", "1,0,1", "--quaternion", "1,1,0,0", "--format", "json"]) == 0
+    assert main(["legs", MODEL, "--position", "1,0,1", "--quaternion", "1,0,0,0", "--format", "json"]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert {entry["name"]: entry["holds"] for entry in answer["constraints"]}["hinge 2"] is False
 
