@@ -87,6 +87,22 @@ def fit_real_poses(content: dict[str, Any], multiplicity: int | None) -> None:
     content["poses"], content["real_poses"] = poses, len(poses)
 
 
+def turning(h: fmpz_poly, box_exponent: int = 31) -> dict[str, Any]:
+    """All joints of base and platform on an axis, about which the platform turns by any angle: h names some.
+
+    No pose is listed yet; the parameter is the tangent of half the angle.
+    """
+    content = golden("similar-planar-s")
+    content["robot"]["base"] = [["0", "0", str(n)] for n in range(1, 7)]
+    content["robot"]["platform"] = [["0", "0", str(2 * n)] for n in range(1, 7)]
+    content["configuration"]["lengths_squared"] = [str(n * n) for n in range(1, 7)]
+    rational, zero = fmpq_poly(h), fmpq_poly()
+    slope = rational.derivative()
+    times = fmpq_poly([0, 1]) * slope - h.degree() * rational
+    set_representation(content, [rational, slope, zero, zero, times, zero, zero, zero, zero], (0, 0, 0, 1, 0, 0, 0, 0))
+    return content | {"poses": [], "real_poses": 0, "box_exponent": box_exponent}
+
+
 def sliding(count: int, step: Fraction = Fraction(1, 7), box_exponent: int = 31) -> dict[str, Any]:
     """Congruent base and platform, all legs of length 1: the platform slides, unturned, on a sphere.
 

@@ -7,7 +7,14 @@ from typing import Any
 import pytest
 from certificate_tools import check_resealed, golden, last_line
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_poly
-from forged_representations import coefficients, fit_real_poses, representation_through, set_representation, sliding
+from forged_representations import (
+    coefficients,
+    fit_real_poses,
+    representation_through,
+    set_representation,
+    sliding,
+    turning,
+)
 
 from pkm_exact import Robot, certificate, solve
 from pkm_exact.certify.build import canonical_bytes, sealed
@@ -425,15 +432,7 @@ def test_a_double_solution_is_certified_as_double() -> None:
 
 
 def test_roots_too_close_to_tell_apart_are_given_up() -> None:
-    """A platform free to turn about an axis is at any angle; 40 of them, two 2^-80000 apart, cost no endless work."""
-    content = golden("similar-planar-s")
-    content["robot"]["base"] = [["0", "0", str(n)] for n in range(1, 7)]
-    content["robot"]["platform"] = [["0", "0", str(2 * n)] for n in range(1, 7)]
-    content["configuration"]["lengths_squared"] = [str(n * n) for n in range(1, 7)]
-    h = fmpq_poly([0] * 40 + [1]) - 2 * fmpq_poly([-1, 3 * 2**4000]) ** 2
-    slope, zero = h.derivative(), fmpq_poly()
-    turning = [h, slope, zero, zero, fmpq_poly([0, 1]) * slope - 40 * h, zero, zero, zero, zero]
-    set_representation(content, turning, (0, 0, 0, 1, 0, 0, 0, 0))
-    answer = check_resealed(content | {"poses": [], "real_poses": 0})
+    """A platform free to turn about an axis is at any angle; 12 of them, two 2^-24000 apart, cost no endless work."""
+    answer = check_resealed(turning(fmpz_poly([0] * 12 + [1]) - 2 * fmpz_poly([-1, 3 * 2**4000]) ** 2))
     assert answer.status is Status.TOO_LARGE
     assert last_line(answer) == "real poses: the roots are not told apart by 4096 bits"

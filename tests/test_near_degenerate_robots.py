@@ -8,7 +8,8 @@ import pytest
 from campaign import model
 from certificate_tools import both, both_resealed, last_line, with_entry
 from flint import fmpq, fmpz_poly
-from hypothesis import given
+from forged_representations import fit_real_poses, turning
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pkm_exact import Robot, certificate
@@ -117,6 +118,7 @@ rationals = st.fractions(-30, 30, max_denominator=40) | st.builds(
 
 
 @given(st.lists(rationals, min_size=1, max_size=5, unique=True), st.integers(0, 80))
+@settings(max_examples=40)
 def test_every_real_root_is_enclosed_once(roots: list[Fraction], bits: int) -> None:
     """Beside them, complex ones: they are 2^-50 from a real number."""
     found = real_roots(_product(roots) * fmpz_poly([(1 << 100) + 1, -(1 << 101), 1 << 100]))
@@ -146,3 +148,35 @@ def test_work_on_roots_is_limited(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("pkm_exact.certify.checker.descartes.MAX_WORK", 1000)
     with pytest.raises(Refusal, match="too long"):
         real_roots(h)
+
+
+# The same on certificates: a platform that turns freely stands at whatever angles are named
+
+
+@pytest.mark.parametrize(
+    "roots",
+    [
+        [Fraction(0)],
+        [Fraction(0), Fraction(1, 4), Fraction(1, 3), Fraction(-5), Fraction(-3, 2**33)],
+        [Fraction(1, 3), Fraction(1, 3) + Fraction(1, 10**61), -Fraction(1, 10**61), Fraction(0)],
+        [Fraction(10**40), Fraction(-(10**40)), Fraction(1, 10**40)],
+        [Fraction(1, 2) + Fraction(1, 2**200), Fraction(1, 2) - Fraction(1, 2**200)],
+        [Fraction(2**70), Fraction(2**70 - 1)],
+    ],
+)
+@pytest.mark.parametrize("others", [[1], [1, 1, 1], [(1 << 200) + 1, -(1 << 201), 1 << 200]])
+def test_poses_at_any_angles_are_accepted(roots: list[Fraction], others: list[int]) -> None:
+    content = turning(_product(roots) * fmpz_poly(others), box_exponent=600)
+    fit_real_poses(content, None)
+    answer = both_resealed(content)
+    assert answer.status == "accepted", last_line(answer)
+    assert f"real poses: {len(roots)}, one for each real root of the eliminant" in answer.lines
+    fewer = content | {"poses": content["poses"][1:], "real_poses": len(roots) - 1}
+    assert last_line(both_resealed(fewer)).startswith("real poses: ")
+
+
+@pytest.mark.parametrize(("power", "status"), [(4093, "rejected"), (4094, "too-large")])
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_a_pose_at_half_a_turn_but_for_a_hair(power: int, status: str, sign: int) -> None:
+    """Both count the root, or give up: the limit is one of size."""
+    assert both_resealed(turning(fmpz_poly([sign << power, 1]))).status == status
