@@ -14,9 +14,15 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from itertools import zip_longest
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias, cast
 
 from pkm_exact.certify.build import canonical_bytes, certificate
+from pkm_exact.certify.certified_machine import (
+    certified_configuration,
+    certified_machine,
+    certified_problem,
+    certified_squares,
+)
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.certify.tolerance_build import FORMAT as TOLERANCE_FORMAT
 from pkm_exact.certify.tolerance_build import tolerance_certificate
@@ -31,7 +37,7 @@ from pkm_exact.stages import Progress
 from pkm_exact.wording import counted, shown
 
 if TYPE_CHECKING:
-    from pkm_exact.constraints.form import Vector
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.solution import Solution
 
@@ -74,7 +80,7 @@ class Recomputation:
 
 
 def recompute(
-    data: bytes, *, robot: Robot | None = None, policy: Policy | None = None, progress: Progress | None = None
+    data: bytes, *, robot: Machine | None = None, policy: Policy | None = None, progress: Progress | None = None
 ) -> Recomputation:
     """Check a certificate, solve its robot again in the same way and compare all bytes.
 
@@ -82,9 +88,9 @@ def recompute(
     ----------
     data : bytes
         Content of a certificate of poses or of tolerances.
-    robot : Robot, optional
-        A robot whose configuration of the same name is to be solved (its lengths, if the certificate's have no name);
-        by default the robot that is written in the certificate.
+    robot : Machine, optional
+        A robot or mechanism whose configuration of the same name is to be solved (its lengths, if the certificate's
+        have no name); by default the one that is written in the certificate.
     policy : Policy, optional
         The one with which it was made, if not the default one.
     progress : callable, optional
@@ -131,30 +137,18 @@ def recompute(
 class _Question:
     """What is to be solved: robot, name of the configuration, and problem."""
 
-    robot: Robot
+    robot: Machine
     name: str | None
     problem: ForwardProblem
 
     @classmethod
-    def of(cls, content: dict[str, Any], robot: Robot | None) -> _Question:
-        name = content["configuration"]["name"]
+    def of(cls, content: dict[str, Any], robot: Machine | None) -> _Question:
+        name = certified_configuration(content)
         if robot is not None and name is not None:
             return cls(robot, name, robot.problem(robot.configuration(name)))
-        robot = _written(content["robot"]) if robot is None else robot
-        lengths = [Fraction(text) for text in content["configuration"]["lengths_squared"]]
-        return cls(robot, name, robot.problem(lengths))
-
-
-def _written(entry: dict[str, Any]) -> Robot:
-    """The robot as it is written in a certificate."""
-    base, platform = (tuple(_point(joint) for joint in entry[side]) for side in ("base", "platform"))
-    g1, g2, g3 = map(int, entry["metric"])
-    return Robot(entry["name"], entry["kind"], entry["unit"], entry["source"], base, platform, (g1, g2, g3))
-
-
-def _point(texts: list[str]) -> Vector:
-    x, y, z = map(Fraction, texts)
-    return x, y, z
+        if not isinstance(robot, Robot):
+            return cls(robot or certified_machine(content), name, certified_problem(content))
+        return cls(robot, name, robot.problem(certified_squares(content)))
 
 
 def _answers(
@@ -186,7 +180,8 @@ def _tolerance_answers(
     for engine in engines:
         solution = engine(asked.problem, policy=policy, progress=progress)
         result = tolerance_boxes(asked.problem, tolerances, solution, progress)
-        yield tolerance_certificate(asked.robot, asked.name, result)
+        require(isinstance(asked.robot, Robot), "a certificate of tolerances of a robot that has no joints")
+        yield tolerance_certificate(cast("Robot", asked.robot), asked.name, result)
 
 
 def _summary(content: dict[str, Any]) -> str:

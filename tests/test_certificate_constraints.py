@@ -15,12 +15,18 @@ from mechanisms import cylinder_and_planes, cylinders, h4, mixed, point_and_sphe
 
 import pkm_exact
 from pkm_exact.certify.build import canonical_bytes, certificate
+from pkm_exact.certify.certified_machine import certified_machine, certified_problem, certified_squares
 from pkm_exact.certify.check import check_bytes
+from pkm_exact.certify.legs_view import legs_view
 from pkm_exact.engine import solve
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric_engine import solve_krawczyk
+from pkm_exact.pictures.scene import scene_of
 from pkm_exact.policy import Policy
+from pkm_exact.recomputation import recompute
+from pkm_exact.report_page.page import report_page
 from pkm_exact.solution import Solution
 
 ROOT = Path(__file__).parent.parent
@@ -142,3 +148,30 @@ def test_a_solution_of_another_mechanism_is_refused() -> None:
     with pytest.raises(ValueError, match="constraints or metric differ"):
         certificate(other, "home", solution)
     assert certificate(machine, None, solution)["configuration"] is None
+
+
+@pytest.mark.parametrize("name", ["hexaglide", "robocrane-r"])
+def test_robots_with_legs_are_shown_and_solved_again_from_version_2(name: str) -> None:
+    robot = pkm_exact.read_robot(ROOT / "models" / f"{name}.toml")
+    solution = solve(robot.problem(robot.configuration()), policy=POLICY)
+    content = certificate(robot, "home", solution)
+    assert content["version"] == 2
+    machine = certified_machine(content)
+    assert isinstance(machine, Robot)
+    assert machine.problem(certified_squares(content)) == solution.problem == certified_problem(content)
+    view = legs_view(content)
+    old = json.loads((ROOT / "certs" / f"{name}.json").read_text())
+    assert view["robot"] == old["robot"]
+    assert view["configuration"] == old["configuration"]
+    assert scene_of(content) == scene_of(old)
+    assert recompute(canonical_bytes(content), policy=POLICY).outcome == "same bytes"
+    assert "points at infinity" in report_page(content, ("accepted",), "cert.json")
+
+
+def test_mechanisms_are_solved_again() -> None:
+    machine, solution = _solved(point_and_spheres())
+    content = certificate(machine, "home", solution)
+    again = certified_machine(content)
+    assert isinstance(again, Mechanism)
+    assert again.constraints == machine.constraints
+    assert recompute(canonical_bytes(content)).outcome == "same bytes"

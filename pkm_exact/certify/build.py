@@ -68,7 +68,7 @@ def _content(machine: Machine, configuration_name: str | None, solution: Solutio
     if robot.problem(lengths_squared) != solution.problem:
         raise ValueError(f"the solution is not one of {robot!r}: joints or metric differ")
     if not is_of_version_1(solution):
-        return constraints_content(machine, configuration_name, solution)
+        return constraints_content(robot, configuration_name, solution)
     return {
         "format": FORMAT,
         "version": VERSION,

@@ -73,8 +73,12 @@ class CompletenessProof:
 
 
 def has_as_many_legs_as_freedoms(problem: ForwardProblem) -> bool:
-    """Whether it is a hexapod or a planar robot with three legs, which certificates of version 1 can describe."""
-    return is_of_legs(problem) and len(problem.constraints) == problem.motion.dimension
+    """Whether it is a hexapod or a planar robot with three legs, which certificates of version 1 can describe.
+
+    The legs of such robots have no names; constraints that a model declares one by one have.
+    """
+    unnamed = not any(constraint.name for constraint in problem.constraints)
+    return unnamed and is_of_legs(problem) and len(problem.constraints) == problem.motion.dimension
 
 
 def elimination_system(problem: ForwardProblem) -> PolynomialSystem:

@@ -6,13 +6,14 @@ anew, from the eliminant or from the boxes of Krawczyk's operator, narrow enough
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from flint import arb
 
+from pkm_exact.certify.checker.document import read_document
 from pkm_exact.certify.checker.krawczyk import Equations, narrowed
 from pkm_exact.certify.checker.realposes import ordinary_coordinates
 from pkm_exact.constraints.distance import Distance
@@ -37,6 +38,13 @@ class Placed:
     coordinates: tuple[float, ...]
     det_sign: int | None
     jacobian: LegJacobian | None
+
+
+def typed_document(view: Mapping[str, Any]) -> Document:
+    """What the checker reads in an accepted certificate of legs (``certify.legs_view``), but for what proves it."""
+    proofs = ("infinity", "self_motion", "digest")
+    body = {key: value for key, value in view.items() if key not in proofs}
+    return read_document({**body, "version": 1, "completeness_route": None})
 
 
 def problem_of(document: Document) -> ForwardProblem:

@@ -13,6 +13,7 @@ from itertools import pairwise
 from math import asinh, ceil, floor, inf, log10, sinh
 from typing import TYPE_CHECKING, Any, Final, cast
 
+from pkm_exact.certify.legs_view import legs_view
 from pkm_exact.errors import InputError
 from pkm_exact.pictures import captions, style
 from pkm_exact.pictures.scene import LARGEST
@@ -291,6 +292,7 @@ def _headline(figure: Figure, document: Mapping[str, Any], roots: Roots) -> None
         wide = f"isolating intervals at most {float(widest):.2g} wide"
     degree = roots.polynomial.degree()
     second = f"eliminant h of degree {degree}: {counted(len(roots.real), 'real root')}; {wide}"
+    document = legs_view(document)
     robot = document["robot"]
     first = captions.headline(robot["name"], robot["kind"], document["configuration"]["name"])
     captions.add_headline(figure, first, second)

@@ -193,11 +193,11 @@ def scene_of(document: Mapping[str, Any], robot: Robot | None = None) -> Scene:
 
 
 def _scene(document: Mapping[str, Any], robot: Robot | None) -> Scene:
-    from pkm_exact.certify.build import canonical_bytes
-    from pkm_exact.certify.checker.document import read
-    from pkm_exact.pictures.coordinates import placed_poses
+    from pkm_exact.certify.legs_view import legs_view
+    from pkm_exact.pictures.coordinates import placed_poses, typed_document
 
-    typed = read(canonical_bytes(document))
+    document = legs_view(document)
+    typed = typed_document(document)
     axes = _axes(typed.metric)
     locked = None if robot is None else configuration_of(document, robot)
     base = tuple(_ordinary(leg.base, axes) for leg in typed.legs)
@@ -290,6 +290,9 @@ def _chain(robot: Robot | None) -> str:
 
 def configuration_of(document: Mapping[str, Any], robot: Robot) -> Configuration | None:
     """The robot's configuration that the certificate answers, exactly; None if its lengths were given freely."""
+    from pkm_exact.certify.legs_view import legs_view
+
+    document = legs_view(document)
     content, squares = document["robot"], document["configuration"]["lengths_squared"]
 
     def fits(reduced: Robot, lengths: Sequence[Fraction]) -> bool:

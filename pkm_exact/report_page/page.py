@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import pkm_exact
 from pkm_exact.certify.build import canonical_bytes
+from pkm_exact.certify.legs_view import legs_view
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.pictures.scene import configuration_of, scene_of
@@ -63,6 +64,7 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
         If the certificate is not one of the given robot, or its numbers are too large to be drawn.
     """
     tolerances = is_of_tolerances(document)
+    shown_robot = document if tolerances else legs_view(document)
     facts = Facts(
         file,
         sha256(canonical_bytes(document)).hexdigest(),
@@ -79,10 +81,12 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
     sections = {
         "claim": claim_section(meaning, counts, limits_of(document), notes),
         "explorer": _explorer(scene, poses, tolerances=tolerances) if poses.rows else Markup(),
-        "robot": robot_section(document, {**extra, **_actuators(document, scene, robot)}, has_knees=bool(scene.chain)),
+        "robot": robot_section(
+            shown_robot, {**extra, **_actuators(document, scene, robot)}, has_knees=bool(scene.chain)
+        ),
         "proof": proof_section(facts, document),
     }
-    return _assembled(document, scene, meaning, poses, sections)
+    return _assembled(shown_robot, scene, meaning, poses, sections)
 
 
 def _certified(document: Mapping[str, Any], robot: Robot | None) -> tuple[Scene, PoseRows]:

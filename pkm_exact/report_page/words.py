@@ -8,6 +8,7 @@ from typing import Any
 
 from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.claim_wording import OF_CERTIFICATE, OF_CERTIFICATE_MEANING, OF_EVIDENCE, OF_EVIDENCE_MEANING
+from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.wording import counted
 
 
@@ -64,12 +65,29 @@ def _complete(document: Mapping[str, Any], number: int) -> Meaning:
 def _route(document: Mapping[str, Any]) -> str:
     total, distinct = document["complex_solutions"], document["distinct_solutions"]
     if document["completeness_route"] == CompletenessRoute.REFINED_BEZOUT:
-        where = "motions of the plane" if len(document["robot"]["base"]) == 3 else "rigid motions"
+        where = "motions of the plane" if total == PLANAR.degree else "rigid motions"
         return (
             f"The {where} form a variety of degree {total}, and each leg cuts it by a hyperplane. So there are at most "
             f"{total} isolated solutions, real or complex. {total} were found, distinct and simple: nothing is left "
             "for another pose, for a motion with locked legs, or for solutions at infinity (refined theorem of Bezout)."
         )
+    others = {
+        CompletenessRoute.PRODUCT_BOUND: (
+            f"The equations have low degrees in few unknowns, so that at most {total} isolated solutions are possible, "
+            f"real or complex (theorem of Bezout). {total} were found, distinct and simple."
+        ),
+        CompletenessRoute.MODULAR_RANK: (
+            f"Ranks of integer matrices modulo a prime leave room for {counted(total, 'solution')}, real or complex, "
+            "counted with multiplicity. As many were found."
+        ),
+        CompletenessRoute.COUNTING_AT_INFINITY: (
+            "The constraints and the rigid motions, a variety of degree 40, meet in finitely many points, which count "
+            f"40 at most. {counted(total, 'solution')} and points at infinity, found exactly, fill this number: there "
+            "is no other."
+        ),
+    }
+    if document["completeness_route"] in others:
+        return others[document["completeness_route"]]
     several = f" ({distinct} distinct ones, some of them multiple)" if distinct < total else ""
     return (
         "An elimination over the rational numbers gives polynomials that vanish at every pose and leave room for "
