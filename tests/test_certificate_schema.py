@@ -13,9 +13,10 @@ from certificate_subjects import SUBJECTS, subject
 from certificate_tools import CERTS, golden, leaves, with_entry
 from mutations import FREE
 
-from pkm_exact.certify import build, pure, tolerance_build
+from pkm_exact.certify import build, build_constraints, pure, tolerance_build
 from pkm_exact.certify.build import sealed
 from pkm_exact.certify.checker import document, tolerance_document, verdict
+from pkm_exact.certify.checker.certificate_kinds import KINDS, CertificateKind
 
 POSES, TOLERANCES = "certificate-1.schema.json", "tolerance-certificate-1.schema.json"
 SECOND = "certificate-2.schema.json"
@@ -162,12 +163,15 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
     assert exponent == tolerance_document.MAX_EXPONENT == pure.MAX_TOLERANCE_GRID
 
 
-def test_versions_are_the_same_everywhere() -> None:
-    for name, writer, reader in ((POSES, build, document), (TOLERANCES, tolerance_build, tolerance_document)):
-        schema = _schema(name)
-        version = schema["properties"]["version"]["const"]
-        assert writer.VERSION == reader.VERSION == version
-        assert writer.FORMAT == reader.FORMAT == schema["properties"]["format"]["const"]
-        assert f"-{version}.schema.json" in name
-        assert schema["$id"].endswith(f"-{version}")
-        assert name in (CERTS.parent / "docs" / "certificates.md").read_text()
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
+def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
+    writers = (build, build_constraints, tolerance_build)
+    assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
+    stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
+    name = f"{stem}-{kind.version}.schema.json"
+    schema = _schema(name)
+    assert schema["properties"]["version"]["const"] == kind.version
+    assert schema["properties"]["format"]["const"] == kind.format
+    assert schema["$id"].endswith(f"-{kind.version}")
+    pages = (CERTS.parent / "docs").glob("certificates*.md")
+    assert any(name in page.read_text() for page in pages)

@@ -35,8 +35,6 @@ from pkm_exact.certify.checker.verdict import (
     too_large,
 )
 
-FORMAT: Final = "pkm_exact certificate"
-VERSION: Final = 1
 KINDS: Final = {"6-UPS": 6, "3-RPR": PLANAR_LEGS}
 """Kinds of robot, with their numbers of legs."""
 FORMULATIONS: Final = re.compile(r"(?:SE3|AFD[1-6]|AFP[1-4])(?::[a-z0-9]{1,10})?", re.ASCII)
@@ -126,8 +124,6 @@ def read(data: bytes) -> Document:
 
 def read_document(body: dict[str, Any]) -> Document:
     """The content of a certificate whose digest has been looked at."""
-    if body.get("format") != FORMAT or type(body.get("version")) is not int or body["version"] != VERSION:
-        raise malformed(f"format: not a {FORMAT}, version {VERSION}")
     (
         _,
         _,

@@ -47,7 +47,6 @@ from pkm_exact.certify.checker.spelling import choice, count, entries, integer, 
 from pkm_exact.certify.checker.study_motion import Metric, Point
 from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, malformed, rejected, too_large
 
-VERSION: Final = 2
 ROUTES: Final = ("refined-bezout", "product-bound", "modular-rank", "counting-at-infinity", "exact-elimination")
 CAUSES: Final = ("dependent-forms", "symmetry", "equal-legs", "more-poses-than-bound")
 MOST_CONSTRAINTS: Final = 64

@@ -16,15 +16,10 @@ from pkm_exact.certify.checker.spelling import (
     items,
     positive,
     rational,
-    read_sealed,
 )
 from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric
 from pkm_exact.certify.checker.verdict import malformed, too_large
 
-FORMAT: Final = "pkm_exact tolerance certificate"
-VERSION: Final = 1
-OPENING: Final = f'{{\n "format": "{FORMAT}",\n'.encode("ascii")
-"""How every tolerance certificate begins in its one spelling."""
 DEGREES: Final = {False: 40, True: 6}
 """Degree of the variety of rigid motions, and of planar ones (key: planar)."""
 MAX_EXPONENT: Final = 4096
@@ -86,11 +81,8 @@ class ToleranceDocument:
     complete: bool
 
 
-def read_tolerances(data: bytes) -> ToleranceDocument:
+def read_tolerances(body: dict[str, Any]) -> ToleranceDocument:
     """The content of a tolerance certificate, or a refusal if it has not the shape of one."""
-    body = read_sealed(data)
-    if body.get("format") != FORMAT or type(body.get("version")) is not int or body["version"] != VERSION:
-        raise malformed(f"format: not a {FORMAT}, version {VERSION}")
     _, _, robot, configuration, tolerances, frames, exponent, boxes, unproved, pairs, complete = entries(
         body, "certificate", _KEYS
     )

@@ -1,0 +1,87 @@
+"""The kinds of certificates that the checker knows. One row adds a kind, or a version of one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+from pkm_exact.certify.checker.claims import check_claims
+from pkm_exact.certify.checker.document import Document, read_document
+from pkm_exact.certify.checker.krawczyk import Equations, check_isolated
+from pkm_exact.certify.checker.mechanism_boxes import MechanismEquations
+from pkm_exact.certify.checker.mechanism_claims import check_mechanism_claims
+from pkm_exact.certify.checker.mechanism_document import MechanismDocument, read_mechanism_document
+from pkm_exact.certify.checker.mechanism_solutions import check_solutions
+from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
+from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
+from pkm_exact.certify.checker.tolerance_checks import check_tolerances
+from pkm_exact.certify.checker.tolerance_document import read_tolerances
+from pkm_exact.certify.checker.verdict import malformed
+
+POSES: Final = "pkm_exact certificate"
+TOLERANCES: Final = "pkm_exact tolerance certificate"
+
+
+@dataclass(frozen=True)
+class CertificateKind:
+    """A kind of certificate, in one version.
+
+    Attributes
+    ----------
+    format : str
+        What stands under the key of that name.
+    version : int
+    checks : callable
+        Reads the content at once, or refuses it; then the lines of its checks, one after another.
+    """
+
+    format: str
+    version: int
+    checks: Callable[[dict[str, Any]], Iterator[str]]
+
+
+def checks_of(body: dict[str, Any]) -> Iterator[str]:
+    """The checks of a certificate whose digest has been looked at; a refusal if it is of no known kind."""
+    named = [kind for kind in KINDS if kind.format == body.get("format")]
+    for kind in named:
+        if type(body.get("version")) is int and body["version"] == kind.version:
+            return kind.checks(body)
+    known = named or [kind for kind in KINDS if kind.format == POSES]
+    versions = " or ".join(str(kind.version) for kind in known)
+    raise malformed(f"format: not a {known[0].format}, version {versions}")
+
+
+def _checks(document: Document) -> Iterator[str]:
+    """One line per claim; the costly ones, on completeness, last."""
+    if document.representation is not None:
+        yield from check_eliminant(document.representation)
+        yield from check_distinct(document.representation)
+        yield from check_poses(document.representation, document.legs, document.metric)
+        if document.claim != "positive-dimensional-proved":
+            yield from check_real_poses(document.representation, document.metric, document.box_exponent, document.poses)
+    if document.isolated is not None:
+        equations = Equations(document.legs, document.metric, document.isolated.chart)
+        yield from check_isolated(document.isolated, equations)
+        yield from check_isolated_poses(document.isolated, equations, document.box_exponent, document.poses)
+    yield from check_claims(document)
+
+
+def _mechanism_checks(document: MechanismDocument) -> Iterator[str]:
+    """The same for version 2; witnesses of a self-motion are checked with the claim."""
+    mechanism, exponent = document.mechanism, document.box_exponent
+    if document.representation is not None and document.claim != "positive-dimensional-proved":
+        yield from check_solutions(document.representation, mechanism)
+        yield from check_real_poses(document.representation, mechanism.metric, exponent, document.poses)
+    if document.isolated is not None:
+        equations = MechanismEquations(mechanism, document.isolated.chart)
+        yield from check_isolated(document.isolated, equations)
+        yield from check_isolated_poses(document.isolated, equations, exponent, document.poses)
+    yield from check_mechanism_claims(document)
+
+
+KINDS: Final = (
+    CertificateKind(POSES, 1, lambda body: _checks(read_document(body))),
+    CertificateKind(POSES, 2, lambda body: _mechanism_checks(read_mechanism_document(body))),
+    CertificateKind(TOLERANCES, 1, lambda body: check_tolerances(read_tolerances(body))),
+)
