@@ -152,7 +152,7 @@ def _check_relatives(shape: str, seed: int) -> None:
         assert _counts(solve(relative)) == expected, name
 
 
-@pytest.mark.parametrize(("shape", "seed"), [("general", 1), ("similar", 2)])
+@pytest.mark.parametrize(("shape", "seed"), [("general", 1), pytest.param("similar", 2, marks=pytest.mark.slow)])
 def test_counts_belong_to_the_robot(shape: str, seed: int) -> None:
     _check_relatives(shape, seed)
 

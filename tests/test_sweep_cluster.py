@@ -166,7 +166,14 @@ def test_a_client_that_fails_in_any_way_is_one_sentence(
 
 
 @needs_distributed
-@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nonsense", "tcp://", "ftp://127.0.0.1:9"])
+@pytest.mark.parametrize(
+    "address",
+    [
+        "tcp://127.0.0.1:9",
+        "nonsense",
+        *(pytest.param(a, marks=pytest.mark.slow) for a in ("tcp://", "ftp://127.0.0.1:9")),
+    ],
+)
 def test_a_scheduler_that_is_not_there_is_one_sentence(tmp_path: Path, address: str) -> None:
     """In a process of its own, as every command is: the loop of a client that failed disturbs the next one."""
     script = (

@@ -128,7 +128,7 @@ def test_every_sample_is_a_pose_that_solve_lists(name: str, size: Fraction, numb
         assert same[0].jacobian.det_sign == sample.det_sign
 
 
-@pytest.mark.parametrize("number", range(1, 17, 3))
+@pytest.mark.parametrize("number", [1, 4, *(pytest.param(n, marks=pytest.mark.slow) for n in (7, 10, 13, 16))])
 def test_small_numeric_steps_lead_to_the_same_pose(number: int) -> None:
     rows = walk("rolland-6-6", 1, Fraction(20), seed=3)
     poses = solved_at("rolland-6-6", rows[0]).poses
@@ -481,7 +481,7 @@ def interrupted(words: list[str], output: Path, count: int) -> Path:
 
 
 @pytest.mark.parametrize("suffix", ["csv", "json"])
-@pytest.mark.parametrize("counts", [(1,), (7, 11), (30,), (0, 1, 2)])
+@pytest.mark.parametrize("counts", [pytest.param((1,), marks=pytest.mark.slow), (7, 11), (30,), (0, 1, 2)])
 def test_interrupted_runs_go_on_and_give_the_same_bytes(
     suffix: str, counts: tuple[int, ...], words: list[str], tmp_path: Path, capsys: Capture
 ) -> None:
