@@ -43,6 +43,7 @@ __all__ = ["Verdict", "check_bytes", "main"]
 MAX_BYTES: Final = 64 << 20
 MAX_ENTRIES: Final = 1 << 20  # commas and brackets
 MAX_TEXT: Final = 10_000
+MAX_DEPTH: Final = 16
 MAX_JOINT_DIGITS: Final = 600
 MAX_RATIONAL_LENGTH: Final = 10_000
 MAX_INTEGER_LENGTH: Final = 12
@@ -319,6 +320,7 @@ def parsed(data: bytes) -> dict[str, Any]:
             isinstance(content, dict) and isinstance(content.get("digest"), str),
             "file: not a JSON object with a digest",
         )
+        well_formed(is_shallow(content), "file: brackets are nested too deeply")
         digest = content.pop("digest")
         body, whole = canonical(content), canonical({**content, "digest": digest})
     except RecursionError:
@@ -328,6 +330,15 @@ def parsed(data: bytes) -> dict[str, Any]:
     require(digest == f"sha256:{sha256(body).hexdigest()}", "digest: differs from that of the content")
     well_formed(data == whole, "file: not in canonical form, one entry per line with an indent of one space per level")
     return dict(content)
+
+
+def is_shallow(content: object) -> bool:
+    """Whether nothing is nested deeply: lines are indented, so that depth makes the one spelling long."""
+    level: list[Any] = [content]
+    for _ in range(MAX_DEPTH):
+        lists = [list(value.values()) if isinstance(value, dict) else value for value in level]
+        level = [entry for values in lists if isinstance(values, list) for entry in values]
+    return not level
 
 
 def canonical(content: object) -> bytes:

@@ -68,3 +68,19 @@ def charge(operations: int) -> None:
 def limbs(bits: int) -> int:
     """The words of 64 bits that a number takes."""
     return bits // 64 + 1
+
+
+def polynomials_cost(terms: int, words: int) -> int:
+    """Operations for a product of polynomials over Z: terms and greatest size of the larger factor, words of both."""
+    total = terms * words
+    return 3000 + 20 * total * total.bit_length()
+
+
+def value_cost(terms: int, words: int, place: int) -> int:
+    """Operations for the exact value of a polynomial over Z at a rational number of so many words."""
+    return 3000 + terms * (500 + 3 * words + 2 * place * words) + terms * terms * place * (30 + place)
+
+
+def ball_cost(words: int) -> int:
+    """Operations for a product or a quotient of complex balls."""
+    return 300 + words * (60 + words // 3)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from flint import fmpq, fmpz_poly
 
+from pkm_exact.certify.checker.budget import charge, limbs, value_cost
 from pkm_exact.certify.checker.document import Document, ListedPose, Representation
 from pkm_exact.certify.checker.elimination import Row, eliminate
 from pkm_exact.certify.checker.krawczyk import Isolated
@@ -193,6 +194,8 @@ def check_listed_multiplicities(
 
 def _has_root(factor: fmpz_poly, pose: ListedPose) -> bool:
     """Whether a factor of h has the root of h that the pose's parameter isolates, as ``check_real_poses`` confirms."""
+    words = limbs(4 * max(map(len, pose.parameter or ("",))))
+    charge(2 * value_cost(int(factor.length()), limbs(int(factor.height_bits())), words))
     low, high = (factor(fmpq(end)) for end in pose.parameter or ())
     return bool(low * high < 0 or low == 0 == high)
 

@@ -14,6 +14,7 @@ from typing import Final
 
 from flint import arb, ctx, fmpq, fmpz, fmpz_poly
 
+from pkm_exact.certify.checker.budget import ball_cost, charge, limbs, value_cost
 from pkm_exact.certify.checker.verdict import too_large
 
 MAX_ISOLATION: Final = 1 << 12
@@ -32,7 +33,9 @@ class RealRoot:
         self.low = low
         self.high = high
         self._h = h
+        self._size = int(h.length()), limbs(int(h.height_bits()))
         self._slope = h.derivative()
+        charge(3 * value_cost(*self._size, _words(low) + _words(high)))
         self._rises = bool((h(low) or self._slope(low)) < 0)
         self._bits = GUARD
 
@@ -52,6 +55,7 @@ class RealRoot:
 
     def cell(self, exponent: int) -> tuple[fmpz, fmpz]:
         """(m, m) if the root is m / 2^exponent, else (m, m + 1) where it lies between m and m + 1, over 2^exponent."""
+        charge(10000 + 50 * limbs(exponent))
         self.narrow(exponent + 1)
         scale = fmpz(1) << exponent
         point = (self.high * scale).floor()
@@ -62,6 +66,8 @@ class RealRoot:
 
     def _newton(self) -> bool:
         """Whether Newton's operator made the interval half as wide, or narrower."""
+        terms, words = self._size
+        charge(50000 + 3 * terms * (ball_cost(limbs(self._bits)) + 3 * words))
         with ctx.workprec(self._bits):
             place = arb(self.low).union(arb(self.high))
             middle, slope = place.mid(), self._slope(place)
@@ -79,6 +85,7 @@ class RealRoot:
 
     def _split(self, place: fmpq) -> None:
         """Cut the interval at a place within it."""
+        charge(value_cost(*self._size, _words(place)))
         value = self._h(place)
         if value == 0:
             self.low = self.high = place
@@ -86,6 +93,10 @@ class RealRoot:
             self.low = place
         else:
             self.high = place
+
+
+def _words(value: fmpq) -> int:
+    return limbs(int(value.height_bits()))
 
 
 def dyadic(value: arb) -> tuple[fmpz, fmpz]:
@@ -112,6 +123,8 @@ def _isolated(h: fmpz_poly) -> Iterator[tuple[fmpq, fmpq]]:
     work = 0
     while pending:
         m, k, q = pending.pop()
+        terms, bits = int(q.length()), int(q.height_bits())
+        charge(30000 + terms * (1000 + limbs(bits) * (8 + terms // 3)))
         work += int(q.degree()) ** 2 * max(int(abs(value)).bit_length() for value in q.coeffs())
         if work > MAX_WORK:
             raise too_large("real poses: to tell the roots apart takes too long")

@@ -129,7 +129,7 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     reduction = 6 * rows * columns + 12 * sum(map(limbs, sizes))
     elimination = rows * min(rows, columns) * columns // 3 + 20 * rows * columns
     due = 1
-    for p in _primes():
+    for p in primes():
         charge(reduction + elimination)
         images.add(p, *nmod_mat(matrix, p).rref())
         if len(images.images) >= due:
@@ -140,7 +140,7 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     raise AssertionError("there are primes enough")
 
 
-def _primes() -> Iterator[int]:
+def primes() -> Iterator[int]:
     """Primes below 2^63, decreasing."""
     candidate = _FIRST
     while True:

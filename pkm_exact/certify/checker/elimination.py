@@ -18,7 +18,7 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from pkm_exact.certify.checker.budget import charge
+from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import echelon_form
 from pkm_exact.certify.checker.section import section
 from pkm_exact.certify.checker.study_motion import Leg, Metric
@@ -78,6 +78,8 @@ def _limit_terms(number: int) -> None:
 
 def integers(terms: Mapping[Monomial, fmpq]) -> Polynomial:
     """A multiple with integer coefficients."""
+    words = limbs(max(int(value.height_bits()) for value in terms.values()))
+    charge(len(terms) * (2000 + 4 * words * words))
     denominator = lcm(*(int(value.q) for value in terms.values()))
     return {monomial: int(value * denominator) for monomial, value in terms.items()}
 

@@ -19,6 +19,7 @@ from typing import Final, TypeAlias
 
 from flint import acb, acb_mat, arb, arb_mat, ctx, fmpz_mat
 
+from pkm_exact.certify.checker.budget import ball_cost, charge, limbs
 from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import MAX_PRECISION, rejected
 
@@ -100,6 +101,11 @@ class Equations:
         ]
         return fmpz_mat(rows)
 
+    @cached_property
+    def _polar_words(self) -> int:
+        """Size of the largest coefficient of the forms."""
+        return limbs(max(int(abs(value).bit_length()) for value in self._polar.entries()))
+
     def derivative(self, x: acb_mat) -> acb_mat:
         """F' at x."""
         size = x.nrows()
@@ -112,12 +118,14 @@ class Equations:
 
     def image(self, m: acb_mat, spread: acb_mat) -> acb_mat | None:
         """K(X) - m for X = m + spread and an exact m; None if F'(m) cannot be inverted."""
+        size = m.nrows()
+        products = 2 * size**3 + 2 * self._polar.nrows() * size + 4 * size**2
+        charge(10**5 + products * ball_cost(limbs(ctx.prec) + self._polar_words))
         at = self.derivative(m)
         try:
             inverse = _middle(at.inv())
         except ZeroDivisionError:
             return None
-        size = m.nrows()
         unit = acb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
         return (unit - inverse * self.derivative(m + spread)) * spread - inverse * self.value(at, m)
 
@@ -143,6 +151,7 @@ def check_isolated(isolated: Isolated, equations: Equations) -> Iterator[str]:
             raise rejected(f"boxes: the centre of {kind} box {number} is not the grid point nearest to the solution")
     yield f"boxes: each of {len(numbered)} holds exactly one solution, simple, and N(e) is not 0 there"
     _check_pairs(isolated.pairs)
+    charge(2 * 10**5 * len(numbered) ** 2)
     for (kind, i, one), (other_kind, j, two) in combinations(numbered, 2):
         if not (one.is_disjoint(two) and one.is_disjoint(two.conjugate())):
             raise rejected(f"boxes: {kind} box {i} and {other_kind} box {j} meet")

@@ -18,7 +18,15 @@ from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.document import Representation
 from pkm_exact.certify.checker.mechanism_forms import Form, Mechanism, cleared, quadric_value, quantities
 from pkm_exact.certify.checker.multiplicity import Residue, determinant
-from pkm_exact.certify.checker.solutions import check_distinct, modulo, primitive_part, proved_coprime, vanishes
+from pkm_exact.certify.checker.solutions import (
+    algebraic_cost,
+    check_distinct,
+    irreducible_factors,
+    modulo,
+    primitive_part,
+    proved_coprime,
+    vanishes,
+)
 from pkm_exact.certify.checker.study_motion import CYCLIC, Motion, combination, motion
 from pkm_exact.certify.checker.verdict import rejected
 
@@ -123,7 +131,7 @@ def irregular_factors(representation: Representation, mechanism: Mechanism) -> l
 
     Those at which they may have full rank, without a proof of it, are not among them.
     """
-    factors = [factor for factor, _ in primitive_part(representation.eliminant).factor()[1]]
+    factors = irreducible_factors(primitive_part(representation.eliminant))
     doubtful = [factor for factor in factors if not are_regular(factor, representation, mechanism)]
     return [factor for factor in doubtful if _rank(factor, representation, mechanism) < mechanism.group.dimension]
 
@@ -173,7 +181,9 @@ def _rank(factor: fmpz_poly, representation: Representation, mechanism: Mechanis
     """The rank over the field Q[T] / factor."""
     numerators = (*representation.quaternion, *representation.translation)
     modulus = fmpq_poly(factor)
-    charge(_cost(representation) * 2000)
+    # Entries of the rows are forms of degree 6 at most; after an elimination they are quotients of minors of them.
+    products = 36 * (len(mechanism.linear) + len(mechanism.quadrics)) + 12 * int(factor.degree()) ** 2
+    charge(products * algebraic_cost(factor, representation, 72))
     left = [[entry.value for entry in row] for row in _rows_at([fmpq_poly(x) for x in numerators], modulus, mechanism)]
     rank = 0
     for column in range(mechanism.group.dimension):

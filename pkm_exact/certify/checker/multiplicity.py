@@ -15,14 +15,26 @@ from typing import Any, Final
 
 from flint import fmpq_poly, fmpz_poly, nmod_mat, nmod_poly
 
+from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.document import Representation
 from pkm_exact.certify.checker.section import unknowns
-from pkm_exact.certify.checker.solutions import PRIMES, modulo, primitive_part, proved_coprime
+from pkm_exact.certify.checker.solutions import (
+    PRIMES,
+    algebraic_cost,
+    irreducible_factors,
+    modulo,
+    primitive_part,
+    proved_coprime,
+)
 from pkm_exact.certify.checker.study_motion import Leg, Metric, combination, leg_lines, motion
 from pkm_exact.certify.checker.traceform import Algebra
 
 BASES: Final = (3, 5, 7)
 """The unknowns are combined with the powers of one of these numbers; any combination serves that separates."""
+
+
+_PRODUCTS: Final = 400
+"""More than the products in the leg lines and their determinant."""
 
 
 def are_simple(representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
@@ -32,7 +44,7 @@ def are_simple(representation: Representation, legs: Sequence[Leg], metric: Metr
 
 def multiple_factors(representation: Representation, legs: Sequence[Leg], metric: Metric) -> tuple[fmpz_poly, ...]:
     """The irreducible factors of h at whose roots the solution is not proved simple."""
-    factors = [factor for factor, _ in primitive_part(representation.eliminant).factor()[1]]
+    factors = irreducible_factors(primitive_part(representation.eliminant))
     return tuple(factor for factor in factors if not _is_proved_simple(factor, representation, legs, metric))
 
 
@@ -41,6 +53,7 @@ def _is_proved_simple(factor: fmpz_poly, representation: Representation, legs: S
 
     def determinant(p: int) -> Any:
         numerators = (*representation.quaternion, *representation.translation)
+        charge(_PRODUCTS * 40000)
         return _lines_determinant([modulo(x, p) for x in numerators], modulo(factor, p), legs, metric)
 
     return proved_coprime(factor, determinant)
@@ -49,6 +62,7 @@ def _is_proved_simple(factor: fmpz_poly, representation: Representation, legs: S
 def is_multiple(factor: fmpz_poly, representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
     """Whether the leg lines are dependent at every root of an irreducible factor of h, over Q."""
     numerators = (*representation.quaternion, *representation.translation)
+    charge(_PRODUCTS * algebraic_cost(factor, representation, 4 * len(legs)))
     return not _lines_determinant([fmpq_poly(x) for x in numerators], fmpq_poly(factor), legs, metric)
 
 
@@ -67,7 +81,7 @@ def multiplicities_of(
     Over Q, multiplication by u has the characteristic polynomial prod_f g_f^m, with g_f the product of X - u(t) over
     the roots t of f. It has so modulo p too, and if the g_f are coprime there, m can be read off.
     """
-    factors = [factor for factor, _ in primitive_part(representation.eliminant).factor()[1]]
+    factors = irreducible_factors(primitive_part(representation.eliminant))
     for p, base in ((p, base) for base in BASES for p in PRIMES):
         weights = {place: pow(base, power, p) for power, place in enumerate(places)}
         whole = algebra.characteristic_polynomial(list(weights.values()), p)
@@ -83,6 +97,7 @@ def _part(
     factor: fmpz_poly, representation: Representation, metric: Metric, weights: Mapping[int, int], p: int
 ) -> nmod_poly | None:
     """g_f modulo p; None if f has not its degree there, or N(e) is not a unit."""
+    charge(3 * 10**6 + 100 * int(factor.length()) ** 3)
     modulus = modulo(factor, p)
     if modulus.degree() < factor.degree():
         return None

@@ -13,6 +13,7 @@ from typing import Final, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpz, fmpz_poly
 
+from pkm_exact.certify.checker.budget import ball_cost, charge, limbs, value_cost
 from pkm_exact.certify.checker.descartes import RealRoot, dyadic, real_roots
 from pkm_exact.certify.checker.document import Ends, ListedPose, Representation
 from pkm_exact.certify.checker.krawczyk import Equations, Isolated, narrowed
@@ -93,6 +94,8 @@ def check_isolated_poses(
 
 def _check_boxes(boxes: Sequence[Sequence[Cell]], exponent: int, poses: Sequence[ListedPose]) -> Iterator[str]:
     """The boxes listed are these, and disjoint."""
+    words = limbs(max((int(abs(end).bit_length()) for box in boxes for cell in box for end in cell), default=0))
+    charge(len(poses) * (32 * (10000 + words * (2000 + 10 * words)) + 10000 * len(poses)))
     for number, (pose, box) in enumerate(zip(poses, boxes, strict=True), 1):
         if pose.box != tuple(_ends(low, high, exponent) for low, high in box):
             raise rejected(f"boxes: the box of pose {number} is not that of its solution")
@@ -125,6 +128,7 @@ def _parameter_cells(h: fmpz_poly, roots: Sequence[RealRoot]) -> tuple[list[Cell
 
 def _holds_one_root(h: fmpz_poly, cell: Cell, exponent: int) -> bool:
     """Whether h is 0 at the cell's only point, or changes its sign between its ends."""
+    charge(2 * value_cost(int(h.length()), limbs(int(h.height_bits())), limbs(exponent)))
     low, high = (h(fmpq(end, fmpz(1) << exponent)) for end in cell)
     return bool(low == 0) if cell[0] == cell[1] else bool(low * high < 0)
 
@@ -137,6 +141,7 @@ def _box_cells(enclose: Callable[[int], list[list[arb]] | None], exponent: int) 
     precision, doublings = exponent + 256, 0
     while precision <= MAX_PRECISION:
         values = enclose(precision)
+        charge(16 * len(values or ()) * (20000 + 200 * limbs(precision)))
         if values is not None and all(_is_fine(value, exponent) for row in values for value in row):
             boxes = [[_coordinate_cell(value, exponent, doublings >= DOUBLINGS) for value in row] for row in values]
             decided = [[cell for cell in box if cell is not None] for box in boxes]
@@ -149,6 +154,9 @@ def _box_cells(enclose: Callable[[int], list[list[arb]] | None], exponent: int) 
 
 def _at_root(representation: Representation, metric: Metric, root: arb, precision: int) -> list[arb]:
     """The ordinary coordinates at an enclosed root."""
+    numerators = (*representation.quaternion, *representation.translation)
+    words = max(limbs(int(value.height_bits())) for value in (representation.eliminant, *numerators))
+    charge(9 * int(representation.eliminant.length()) * (ball_cost(limbs(precision)) + 3 * words))
     with ctx.workprec(precision):
         slope = representation.eliminant.derivative()(root)
         e = [numerator(root) / slope for numerator in representation.quaternion]
@@ -158,6 +166,7 @@ def _at_root(representation: Representation, metric: Metric, root: arb, precisio
 
 def ordinary_coordinates(e: Sequence[arb], f: Sequence[arb], metric: Metric, precision: int) -> list[arb]:
     """Position, rotation matrix by rows and unit quaternion (its sign that of e with w.e = 1) of a real (e, f)."""
+    charge(300 * ball_cost(limbs(precision) + limbs(max(metric).bit_length())))
     with ctx.workprec(precision):
         placed = motion(e, f, metric)
         axes = [arb(g).sqrt() for g in metric]

@@ -12,6 +12,7 @@ from typing import Any, Final
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
 
+from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Metric, leg_form
 
 ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
@@ -37,6 +38,8 @@ def _solved(legs: Sequence[Leg], metric: Metric) -> tuple[fmpq_mat, list[int], l
         rows.append([*form[13:16], *form[10:13], form[16], *form[1:10], form[0]])
     if len(legs) == PLANAR_LEGS:
         rows += [[int(name == fixed) for name in ORDER] + [constant] for fixed, constant in _PLANE]
+    words = limbs(max(abs(value).bit_length() for row in rows for value in row))
+    charge(10**6 + len(rows) * words * (10**5 + 3000 * words))
     echelon, rank = fmpq_mat(rows).rref()
     size = len(ORDER)
     pivots = [next(j for j in range(size + 1) if echelon[row, j] != 0) for row in range(rank)]
@@ -67,6 +70,9 @@ def motion_quadrics(values: Sequence[Any], metric: Metric) -> list[Any]:
     """R^T G R = G, R G^-1 R^T = G^-1, cof R = G R G^-1, R u = C, R^T G C = G u, C.C = u.u = s,
     C x (R v) = G R G^-1 (u x v) for the unit vectors v: they hold for rigid motions, and with R = (r_ij) for no others.
     """
+    sizes = (int(x.height_bits()) for value in values for x in value.coeffs())
+    words = limbs(max(sizes, default=0)) + limbs(max(metric).bit_length())
+    charge(2 * 10**7 + words * (10**6 + 2000 * words))
     g = [fmpq(value) for value in metric]
     u, c, s = values[0:3], values[3:6], values[6]
     r = [values[7 + 3 * i : 10 + 3 * i] for i in range(3)]

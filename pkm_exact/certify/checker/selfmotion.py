@@ -17,8 +17,9 @@ from typing import Final
 
 from flint import fmpq, fmpq_mat, fmpz_mat
 
+from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.document import Document, Representation
-from pkm_exact.certify.checker.solutions import primitive_part, vanishes
+from pkm_exact.certify.checker.solutions import charge_products, primitive_part, vanishes
 from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, Point, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import rejected
 
@@ -52,7 +53,14 @@ def check_self_motion(document: Document, representation: Representation) -> Ite
 
 
 def _rank(legs: Sequence[Leg], metric: Metric) -> int:
-    return int(fmpz_mat([leg_form(leg, metric) for leg in legs]).rank())
+    return _rank_of([leg_form(leg, metric) for leg in legs])
+
+
+def _rank_of(rows: Sequence[Sequence[int]]) -> int:
+    """The rank over Q of a few rows."""
+    words = limbs(max(abs(value).bit_length() for row in rows for value in row))
+    charge(10**6 + len(rows) * words * (10**5 + 3000 * words))
+    return int(fmpz_mat(rows).rank())
 
 
 def _planar_rank(legs: Sequence[Leg], metric: Metric) -> int:
@@ -62,7 +70,7 @@ def _planar_rank(legs: Sequence[Leg], metric: Metric) -> int:
         form = leg_form(leg, metric)
         cosine, sine = form[1] + form[5], metric[0] * form[4] - metric[1] * form[2]
         rows.append([form[0], cosine, sine, *form[10:12], *form[13:15], form[16]])
-    return int(fmpz_mat(rows).rank())
+    return _rank_of(rows)
 
 
 def _turning(joints: Sequence[Point], *, planar: bool) -> int:
@@ -77,12 +85,14 @@ def _turning(joints: Sequence[Point], *, planar: bool) -> int:
 def _are_parallel(representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
     """Whether R B_i - A_i is the same for all legs, at every root of the eliminant."""
     h0 = primitive_part(representation.eliminant)
+    charge_products(representation, 60)
     placed = motion(representation.quaternion, representation.translation, metric)
     first = legs[0]
     for leg in legs[1:]:
         shift = [x - y for x, y in zip(leg.platform, first.platform, strict=True)]
         base = [x - y for x, y in zip(leg.base, first.base, strict=True)]
         scale = lcm(*(value.denominator for value in (*shift, *base)))
+        charge_products(representation, 4 * limbs(scale.bit_length()))
         for row, coordinate in zip(placed.rotation, base, strict=True):
             scalars = [*(int(value * scale) for value in shift), -int(coordinate * scale)]
             if not vanishes(combination(scalars, [*row, placed.norm]), h0):

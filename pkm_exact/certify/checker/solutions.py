@@ -14,6 +14,7 @@ from typing import Final
 
 from flint import fmpz_poly, nmod_poly
 
+from pkm_exact.certify.checker.budget import charge, limbs, polynomials_cost
 from pkm_exact.certify.checker.document import Representation
 from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
@@ -24,7 +25,22 @@ PRIMES: Final = tuple((1 << 63) - offset for offset in (25, 165, 259, 301, 375, 
 
 def primitive_part(h: fmpz_poly) -> fmpz_poly:
     """h divided by the greatest common divisor of its coefficients."""
-    return fmpz_poly([coefficient // h.content() for coefficient in h.coeffs()])
+    charge(_content_cost(h))
+    content = h.content()
+    return fmpz_poly([coefficient // content for coefficient in h.coeffs()])
+
+
+def _content_cost(polynomial: fmpz_poly) -> int:
+    """Operations for the content of a polynomial and the division by it."""
+    words = limbs(int(polynomial.height_bits()))
+    return int(polynomial.length()) * (1000 + words * (80 + words // 8))
+
+
+def charge_products(representation: Representation, number: int) -> None:
+    """Charge so many products of a numerator, or of the eliminant, and one of them."""
+    polynomials = (representation.eliminant, *representation.quaternion, *representation.translation)
+    words = max(limbs(int(polynomial.height_bits())) for polynomial in polynomials)
+    charge(number * polynomials_cost(2 * max(int(polynomial.length()) for polynomial in polynomials), words))
 
 
 def check_eliminant(representation: Representation) -> Iterator[str]:
@@ -33,6 +49,7 @@ def check_eliminant(representation: Representation) -> Iterator[str]:
     if h.degree() > GREATEST_NUMBER:
         raise rejected(f"eliminant: degree {h.degree()}, but six legs have at most {GREATEST_NUMBER} isolated poses")
     polynomials = (h, *representation.quaternion, *representation.translation)
+    charge(sum(map(_content_cost, polynomials)))
     if h.leading_coefficient() < 0 or gcd(*(int(polynomial.content()) for polynomial in polynomials)) != 1:
         raise rejected("eliminant: not in lowest terms with positive leading coefficient")
     h0 = primitive_part(h)
@@ -64,6 +81,8 @@ def check_poses(representation: Representation, legs: Sequence[Leg], metric: Met
     e, f = representation.quaternion, representation.translation
     if len(legs) == PLANAR_LEGS and any((e[1], e[2], f[0], f[3])):
         raise rejected("motion: e1, e2, f0 and f3 are not all 0, but the robot is planar")
+    forms = [leg_form(leg, metric) for leg in legs]
+    charge_products(representation, 60 + len(legs) * limbs(_bits(forms)))
     placed = motion(representation.quaternion, representation.translation, metric)
     if not vanishes(placed.study, h0):
         raise rejected("motion: e.f is not 0 at every root of the eliminant")
@@ -71,23 +90,54 @@ def check_poses(representation: Representation, legs: Sequence[Leg], metric: Met
         raise rejected("motion: not proved that N(e) is nowhere 0")
     yield "motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
     coordinates = placed.coordinates()
-    for number, leg in enumerate(legs, 1):
-        if not vanishes(combination(leg_form(leg, metric), coordinates), h0):
+    for number, form in enumerate(forms, 1):
+        if not vanishes(combination(form, coordinates), h0):
             raise rejected(f"legs: leg {number} does not have its length at every solution")
     yield f"legs: all {len(legs)} have their lengths at every solution"
+
+
+def irreducible_factors(h0: fmpz_poly) -> list[fmpz_poly]:
+    """The irreducible factors of a primitive squarefree polynomial, over Z."""
+    words = limbs(int(h0.height_bits()))
+    charge(2 * 10**7 + words * (10**6 + 1000 * words))
+    return [factor for factor, _ in h0.factor()[1]]
+
+
+def algebraic_cost(factor: fmpz_poly, representation: Representation, degree: int) -> int:
+    """Operations for a product in Q[T] / factor of forms of a degree, in sum, in the numerators.
+
+    To reduce a polynomial modulo a factor makes its coefficients longer by those of the factor, for each power of T.
+    """
+    numerators = (*representation.quaternion, *representation.translation)
+    words = max(limbs(int(value.height_bits())) for value in numerators)
+    words += int(representation.eliminant.degree()) * limbs(int(factor.height_bits()))
+    return 4 * polynomials_cost(2 * int(factor.length()), degree * words)
+
+
+def _bits(forms: Sequence[Sequence[int]]) -> int:
+    return max(abs(value).bit_length() for form in forms for value in form)
 
 
 def proved_coprime(h0: fmpz_poly, image: Callable[[int], nmod_poly]) -> bool:
     """Whether h0 is coprime, modulo one of the primes, to a polynomial over Z that is given by its images."""
     usable = (p for p in PRIMES if int(h0.leading_coefficient()) % p)
-    return any(modulo(h0, p).gcd(image(p)).degree() == 0 for p in usable)
+    for p in usable:
+        charge(100 * int(h0.length()) ** 2)
+        if modulo(h0, p).gcd(image(p)).degree() == 0:
+            return True
+    return False
 
 
 def modulo(polynomial: fmpz_poly, p: int) -> nmod_poly:
     """The image of a polynomial modulo a prime."""
+    charge(int(polynomial.length()) * (500 + 20 * limbs(int(polynomial.height_bits()))))
     return nmod_poly([int(coefficient) % p for coefficient in polynomial.coeffs()], p)
 
 
 def vanishes(value: fmpz_poly, h0: fmpz_poly) -> bool:
     """Whether h0, primitive, divides an integer polynomial over Q; it then divides it over Z (Gauss)."""
+    # If it does not, the coefficients of the quotient grow by those of h0 from one to the next.
+    steps = max(int(value.length() - h0.length()), 0) + 1
+    words = limbs(int(value.height_bits())) + steps * limbs(int(h0.height_bits()))
+    charge(3 * polynomials_cost(steps + int(h0.length()), words))
     return not divmod(value, h0)[1]

@@ -28,6 +28,7 @@ _Value = TypeVar("_Value")
 
 _RATIONAL: Final = re.compile(r"(0|-?[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
 _HEXADECIMAL: Final = re.compile(r"0x0|-?0x[1-9a-f][0-9a-f]*", re.ASCII)
+_MAX_DEPTH: Final = 16
 _INTEGER_DIGITS: Final = 12
 _RATIONAL_DIGITS: Final = 600
 
@@ -38,6 +39,8 @@ def read_sealed(data: bytes) -> dict[str, Any]:
     content = _json(data)
     if not isinstance(content, dict) or not isinstance(content.get("digest"), str):
         raise malformed("file: not a JSON object with a digest")
+    if _depth(content) > _MAX_DEPTH:
+        raise malformed("file: brackets are nested too deeply")
     digest = content.pop("digest")
     try:
         body = _canonical_bytes(content)
@@ -49,6 +52,18 @@ def read_sealed(data: bytes) -> dict[str, Any]:
     if data != whole:
         raise malformed("file: not in canonical form, one entry per line with an indent of one space per level")
     return content
+
+
+def _depth(content: object) -> int:
+    """How deeply values are nested, up to a level more than may be. Lines are indented, so depth makes a text long."""
+    level, depth = [content], 0
+    while level and depth <= _MAX_DEPTH:
+        depth += 1
+        inner = (
+            value.values() if isinstance(value, dict) else value for value in level if isinstance(value, dict | list)
+        )
+        level = [value for values in inner for value in values]
+    return depth
 
 
 def _canonical_bytes(content: object) -> bytes:

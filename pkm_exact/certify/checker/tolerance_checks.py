@@ -12,6 +12,7 @@ from typing import Any, Final
 
 from flint import acb, acb_mat, arb, ctx
 
+from pkm_exact.certify.checker.budget import ball_cost, charge, limbs
 from pkm_exact.certify.checker.parametric import (
     ROTATION,
     TURNED,
@@ -34,6 +35,8 @@ from pkm_exact.certify.checker.tolerance_document import DEGREES, Place, PoseBox
 from pkm_exact.certify.checker.verdict import rejected
 
 GUARD_BITS: Final = 128
+_PRODUCTS: Final = 30000
+"""More than the products of balls for one solution."""
 """Bits beyond those of the grid, and beyond half as many: no more are lost, as Y is at most 2^(k/2) by the core."""
 NEAREST: Final = arb(1) / 2 + arb(2) ** -20
 """A centre is no farther from the nominal solution than this, in units of the grid."""
@@ -67,6 +70,8 @@ def check_tolerances(document: ToleranceDocument) -> Iterator[str]:
 def _expansion(robot: Robot, document: ToleranceDocument, place: Place, name: str) -> Expansion:
     """The equations around a centre, if the nominal robot has exactly one solution in its core."""
     planar = robot.planar
+    numbers = (*place.outer, *(part for pair in place.centre for part in pair))
+    charge(_PRODUCTS * ball_cost(limbs(ctx.prec + max(abs(number).bit_length() for number in numbers))))
     chart = [place.chart[0], place.chart[3]] if planar else place.chart
     centre = acb_mat(len(place.centre), 1, [acb(_on_grid(a, document), _on_grid(b, document)) for a, b in place.centre])
     expansion = expand(robot, [acb(*pair) for pair in chart], centre)

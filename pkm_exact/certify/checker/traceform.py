@@ -13,11 +13,62 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from typing import NamedTuple
 
-from flint import fmpq, fmpq_mat, nmod_mat, nmod_poly
+from flint import fmpz, fmpz_mat, nmod_mat, nmod_poly
 
+from pkm_exact.certify.checker.budget import charge, limbs
+from pkm_exact.certify.checker.echelon import echelon_form, primes
 from pkm_exact.certify.checker.elimination import Elimination, Monomial, Polynomial
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER
+
+
+class _Fractions(NamedTuple):
+    """A matrix of rationals in lowest terms: numerators, and one denominator."""
+
+    numerators: fmpz_mat
+    denominator: fmpz
+
+    @property
+    def words(self) -> int:
+        """Size of the largest number."""
+        largest = max((abs(value) for value in self.numerators.entries()), default=fmpz(0))
+        return limbs(max(int(largest.bit_length()), int(self.denominator.bit_length())))
+
+    def times(self, other: _Fractions) -> _Fractions:
+        """The product of matrices."""
+        rows, inner, columns = self.numerators.nrows(), self.numerators.ncols(), other.numerators.ncols()
+        words = self.words + other.words
+        charge(rows * inner * columns * words * (30 + words // 8))
+        return _reduced(self.numerators * other.numerators, self.denominator * other.denominator)
+
+
+def _reduced(numerators: fmpz_mat, denominator: fmpz) -> _Fractions:
+    """The fractions in lowest terms."""
+    entries = numerators.entries()
+    words = limbs(max((int(value.bit_length()) for value in (denominator, *entries)), default=0))
+    charge(len(entries) * (1500 + 2 * words * words))
+    common = denominator
+    for value in entries:
+        common = common.gcd(value)
+        if common == 1:
+            return _Fractions(numerators, denominator)
+    reduced = [value // common for value in entries]
+    return _Fractions(fmpz_mat(numerators.nrows(), numerators.ncols(), reduced), denominator // common)
+
+
+def _combined(terms: Sequence[tuple[int, _Fractions]], divisor: int, size: int) -> _Fractions:
+    """The combination of row vectors, divided by a number."""
+    common = fmpz(1)
+    for _, vector in terms:
+        charge(1000 + 4 * limbs(int(common.bit_length())) * limbs(int(vector.denominator.bit_length())))
+        common = common.lcm(vector.denominator)
+    total = fmpz_mat(1, size)
+    for value, vector in terms:
+        words = limbs(int(common.bit_length()) + abs(value).bit_length()) + vector.words
+        charge(size * (1500 + words * words))
+        total += vector.numerators * (value * (common // vector.denominator))
+    return _reduced(total, common * divisor)
 
 
 @dataclass(frozen=True)
@@ -25,7 +76,7 @@ class Algebra:
     """The algebra of all poses: ``basis``, and row b of the i-th matrix is the i-th unknown times the b-th of it."""
 
     basis: tuple[Monomial, ...]
-    unknowns: tuple[fmpq_mat, ...]
+    unknowns: tuple[_Fractions, ...]
 
     def vanish(self, elements: Iterable[Polynomial]) -> bool:
         """Whether all elements are 0: nothing is used of them but the matrices, applied to the vector of 1.
@@ -33,62 +84,97 @@ class Algebra:
         An element that was not needed for the matrices, as others reduce its leading monomial, may well not be 0.
         """
         size = len(self.basis)
-        vectors = {self.basis[0]: fmpq_mat(1, size, [1] + [0] * (size - 1))}
+        vectors = {self.basis[0]: _unit(0, size)}
         for element in elements:
-            total = fmpq_mat(1, size)
-            for monomial, value in element.items():
-                total += self._vector(monomial, vectors) * value
-            if total != fmpq_mat(1, size):
+            terms = [(value, self._vector(monomial, vectors)) for monomial, value in element.items()]
+            if _combined(terms, 1, size).numerators != fmpz_mat(1, size):
                 return False
         return True
 
-    def _vector(self, monomial: Monomial, vectors: dict[Monomial, fmpq_mat]) -> fmpq_mat:
+    def _vector(self, monomial: Monomial, vectors: dict[Monomial, _Fractions]) -> _Fractions:
         """The coordinates of a monomial: one unknown after another is multiplied to what is in ``vectors``."""
         axes = []
         reached = monomial
+        charge(3000 * (1 + sum(monomial)))
         while reached not in vectors:
             axes.append(next(axis for axis, exponent in enumerate(reached) if exponent))
             reached = _shifted(reached, axes[-1], -1)
         for axis in reversed(axes):
             larger = _shifted(reached, axis, 1)
-            vectors[larger] = vectors[reached] * self.unknowns[axis]
+            vectors[larger] = vectors[reached].times(self.unknowns[axis])
             reached = larger
         return vectors[monomial]
 
     def distinct_solutions(self) -> int:
         """The rank of the trace form."""
         size = len(self.basis)
-        powers = {self.basis[0]: fmpq_mat([[int(i == j) for j in range(size)] for i in range(size)])}
+        one = fmpz_mat([[int(i == j) for j in range(size)] for i in range(size)])
+        powers = {self.basis[0]: _Fractions(one, fmpz(1))}
         for monomial in self.basis[1:]:
             axis = next(i for i, exponent in enumerate(monomial) if exponent)
-            powers[monomial] = powers[_shifted(monomial, axis, -1)] * self.unknowns[axis]
+            powers[monomial] = powers[_shifted(monomial, axis, -1)].times(self.unknowns[axis])
         ordered = [powers[monomial] for monomial in self.basis]
-        traces = [sum((matrix[i, i] for i in range(size)), fmpq(0)) for matrix in ordered]
-        column = fmpq_mat(size, 1, traces)
-        return int(fmpq_mat([[value for (value,) in (matrix * column).table()] for matrix in ordered]).rank())
+        traces = [_row([sum((m.numerators[i, i] for i in range(size)), fmpz(0))], m.denominator) for m in ordered]
+        column = _stacked(traces)
+        table = [[int(value) for value in matrix.times(column).numerators.entries()] for matrix in ordered]
+        return len(echelon_form(table).pivots)
+
+    def commutes(self) -> bool:
+        """Whether the matrices commute: the entries of the differences, small, are 0 modulo enough primes."""
+        size = len(self.basis)
+        bound = 1 + 2 * 64 * max(matrix.words for matrix in self.unknowns) + 2 * size.bit_length()
+        words, modulus = limbs(bound), 1
+        pairs = len(self.unknowns) * (len(self.unknowns) - 1)
+        for p in primes():
+            charge(len(self.unknowns) * size**2 * (6 + 6 * words) + pairs * (size**3 // 2 + 2000))
+            images = [nmod_mat(matrix.numerators, p) for matrix in self.unknowns]
+            if any(left * right != right * left for left, right in combinations(images, 2)):
+                return False
+            modulus *= p
+            if modulus >> bound:
+                return True
+        raise AssertionError("there are primes enough")
 
     def characteristic_polynomial(self, weights: Sequence[int], p: int) -> nmod_poly | None:
         """Of multiplication by a combination of the unknowns, modulo p; None if p divides a denominator."""
         size = len(self.basis)
         total = nmod_mat(size, size, p)
         for weight, matrix in zip(weights, self.unknowns, strict=True):
-            numerators, denominator = matrix.numer_denom()
-            if int(denominator) % p == 0:
+            charge(size * size * (20 + 12 * matrix.words) + size**3)
+            denominator = int(matrix.denominator)
+            if denominator % p == 0:
                 return None
-            total += nmod_mat(numerators, p) * (weight * pow(int(denominator), -1, p))
+            total += nmod_mat(matrix.numerators, p) * (weight * pow(denominator, -1, p))
+        charge(50 * size**3)
         return total.charpoly()
+
+
+def _unit(place: int, size: int) -> _Fractions:
+    return _Fractions(fmpz_mat(1, size, [int(place == other) for other in range(size)]), fmpz(1))
+
+
+def _row(values: Sequence[fmpz], denominator: fmpz) -> _Fractions:
+    return _reduced(fmpz_mat(1, len(values), list(values)), denominator)
+
+
+def _stacked(rows: Sequence[_Fractions]) -> _Fractions:
+    """One matrix of all rows."""
+    common = fmpz(1)
+    for row in rows:
+        charge(1000 + 4 * limbs(int(common.bit_length())) * limbs(int(row.denominator.bit_length())))
+        common = common.lcm(row.denominator)
+    width = rows[0].numerators.ncols()
+    words = limbs(int(common.bit_length()))
+    charge(sum(width * (500 + words * row.words) for row in rows))
+    entries = [value * (common // row.denominator) for row in rows for value in row.numerators.entries()]
+    return _reduced(fmpz_mat(len(rows), width, entries), common)
 
 
 def quotient_algebra(elimination: Elimination) -> Algebra | None:
     """The algebra of all poses, or None if the matrices do not commute or an element is not 0 in it."""
     basis = elimination.standard(GREATEST_NUMBER)
-    reduction = _Reduction(elimination, basis)
-    matrices = reduction.matrices()
-    cleared = [matrix.numer_denom()[0] for matrix in matrices]
-    if any(left * right != right * left for left, right in combinations(cleared, 2)):
-        return None
-    algebra = Algebra(tuple(basis), tuple(matrices))
-    return algebra if algebra.vanish(elimination.elements) else None
+    algebra = Algebra(tuple(basis), tuple(_Reduction(elimination, basis).matrices()))
+    return algebra if algebra.commutes() and algebra.vanish(elimination.elements) else None
 
 
 def _shifted(monomial: Monomial, axis: int, step: int) -> Monomial:
@@ -96,26 +182,26 @@ def _shifted(monomial: Monomial, axis: int, step: int) -> Monomial:
 
 
 class _Reduction:
-    """Coordinates of monomials on the basis, each found once, as 1 x n matrices."""
+    """Coordinates of monomials on the basis, each found once."""
 
     def __init__(self, elimination: Elimination, basis: Sequence[Monomial]) -> None:
         self.size = elimination.size
         self.basis = basis
         self.place = {monomial: index for index, monomial in enumerate(basis)}
         self.leading = {next(iter(element)): element for element in elimination.elements}
-        self.known: dict[Monomial, fmpq_mat] = {}
+        self.known: dict[Monomial, _Fractions] = {}
 
-    def matrices(self) -> list[fmpq_mat]:
+    def matrices(self) -> list[_Fractions]:
         """Multiplication by each unknown: row b holds the coordinates of the product with the b-th monomial."""
         return [
-            fmpq_mat([list(self.row(_shifted(monomial, axis, 1)).entries()) for monomial in self.basis])
-            for axis in range(self.size)
+            _stacked([self.row(_shifted(monomial, axis, 1)) for monomial in self.basis]) for axis in range(self.size)
         ]
 
-    def row(self, monomial: Monomial) -> fmpq_mat:
+    def row(self, monomial: Monomial) -> _Fractions:
         """Coordinates of a monomial; what they follow from is found first, without recursion however long the chain."""
         pending = [monomial]
         while pending:
+            charge(10**5)
             missing = [other for other in self._needed(pending[-1]) if other not in self.known]
             if missing:
                 pending += missing
@@ -134,7 +220,7 @@ class _Reduction:
         axis, smaller = self._lowered(monomial)
         if smaller not in self.known:
             return [smaller]
-        values = zip(self.basis, self.known[smaller].entries(), strict=True)
+        values = zip(self.basis, self.known[smaller].numerators.entries(), strict=True)
         return [_shifted(other, axis, 1) for other, value in values if value]
 
     def _lowered(self, monomial: Monomial) -> tuple[int, Monomial]:
@@ -142,23 +228,15 @@ class _Reduction:
         lowered = ((axis, _shifted(monomial, axis, -1)) for axis in range(self.size) if monomial[axis])
         return next((axis, other) for axis, other in lowered if other not in self.place)
 
-    def combination(self, terms: Iterable[tuple[Monomial, int]]) -> fmpq_mat:
-        """Coordinates of a polynomial."""
-        total = fmpq_mat(1, len(self.basis))
-        for monomial, value in terms:
-            total += self.row(monomial) * value
-        return total
-
-    def _found(self, monomial: Monomial) -> fmpq_mat:
-        total = fmpq_mat(1, len(self.basis))
+    def _found(self, monomial: Monomial) -> _Fractions:
+        size = len(self.basis)
         if monomial in self.place:
-            total[0, self.place[monomial]] = 1
-        elif monomial in self.leading:
+            return _unit(self.place[monomial], size)
+        if monomial in self.leading:
             (_, lead), *tail = self.leading[monomial].items()
-            total = self.combination(tail) * fmpq(-1, lead)
-        else:
-            axis, smaller = self._lowered(monomial)
-            for other, value in zip(self.basis, self.row(smaller).entries(), strict=True):
-                if value:
-                    total += self.row(_shifted(other, axis, 1)) * value
-        return total
+            return _combined([(-value, self.row(other)) for other, value in tail], lead, size)
+        axis, smaller = self._lowered(monomial)
+        vector = self.row(smaller)
+        values = zip(self.basis, map(int, vector.numerators.entries()), strict=True)
+        terms = [(value, self.row(_shifted(other, axis, 1))) for other, value in values if value]
+        return _combined(terms, int(vector.denominator), size)
