@@ -14,6 +14,7 @@ from mechanism_samples import DEAR, MECHANISMS, ORIGIN, Some, distance, general,
 from pkm_exact.claim import Claim, RealMotion
 from pkm_exact.cli.table import print_table
 from pkm_exact.constraints.angle import Angle
+from pkm_exact.constraints.at_point import AtPoint
 from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.constraint_types import CONSTRAINTS
 from pkm_exact.constraints.distance import Distance
@@ -162,6 +163,17 @@ def test_the_mechanism_that_is_a_point_has_a_form_that_is_not_zero() -> None:
     assert representation is not None
     assert representation.univariate.degree == 1
     assert any(representation.separating_form)
+
+
+def test_a_jacobian_with_equal_rows_and_entries_0_is_enclosed() -> None:
+    """A point that is held, and a cylinder whose normal is an axis of coordinates there."""
+    held = AtPoint(vector(-2, 0, 0), vector(-1, -1, -1))
+    cylinder = AxisDistance(vector(-1, 0, -1), vector(-1, -1, 0), vector(0, -1, 0), Fraction(20))
+    solution = solve(ForwardProblem((cylinder, held), (2, 3, 5), TRANSLATION))
+    (pose,) = solution.poses
+    assert solution.claim == Claim.COMPLETE
+    assert pose.condition is not None
+    assert pose.condition.lo**2 < 2 < pose.condition.hi**2
 
 
 def test_a_leg_too_long_is_inconsistent() -> None:

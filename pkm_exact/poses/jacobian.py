@@ -195,7 +195,8 @@ def _exponent(matrix: arb_mat) -> int:
 def _norm(entries: Sequence[arb]) -> arb:
     """An upper bound of the root of the sum of squares."""
     row = arb_mat(1, len(entries), entries)
-    return (row * row.transpose())[0, 0].sqrt().abs_upper()
+    # The sum of squares of balls around 0 may reach below 0, where there is no root; its upper bound does not.
+    return (row * row.transpose())[0, 0].abs_upper().sqrt().abs_upper()
 
 
 def _outward(value: arb) -> Interval:
