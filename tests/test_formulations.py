@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from random import Random
 from typing import Any
 
 import pytest
-from samples import METRICS, Placed, placed, random_placed, random_vector
+from samples import METRICS, Placed, placed, random_placed, random_vector, shipped
 
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation, formulation_codes
 from pkm_exact.geometry.rotation import quaternion_norm, scaled_rotation
 from pkm_exact.geometry.study import translation_coordinates
+from pkm_exact.policy import Policy
+from pkm_exact.poses.modular_start import StartSearch
+from pkm_exact.stages import Stages
 
 Metric = tuple[int, int, int]
 Values = dict[str, Fraction]
@@ -203,3 +207,11 @@ def test_other_joints_are_taken_where_the_first_three_are_collinear(code: str) -
 def test_an_unknown_code_is_refused() -> None:
     with pytest.raises(InputError, match="is unknown; use one of SE3, "):
         formulation("AFD9")
+
+
+@pytest.mark.parametrize("code", formulation_codes())
+def test_lengths_that_contradict_each_other_have_no_solution(code: str) -> None:
+    first, _, *others = shipped("mssm").distances
+    contradicting = replace(first, length_squared=first.length_squared + 1)
+    problem = replace(shipped("mssm"), constraints=(first, contradicting, *others))
+    assert StartSearch(problem, code, Policy(), Stages()).started().count == 0

@@ -11,7 +11,7 @@ import pytest
 from flint import nmod_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from samples import system
+from samples import shipped, system
 
 from pkm_exact import Robot, engine
 from pkm_exact.algebra import primes
@@ -240,3 +240,15 @@ def test_further_legs_that_contradict_the_robot_are_drawn_again(monkeypatch: Pat
     monkeypatch.setattr(engine, "extended_problem", extended)
     assert solve(problem).claim == Claim.POSITIVE_DIMENSIONAL_PROVED
     assert seeds == [seed, Policy().seed_for(problem.digest, "further legs")]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("code", ["SE3", "AFD1", "AFD3", "AFD6", "AFP1", "AFP4"])
+@pytest.mark.parametrize("value", [Fraction(UNLUCKY[24], 2**24), Fraction(2**24, UNLUCKY[24])])
+def test_an_unlucky_prime_changes_no_answer_of_a_formulation(code: str, value: Fraction, monkeypatch: Patch) -> None:
+    given, policy = shipped("mourrain-l"), Policy(prime_bits=24)
+    first, *others = given.distances
+    problem = replace(given, constraints=(replace(first, base=(value, *first.base[1:])), *others))
+    expected = solve(problem, formulation=code, policy=policy)
+    chosen_first(monkeypatch, UNLUCKY[24])
+    assert answer(solve(problem, formulation=code, policy=policy)) == answer(expected)

@@ -116,6 +116,8 @@ def modular_poses(
     if algebra is None:
         return None
     for condition in formulated.conditions:
+        if algebra.dimension == 0:  # no solution is left that could meet it or not
+            break
         algebra = algebra.quotient_by(_element(formulated, algebra, condition))
     return ModularPoses(formulated, algebra, metric)
 

@@ -148,11 +148,10 @@ class StartSearch:
             except UnluckyPrimeError:
                 self.retries += 1
                 continue
+            if last is not None and last.count == start.count:
+                return last
+            self.retries += last is not None
             if start.count:
                 return start
-            if last is not None:
-                if last.count == start.count:
-                    return last
-                self.retries += 1
             last = start
         raise InternalContradictionError("the number of solutions differs from prime to prime")
