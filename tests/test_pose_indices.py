@@ -49,8 +49,8 @@ def _page(solution: Solution, robot: Robot) -> str:
     )
 
 
-def _sweep(solution: Solution, _: Robot) -> str:
-    return solution_line(LengthRow(1, 2, ("1", "1", "1"), (Fraction(1),) * 3), solution, b"").decode()
+def _sweep(solution: Solution, robot: Robot) -> str:
+    return solution_line(LengthRow(1, 2, ("1", "1", "1")), robot, solution, b"").decode()
 
 
 SHOWN: dict[Output, Callable[[Solution, Robot], str]] = {
