@@ -1,19 +1,22 @@
 """Robots close to degenerate ones: whatever is written of them, both checkers accept, with the same words."""
 
 from fractions import Fraction
+from math import prod
 from pathlib import Path
 from typing import Any
 
 import pytest
 from campaign import model
 from certificate_tools import both, both_resealed, last_line, with_entry
-from flint import fmpq, fmpz_poly
+from flint import fmpq, fmpz, fmpz_poly
 from forged_representations import fit_real_poses, turning
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pkm_exact import Robot, certificate
+from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
+from pkm_exact.certify.checker import solutions
 from pkm_exact.certify.checker.descartes import dyadic, real_roots
 from pkm_exact.certify.checker.verdict import Refusal
 from pkm_exact.certify.tolerance_build import tolerance_certificate
@@ -57,6 +60,40 @@ def test_both_checkers_accept_tolerance_certificates(name: str, tolerance: str, 
     result = tolerance_boxes(problem, Tolerances.uniform(str(Fraction(tolerance))), solve_krawczyk(problem))
     assert sum(box.is_proved for box in result.boxes) == proved
     assert both(canonical_bytes(tolerance_certificate(robot, configuration.name, result))).status == "accepted"
+
+
+# Robots that are degenerate modulo primes
+
+FAR = [(Fraction(0), Fraction(0)), (Fraction(1), Fraction(0)), (Fraction(0), Fraction(1))]
+NEAR = {
+    "base": [(Fraction(0), Fraction(0)), (Fraction(5), Fraction(1)), (Fraction(2), Fraction(4))],
+    "platform": [(Fraction(-1), Fraction(-1)), (Fraction(2), Fraction(0)), (Fraction(0), Fraction(3))],
+}
+
+
+@pytest.mark.parametrize("primes", [solutions.PRIMES, pure.PRIMES])
+@pytest.mark.parametrize("side", ["base", "platform"])
+def test_no_robot_is_built_on_the_primes_of_a_checker(primes: tuple[int, ...], side: str) -> None:
+    """Modulo each of them, one side is a point. It is also 10^110 times as large as the other."""
+    sides = {**NEAR, side: [(x * prod(primes), y * prod(primes)) for x, y in FAR]}
+    pairs = zip(sides["base"], sides["platform"], strict=True)
+    squares = [(1 + b[0] - a[0]) ** 2 + (2 + b[1] - a[1]) ** 2 for a, b in pairs]
+    robot = Robot("built on primes", "3-RPR", "m", "made up", tuple(sides["base"]), tuple(sides["platform"]))
+    answer = both_resealed(certificate(robot, None, solve(robot.problem(squares))))
+    assert answer.status == "accepted", last_line(answer)
+
+
+@given(st.integers(20, 1 << 63))
+def test_primes_are_told_from_other_numbers(half: int) -> None:
+    n = 2 * half - 1
+    assert pure.is_prime(n) == fmpz(n).is_prime()
+
+
+def test_numbers_that_look_like_primes_are_none() -> None:
+    """Products of primes that pass Miller's test for the first bases."""
+    for n in (3215031751, 3474749660383, 341550071728321, 3825123056546413051):
+        assert not pure.is_prime(n)
+    assert pure.is_prime((1 << 61) - 1)
 
 
 # The grid point nearest to a solution

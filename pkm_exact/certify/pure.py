@@ -30,7 +30,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from hashlib import sha256
-from itertools import accumulate, combinations, count, islice, pairwise
+from itertools import accumulate, chain, combinations, count, islice, pairwise
 from math import gcd, isqrt, lcm
 from typing import Any, Final, NamedTuple, TypeAlias
 
@@ -870,9 +870,23 @@ class Residue:
         return reduced(self.value, self.ring.m)
 
 
-def good_primes(polynomial: Polynomial) -> list[int]:
-    """The primes that do not divide the leading coefficient."""
-    return [p for p in PRIMES if polynomial[-1] % p]
+def good_primes(polynomial: Polynomial) -> Iterator[int]:
+    """Primes that do not divide the leading coefficient; on the last ones no robot is built: they follow from it."""
+    seed = sha256(",".join(map(hex, polynomial)).encode()).digest()
+    numbers = (int.from_bytes(seed[place : place + 8], "big") >> 3 | 1 << 60 | 1 for place in range(0, len(seed), 8))
+    derived = (next(n for n in range(number, 1 << 64, 2) if is_prime(n)) for number in numbers)
+    return (p for p in chain(PRIMES, derived) if polynomial[-1] % p)
+
+
+def is_prime(n: int) -> bool:
+    """Whether an odd number between 37 and 2^64 is prime: Miller's test with these bases (Sorenson, Webster 2017)."""
+    twos = (n - 1 & 1 - n).bit_length() - 1
+
+    def passes(base: int) -> bool:
+        power = pow(base, n - 1 >> twos, n)
+        return power == 1 or any(pow(power, 1 << i, n) == n - 1 for i in range(twos))
+
+    return all(map(passes, (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37)))
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -140,10 +140,10 @@ def _regular_jacobian(matrix: arb_mat, length: Fraction) -> LegJacobian | None:
         return None
     if largest is None or inverse is None:
         return None
-    smallest, condition = _outward(1 / inverse), _outward(largest * inverse)
-    if 2 * smallest.lo < smallest.hi:
+    smallest = 1 / inverse
+    if not 2 * smallest.lower() >= smallest.upper():
         return None
-    return LegJacobian(sign, matrix.ncols(), smallest, condition, length)
+    return LegJacobian(sign, matrix.ncols(), _outward(smallest), _outward(largest * inverse), length)
 
 
 def _left_inverse(matrix: arb_mat) -> arb_mat:

@@ -19,10 +19,10 @@ from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.document import Representation
 from pkm_exact.certify.checker.section import unknowns
 from pkm_exact.certify.checker.solutions import (
-    PRIMES,
     algebraic_cost,
     irreducible_factors,
     modulo,
+    primes_for,
     primitive_part,
     proved_coprime,
 )
@@ -81,8 +81,9 @@ def multiplicities_of(
     Over Q, multiplication by u has the characteristic polynomial prod_f g_f^m, with g_f the product of X - u(t) over
     the roots t of f. It has so modulo p too, and if the g_f are coprime there, m can be read off.
     """
-    factors = irreducible_factors(primitive_part(representation.eliminant))
-    for p, base in ((p, base) for base in BASES for p in PRIMES):
+    h0 = primitive_part(representation.eliminant)
+    factors = irreducible_factors(h0)
+    for p, base in ((p, base) for base in BASES for p in primes_for(h0)):
         weights = {place: pow(base, power, p) for power, place in enumerate(places)}
         whole = algebra.characteristic_polynomial(list(weights.values()), p)
         parts = [_part(factor, representation, metric, weights, p) for factor in factors]

@@ -9,10 +9,11 @@ that of h0. So if h0 and g are coprime modulo p, no root of h is one of g.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from hashlib import sha256
 from math import gcd
 from typing import Final
 
-from flint import fmpz_poly, nmod_poly
+from flint import fmpz, fmpz_poly, nmod_poly
 
 from pkm_exact.certify.checker.budget import charge, limbs, polynomials_cost
 from pkm_exact.certify.checker.document import Representation
@@ -21,6 +22,8 @@ from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
 
 PRIMES: Final = tuple((1 << 63) - offset for offset in (25, 165, 259, 301, 375, 387))
 """Primes of the checker's own; any prime serves, several because one may divide something by accident."""
+MORE_PRIMES: Final = 4
+"""How many others are tried after these, which follow from the eliminant: no robot can be built on them."""
 
 
 def primitive_part(h: fmpz_poly) -> fmpz_poly:
@@ -120,12 +123,23 @@ def _bits(forms: Sequence[Sequence[int]]) -> int:
 
 def proved_coprime(h0: fmpz_poly, image: Callable[[int], nmod_poly]) -> bool:
     """Whether h0 is coprime, modulo one of the primes, to a polynomial over Z that is given by its images."""
-    usable = (p for p in PRIMES if int(h0.leading_coefficient()) % p)
+    usable = (p for p in primes_for(h0) if int(h0.leading_coefficient()) % p)
     for p in usable:
         charge(100 * int(h0.length()) ** 2)
         if modulo(h0, p).gcd(image(p)).degree() == 0:
             return True
     return False
+
+
+def primes_for(h: fmpz_poly) -> Iterator[int]:
+    """Primes to try with a polynomial, of 63 bits."""
+    yield from PRIMES
+    digest = sha256(",".join(hex(int(value)) for value in h.coeffs()).encode()).digest()
+    for place in range(MORE_PRIMES):
+        n = 1 << 62 | int.from_bytes(digest[8 * place : 8 * place + 8]) >> 2 | 1
+        while not fmpz(n).is_prime():
+            n += 2
+        yield n
 
 
 def modulo(polynomial: fmpz_poly, p: int) -> nmod_poly:
