@@ -86,13 +86,13 @@ class Subject:
     """A certificate to be changed, how often in a quick run, and in a complete one: every change if None."""
 
     make: Callable[[], Content]
-    quick: int = 40
+    quick: int = 30
     complete: int | None = None
 
 
 SUBJECTS = {
     "general 6-6, representation": Subject(partial(golden, "mourrain-l"), complete=1500),
-    "general 6-6, boxes": Subject(partial(boxed_certificate, "mourrain-l"), 4, 200),
+    "general 6-6, boxes": Subject(partial(boxed_certificate, "mourrain-l"), 2, 200),
     "general 6-6 of Rolland, representation": Subject(partial(golden, "rolland-6-6"), 0, 60),
     "general 6-6 of Rolland, boxes": Subject(partial(boxed_certificate, "rolland-6-6"), 0, 60),
     "special robot, exact elimination": Subject(partial(golden, "similar-planar-s"), complete=1500),

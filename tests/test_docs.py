@@ -30,7 +30,7 @@ def _has_samples(page: Path) -> bool:
     return any(block.language in LANGUAGES - {"text"} for block in blocks(TEXTS[page]))
 
 
-SLOW = ("docs/cli.md", "docs/pictures.md", "docs/quickstart.md")
+SLOW = ("docs/cli.md", "docs/pictures.md", "docs/quickstart.md", "docs/tutorial.md")
 """Pages with many samples, all of them of commands that other pages run too."""
 
 

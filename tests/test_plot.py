@@ -186,7 +186,7 @@ def test_an_overlay_numbers_all_poses() -> None:
 # Nothing is cut off, nothing overlaps
 
 
-@pytest.mark.parametrize("name", ["mourrain-l", slow("hexa"), slow("hexaglide"), "linapod-n", "3-prr"])
+@pytest.mark.parametrize("name", ["mourrain-l", *map(slow, ("hexa", "hexaglide", "linapod-n")), "3-prr"])
 @pytest.mark.parametrize("figure", FIGURES)
 def test_nothing_is_cut_off(name: str, figure: str) -> None:
     _, drawn = standard(name, figure)
@@ -261,7 +261,7 @@ def headlines(drawn: Drawn) -> list[Bbox]:
     return sorted((box for _, box in drawn.texts), key=lambda box: -box.y1)[:2]
 
 
-@pytest.mark.parametrize("name", ["mourrain-l", "linapod-n", "3-rrr", slow("hexa")])
+@pytest.mark.parametrize("name", ["mourrain-l", slow("linapod-n"), "3-rrr", slow("hexa")])
 @pytest.mark.parametrize("figure", FIGURES)
 def test_headline_legend_and_drawing_are_apart(name: str, figure: str) -> None:
     made, drawn = standard(name, figure)
@@ -281,7 +281,7 @@ def test_headline_legend_and_drawing_are_apart(name: str, figure: str) -> None:
     "name",
     ["x" * 10_000, "$\\frac{1}{2$ \\unknown", "六足 \u202e\x00\n机器人 🤖" * 3, "", "W" * 48, "%s {} <b>&amp;"],
 )
-@pytest.mark.parametrize("figure", ["grid", "one"])
+@pytest.mark.parametrize("figure", ["grid", slow("one")])
 def test_any_name_is_drawn_as_it_is(name: str, figure: str) -> None:
     shown = replace(scene("3-rpr-merlet-p"), name=name, unit=name, configuration=name)
     drawn = render(FIGURES[figure](shown))
@@ -391,7 +391,7 @@ def _arcs(figure: Figure) -> Any:
     return next(axes for axes in figure.axes if axes.get_label() == "arcs")
 
 
-@pytest.mark.parametrize("name", ["3-rrr", "3-rpr-triple", "rolland-6-6", slow("dietmaier")])
+@pytest.mark.parametrize("name", ["3-rrr", "3-rpr-triple", slow("rolland-6-6"), slow("dietmaier")])
 def test_arcs_change_their_sign_at_the_real_roots_and_only_there(name: str) -> None:
     content = golden(name)
     figure = roots_figure(content)
@@ -420,7 +420,7 @@ def test_roots_carry_the_numbers_of_their_poses(name: str) -> None:
     assert numbers == [str(place + 1) for place in order]
 
 
-@pytest.mark.parametrize("name", ["3-rpr-double-q", "rolland-6-6", slow("dietmaier"), slow("6-6p"), slow("hexa")])
+@pytest.mark.parametrize("name", ["3-rpr-double-q", *map(slow, ("rolland-6-6", "dietmaier", "6-6p", "hexa"))])
 @pytest.mark.parametrize("size", [None, (4.0, 4.0), slow((20.0, 5.0))])
 def test_nothing_of_the_roots_is_cut_off(name: str, size: tuple[float, float] | None) -> None:
     drawn = render(roots_figure(golden(name), size=size))

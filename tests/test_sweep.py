@@ -639,6 +639,7 @@ def killed_at_random(tmp_path: Path, rows: int, kills: int) -> None:
 
 
 @needs_proc
+@pytest.mark.slow
 def test_killed_at_any_point_the_same_command_goes_on(tmp_path: Path) -> None:
     killed_at_random(tmp_path, rows=30, kills=1)
 
