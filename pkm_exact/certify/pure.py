@@ -1,9 +1,10 @@
-"""Checks certificates a second time, with Python's integers and nothing else: one file that runs alone.
+"""Checks certificates a second time, with Python's integers and nothing else: a file that runs alone.
 
     python pure.py CERT.json...
 
 It prints what ``certify-poses check`` prints, and takes longer: one line per claim that was proved, then accepted,
-rejected, malformed or too-large. Exit code: 0 if all are accepted, 1 if one is rejected, otherwise 2.
+rejected, malformed or too-large. Exit code: 0 if all are accepted, 1 if one is rejected, otherwise 2. Certificates of
+version 2 need the file ``pure_mechanism.py`` beside this one.
 
 Written from the definition of the format and its proofs, ``docs/certificates.md``; the sections below have its order
 and its notation. It shares no line with the other checker and needs no library, so an error of one of them, or of
@@ -30,6 +31,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from hashlib import sha256
+from importlib import import_module
 from itertools import accumulate, chain, combinations, count, islice, pairwise
 from math import gcd, isqrt, lcm
 from typing import Any, Final, NamedTuple, TypeAlias
@@ -732,18 +734,20 @@ def size(polynomial: Sequence[int]) -> int:
 class Multiples:
     """Decides whether a primitive polynomial h0 divides polynomials P over Z that are given by values at X = 2^k.
 
-    Let P have size at most ``bound`` and degree at most 2D. If P = h0 q, then q has size at most 2^D bound (Mignotte),
-    so X, chosen larger, makes q the digits of the integer P(X) / h0(X). Conversely, if this is an integer with digits q
-    so small that h0 q, like P, has coefficients below X / 2, then P = h0 q, because both have the same value at X.
+    Let P have size at most ``bound`` and degree at most 2D, or as many times D as ``degrees`` says. If P = h0 q, then
+    q, of degree d, has size at most 2^d bound (Mignotte), so X, chosen larger, makes q the digits of the integer
+    P(X) / h0(X). Conversely, if this is an integer with digits q so small that h0 q, like P, has coefficients below
+    X / 2, then P = h0 q, because both have the same value at X.
     Exact quotients are computed modulo a power of 2, where the inverse of h0(X) is found once, by Newton's iteration.
     """
 
-    def __init__(self, h0: Polynomial, bound: int) -> None:
+    def __init__(self, h0: Polynomial, bound: int, degrees: int = 2) -> None:
         self.h0 = h0
-        self.k = bound.bit_length() + len(h0) + size(h0).bit_length() + 2
+        number = (degrees - 1) * (len(h0) - 1) + 1
+        self.k = bound.bit_length() + number + size(h0).bit_length() + 2
         self.value = at_power(h0, self.k)
         self.zeros = (self.value & -self.value).bit_length() - 1
-        self.length = self.k * (len(h0) + 1)
+        self.length = self.k * (number + 1)
         odd, self.inverse, known = self.value >> self.zeros, 1, 1
         while known < self.length:
             known = min(2 * known, self.length)
@@ -894,12 +898,12 @@ def is_prime(n: int) -> bool:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def check_eliminant(representation: Representation) -> Iterator[str]:
+def check_eliminant(representation: Representation, most: int = GREATEST_NUMBER) -> Iterator[str]:
     """Check 1."""
     h = representation.h
     degree = len(h) - 1
     require(
-        degree <= GREATEST_NUMBER,
+        degree <= most,
         f"eliminant: degree {degree}, but six legs have at most {GREATEST_NUMBER} isolated poses",
     )
     content = gcd(*h, *(coefficient for numerator in representation.numerators for coefficient in numerator))
@@ -1416,15 +1420,15 @@ class Elimination:
         """Whether no leading monomial divides this one."""
         return not any(is_divisor(lead, monomial) for lead in self.leading)
 
-    def basis(self) -> list[Monomial]:
-        """The standard monomials, smallest first; at most 40 of them."""
-        spend(2000 * (GREATEST_NUMBER + 1) * (len(self.places) + 1) * (1 + len(self.leading)))
+    def basis(self, most: int = GREATEST_NUMBER) -> list[Monomial]:
+        """The standard monomials, smallest first; at most 40 of them, or another number."""
+        spend(2000 * (most + 1) * (len(self.places) + 1) * (1 + len(self.leading)))
         found: list[Monomial] = []
         layer = list(filter(self.is_standard, [(0,) * len(self.places)]))
         while layer:
             found += sorted(layer, key=order)
-            few = len(found) <= GREATEST_NUMBER
-            require(few, f"elimination: it leaves more than {GREATEST_NUMBER} monomials")
+            few = len(found) <= most
+            require(few, f"elimination: it leaves more than {most} monomials")
             larger = {times(monomial, axis) for monomial in layer for axis in range(len(self.places))}
             layer = list(filter(self.is_standard, larger))
         return found
@@ -1451,7 +1455,11 @@ def is_divisor(one: Monomial, other: Monomial) -> bool:
 def eliminate(legs: Sequence[Leg], g: Metric, steps: Sequence[Step]) -> Elimination:
     """Check 8."""
     places, quadrics = section(legs, g)
-    elements = echelon_form(quadrics)
+    return followed(places, echelon_form(quadrics), steps)
+
+
+def followed(places: tuple[int, ...], elements: list[Terms], steps: Sequence[Step]) -> Elimination:
+    """The steps of an elimination, from the first elements on."""
     leading = [next(iter(element)) for element in elements]
     for number, step in enumerate(steps, 1):
         known = all(index < len(elements) and max(factors, default=-1) < len(places) for index, *factors in step)
@@ -2294,6 +2302,14 @@ class System:
         rows = [[dot(row, x) for row in form] for form in self.forms]
         return [*rows, [weight * UNIT for weight in self.chart]]
 
+    def bends(self, _x: Sequence[Gaussian], reach: Sequence[Fraction]) -> list[list[Fraction]]:
+        """Bounds of |F'(x + h) - F'(x)| for all |h_l| up to the reach."""
+        bends = [
+            [sum((abs(v) * h for v, h in zip(row, reach, strict=True)), Fraction(0)) for row in form]
+            for form in self.forms
+        ]
+        return [*bends, [Fraction(0)] * len(reach)]
+
     def values(self, x: Sequence[Gaussian], slopes: Sequence[Sequence[Gaussian]]) -> list[Gaussian]:
         """F(x), as quadratic forms are half of x^T (2 Q) x."""
         products = [total(a * b for a, b in zip(row, x, strict=True)) for row in slopes]
@@ -2314,9 +2330,27 @@ def dot(scalars: Sequence[int], x: Sequence[Gaussian]) -> Gaussian:
 
 
 def chart_system(legs: Sequence[Leg], g: Metric, chart: Sequence[int]) -> System:
-    """Legs, Study's condition and chart. The values of a form at sums of two unit vectors give its matrix."""
+    """Legs, Study's condition and chart."""
     planar = len(legs) == 3
     places = (0, 3, 5, 6) if planar else tuple(range(8))
+    return study_system(places, [leg_form(leg, g) for leg in legs], g, chart, is_bound=not planar)
+
+
+def study_system(
+    places: tuple[int, ...], forms: Iterable[Sequence[int]], g: Metric, chart: Sequence[int], *, is_bound: bool
+) -> System:
+    """Forms in the 17 quantities, Study's condition if coordinates are bound by it, and chart."""
+    matrix = matrices(places, g)
+    rows = [matrix(partial(form_value, form)) for form in forms]
+    if is_bound:
+        rows.append(matrix(lambda placed: placed.study))
+    norm = matrix(lambda placed: placed.norm)
+    weights = [chart[place] if place < 4 else 0 for place in places]
+    return System(places, rows, weights, [row[i] // 2 for i, row in enumerate(norm)])
+
+
+def matrices(places: tuple[int, ...], g: Metric) -> Callable[[Callable[[Motion], int]], list[list[int]]]:
+    """What gives the matrix 2 Q of a quadratic form in these coordinates: by its values at sums of two unit vectors."""
 
     def at(*indices: int) -> Motion:
         x = [indices.count(place) for place in range(8)]
@@ -2329,12 +2363,7 @@ def chart_system(legs: Sequence[Leg], g: Metric, chart: Sequence[int]) -> System
         alone = [value(placed) for placed in single]
         return [[value(double[i][j]) - alone[i] - alone[j] for j in range(len(places))] for i in range(len(places))]
 
-    forms = [leg_form(leg, g) for leg in legs]
-    matrices = [matrix(partial(form_value, form)) for form in forms]
-    if not planar:
-        matrices.append(matrix(lambda placed: placed.study))
-    norm = [placed.norm for placed in single]
-    return System(places, matrices, [chart[place] if place < 4 else 0 for place in places], norm)
+    return matrix
 
 
 def form_value(form: Sequence[int], placed: Motion) -> int:
@@ -2363,10 +2392,7 @@ def has_one_solution(system: System, box: Box, p: int) -> bool:
     if y is None:
         return False
     reach = [(1 if box.real else 2) * r for r in box.radius]
-    bends = [
-        [sum((abs(value) * h for value, h in zip(row, reach, strict=True)), Fraction(0)) for row in form]
-        for form in [*system.forms, [[0] * len(reach)] * len(reach)]
-    ]
+    bends = system.bends(box.centre, reach)
     values = system.values(box.centre, slopes)
     for i, row in enumerate(y):
         image = total(a * b for a, b in zip(row, values, strict=True)).largest()
@@ -2473,9 +2499,8 @@ def check_pairs(others: Sequence[Box]) -> None:
     require(keys == sorted(keys), "boxes: the complex ones are not listed in their order")
 
 
-def check_boxes(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
+def check_boxes(system: System, boxes: Boxes) -> Iterator[str]:
     """Check 11: each box holds one solution, and boxes and conjugates are disjoint."""
-    system = chart_system(certificate.legs, certificate.metric, boxes.w)
     flat = not any(weight for place, weight in enumerate(boxes.w) if place not in system.places)
     require(flat, "boxes: the chart has a weight for a coordinate that is 0 for every pose")
     named = [(f"real box {number}", box) for number, box in enumerate(boxes.real, 1)]
@@ -2497,14 +2522,13 @@ def check_boxes(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
     yield f"boxes: pairwise disjoint, {number} solutions with conjugate ones, {len(boxes.real)} of them real"
 
 
-def check_poses_in_boxes(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
+def check_poses_in_boxes(certificate: Certificate, boxes: Boxes, system: System) -> Iterator[str]:
     """Check 6 for poses from real boxes around solutions, which check 11 has proved."""
     listed = len(certificate.poses)
     require(listed == len(boxes.real), f"real poses: {listed} listed, there are {len(boxes.real)} real boxes")
     without = all(pose.parameter is None for pose in certificate.poses)
     require(without, "real poses: a parameter is given, but there is no eliminant")
     yield f"real poses: {listed}, one in each real box"
-    system = chart_system(certificate.legs, certificate.metric, boxes.w)
     enclosures = [partial(at_solution, system, certificate.metric, system.restricted(box)) for box in boxes.real]
     found = [cells_of(enclose, certificate.box_exponent) for enclose in enclosures]
     in_order = all(one[:12] < other[:12] for one, other in pairwise(found))
@@ -3261,7 +3285,22 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
     """The content, read at once, and its checks, one after another."""
     if next(iter(body.items()), None) == ("format", TOLERANCE_FORMAT):
         return check_tolerances(read_tolerances(body))
+    if body.get("version") == 2 and type(body["version"]) is int:
+        return checks_of_mechanisms()(body)
     return checks(read(body))
+
+
+def checks_of_mechanisms() -> Callable[[dict[str, Any]], Iterator[str]]:
+    """What reads and checks certificates of version 2: in ``pure_mechanism.py``, beside this file, which imports it."""
+    package = f"{__package__}." if __package__ else ""
+    sys.modules.setdefault(f"{package}pure", sys.modules[__name__])
+    if not package:
+        sys.path.append(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120 - Python may be isolated
+    try:
+        return import_module(f"{package}pure_mechanism").replayed  # type: ignore[no-any-return]
+    except ModuleNotFoundError:
+        line = "format: not version 1, and pure_mechanism.py, for version 2, is not beside this program"
+        raise Refusal("malformed", line) from None
 
 
 def checks(certificate: Certificate) -> Iterator[str]:
@@ -3274,8 +3313,9 @@ def checks(certificate: Certificate) -> Iterator[str]:
         if certificate.claim != "positive-dimensional-proved":
             yield from check_real_poses(certificate, representation)
     if certificate.boxes is not None:
-        yield from check_boxes(certificate, certificate.boxes)
-        yield from check_poses_in_boxes(certificate, certificate.boxes)
+        system = chart_system(certificate.legs, certificate.metric, certificate.boxes.w)
+        yield from check_boxes(system, certificate.boxes)
+        yield from check_poses_in_boxes(certificate, certificate.boxes, system)
     yield from check_claims(certificate)
 
 
