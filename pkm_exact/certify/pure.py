@@ -425,12 +425,12 @@ def a_rational_text(value: Any, where: str) -> str:
     return str(value)
 
 
-def a_rational(value: Any, where: str) -> Fraction:
+def a_rational(value: Any, where: str, digits: int = MAX_JOINT_DIGITS) -> Fraction:
     """A rational number in lowest terms."""
     text = a_rational_text(value, where)
     numerator, _, denominator = text.partition("/")
-    short = max(len(numerator), len(denominator)) <= MAX_JOINT_DIGITS
-    affordable(short, f"{where}: more than {MAX_JOINT_DIGITS} digits")
+    short = max(len(numerator), len(denominator)) <= digits
+    affordable(short, f"{where}: more than {digits} digits")
     number = Fraction(int(numerator), int(denominator or "1"))
     well_formed(str(number) == text, f"{where}: not in lowest terms")
     return number
@@ -569,7 +569,7 @@ def read(body: dict[str, Any]) -> Certificate:
     """The content of a certificate."""
     version = body.get("version")
     is_known = body.get("format") == "pkm_exact certificate" and type(version) is int and version == 1
-    well_formed(is_known, "format: not a pkm_exact certificate, version 1")
+    well_formed(is_known, "format: not a pkm_exact certificate, version 1 or 2")
     values = dict(zip(KEYS.split(), an_object(body, "certificate", KEYS), strict=True))
 
     def entry(key: str, read: Reader) -> Any:

@@ -7,7 +7,7 @@ sections below have its order and its notation. It shares no line with the other
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
@@ -25,9 +25,9 @@ __all__ = ["replayed"]
 
 Form: TypeAlias = tuple[Fraction, ...]  # of |C|^2, u (3), C (3), R by rows (9), 1
 Quadratic: TypeAlias = dict[tuple[int, int], Fraction]  # in the 17 coordinates, first index not above the second
-Exponent: TypeAlias = int  # n, for the prime 2^n - 1
 
 MAX_CONSTRAINTS: Final = 64
+MAX_DIGITS_OF_A_FORM: Final = 4000
 MAX_DEGREE_OF_MONOMIALS: Final = 12
 DEGREE: Final = 40
 """Degree of the variety of rigid motions in P^16."""
@@ -311,11 +311,6 @@ class Robot:
         return found[0], min(found)
 
 
-def vanishing(form: Form) -> list[int]:
-    """The form over Z, cleared of denominators."""
-    return pure.cleared(form)
-
-
 # ---------------------------------------------------------------------------------------------------------------------
 # Format
 # ---------------------------------------------------------------------------------------------------------------------
@@ -358,26 +353,7 @@ class Certificate(pure.Certificate):
     self_motion: SelfMotion | None
 
 
-def a_long_rational(value: Any, where: str) -> Fraction:
-    """A rational number in lowest terms, of any length that a text may have."""
-    text = pure.a_rational_text(value, where)
-    numerator, slash, denominator = text.partition("/")
-    p, q = from_digits(numerator), from_digits(denominator) if slash else 1
-    lowest = gcd(p, q) == 1 and (q > 1 or not slash)
-    pure.well_formed(lowest, f"{where}: not in lowest terms")
-    return Fraction(p, q)
-
-
-def from_digits(text: str) -> int:
-    """An integer of decimal digits, more of which than Python reads at once."""
-    value, digits = 0, text.removeprefix("-")
-    for start in range(0, len(digits), 4000):
-        part = digits[start : start + 4000]
-        value = value * 10 ** len(part) + int(part)
-    return -value if text.startswith("-") else value
-
-
-a_list_of_forms: Final = pure.a_list(pure.a_list(a_long_rational, 17))
+a_list_of_forms: Final = pure.a_list(pure.a_list(partial(pure.a_rational, digits=MAX_DIGITS_OF_A_FORM), 17))
 
 
 def a_constraint(g: pure.Metric, value: Any, where: str) -> Constraint:
@@ -390,7 +366,7 @@ def a_constraint(g: pure.Metric, value: Any, where: str) -> Constraint:
     entries = tuple(read(v, f"{where}.{key}") for (key, read), v in zip(readers.items(), data, strict=True))
     forms = tuple(forms_of(g, *entries))
     same = a_list_of_forms(listed, f"{where}.forms") == forms
-    pure.require(same, f"constraints: the forms of {where} are not those of its data")
+    pure.require(same, f"{where}: its forms are not those of its data")
     weight = pure.scalar_product(g, entries[1], entries[1]) if kind == "axis-distance" else None
     return Constraint(str(kind), entries, forms, weight)
 
@@ -437,7 +413,7 @@ def a_slice(value: Any, where: str) -> tuple[Fraction, pure.Representation]:
     """A constant and the poses there."""
     constant, representation = pure.an_object(value, where, "constant representation")
     return (
-        a_long_rational(constant, f"{where}.constant"),
+        pure.a_rational(constant, f"{where}.constant"),
         pure.a_representation(representation, f"{where}.representation"),
     )
 
@@ -453,12 +429,12 @@ def a_self_motion(value: Any, where: str) -> SelfMotion:
     )
 
 
-def some_boxes(value: Any, where: str) -> pure.Boxes:
-    """Boxes around real and around complex solutions."""
+def some_boxes(most: int, value: Any, where: str) -> pure.Boxes:
+    """Boxes around real and around complex solutions, which are not more than there can be."""
     chart, real, others = pure.an_object(value, where, "chart real complex")
     lists = isinstance(real, list) and isinstance(others, list)
-    few = not lists or len(real) + 2 * len(others) <= pure.MAX_DEGREE
-    pure.affordable(few, f"{where}: more than {pure.MAX_DEGREE} solutions")
+    few = not lists or len(real) + 2 * len(others) <= most
+    pure.require(few, f"boxes: more than {most} solutions, all that there can be")
     return pure.Boxes(
         pure.a_list(pure.an_integer, 4)(chart, f"{where}.chart"),
         pure.a_list(partial(pure.a_box, real=True))(real, f"{where}.real"),
@@ -495,7 +471,7 @@ def read(body: dict[str, Any]) -> Certificate:
         ),
         representation=entry("representation", pure.nullable(pure.a_representation)),
         elimination=entry("elimination", pure.nullable(pure.a_list(pure.a_step))),
-        boxes=entry("krawczyk", pure.nullable(some_boxes)),
+        boxes=entry("krawczyk", pure.nullable(partial(some_boxes, robot.bounds()[1]))),
         box_exponent=exponent,
         poses=entry("poses", pure.a_list(pure.a_pose)),
         robot=robot,
@@ -540,7 +516,8 @@ def check_poses(representation: pure.Representation, robot: Robot) -> Iterator[s
     for quadric in map(integer_quadric, robot.quadrics):
         holds = is_quadric_zero(representation, g, quadric)
         pure.require(holds, "constraints: a quadric is not 0 at every solution")
-    yield f"constraints: all {len(robot.constraints)} hold at every solution"
+    number = len(robot.constraints) + bool(robot.further)
+    yield f"constraints: all {number} hold at every solution"
 
 
 def is_quadric_zero(
@@ -874,6 +851,8 @@ def line_form(line: pure.Terms, places: Sequence[int]) -> Form:
 def eliminated(certificate: Certificate) -> pure.Elimination:
     """The elimination, from the section on."""
     places, elements = section(certificate.robot)
+    if not places and elements:
+        pure.require(not certificate.elimination, "elimination: steps, but it is proved at once that there is no pose")
     return pure.followed(places, elements, certificate.elimination or ())
 
 
@@ -1257,67 +1236,70 @@ def legs_are_equal(certificate: Certificate, representation: pure.Representation
     return len(certificate.legs) == 1 or pure.legs_are_one_vector(certificate, representation)
 
 
-def checked(representation: pure.Representation, robot: Robot) -> Iterator[str]:
+def checked(representation: pure.Representation, robot: Robot, where: str = "") -> Iterator[str]:
     """Checks 1 to 5."""
-    yield from pure.check_eliminant(representation, pure.MAX_DEGREE)
-    yield from pure.check_distinct(representation)
-    yield from check_poses(representation, robot)
+    yield from (f"{where}{line}" for line in pure.check_eliminant(representation, pure.MAX_DEGREE))
+    yield from (f"{where}{line}" for line in pure.check_distinct(representation))
+    yield from (f"{where}{line}" for line in check_poses(representation, robot))
 
 
-def check_slices(self_motion: SelfMotion, robot: Robot) -> tuple[int, int, bool]:
-    """The number of poses in all slices, the bound, and whether more than that are real and regular."""
+def check_slices(self_motion: SelfMotion, robot: Robot) -> Generator[str, None, bool]:
+    """More poses in slices than can be isolated; returns whether more than that are real and regular."""
     pure.require(self_motion.forms, "self-motion: no form to cut with")
     *others, last = self_motion.forms
-    constants = [constant for constant, _ in self_motion.slices]
-    increasing = all(a < b for a, b in pairwise(constants))
+    increasing = all(a < b for (a, _), (b, _) in pairwise(self_motion.slices))
     pure.require(increasing, "self-motion: the constants of the slices do not increase")
     number = real = 0
-    for constant, representation in self_motion.slices:
+    for place, (constant, representation) in enumerate(self_motion.slices, 1):
         cut = replace(robot, further=(*others, (*last[:ONE], last[ONE] - constant)))
-        for _ in checked(representation, cut):
-            pass
+        yield from checked(representation, cut, f"slice {place}: ")
         number += len(representation.h) - 1
         if are_regular(Slopes(cut), representation):
             real += number_of_real_roots(representation)
     bound = replace(robot, further=tuple(others)).bounds()[1]
     pure.require(number > bound, f"self-motion: {number} poses in slices are not more than {bound}")
-    return number, bound, real > bound
+    yield f"self-motion: {number} poses, more than the {bound} that can be isolated"
+    return real > bound
 
 
 def check_self_motion(certificate: Certificate, self_motion: SelfMotion) -> Iterator[str]:
     """Check 14."""
-    robot, representation = certificate.robot, certificate.representation
+    representation = certificate.representation
     if self_motion.cause == "more-poses-than-bound":
-        pure.require(representation is None, "representation: given, but the poses are in slices")
-        number, bound, real = check_slices(self_motion, robot)
-        reason = f"{number} distinct poses lie on slices, isolated ones are at most {bound}"
+        pure.require(representation is None, "self-motion: the poses are in slices, not in a representation")
+        real = yield from check_slices(self_motion, certificate.robot)
     else:
-        alone = representation is not None and not self_motion.forms and not self_motion.slices
-        pure.require(alone, "self-motion: needs poses in a representation, and neither forms nor slices")
-        if TYPE_CHECKING:
-            assert representation is not None
-        real, reason = other_cause(certificate, self_motion, representation)
-    said = "true" if real else "false"
-    pure.require(self_motion.real == real, f"self-motion: real must be {said}")
-    yield f"positive dimension: {reason}; {'a real motion is proved' if real else 'a real motion is not proved'}"
+        alone = not self_motion.forms and not self_motion.slices
+        if representation is None or not alone:
+            raise pure.Refusal("rejected", "self-motion: needs a representation, and neither forms nor slices")
+        yield from checked(representation, certificate.robot)
+        real = yield from check_cause(certificate, self_motion.cause, representation)
+    pure.require(self_motion.real == real, "self-motion: what is claimed of real poses is not what is proved")
+    if real:
+        yield "self-motion: real poses form a curve at least; the mechanism moves with its actuators locked"
+    else:
+        yield "self-motion: complex poses form it; that one of them is real, and the mechanism moves, is not proved"
 
 
-def other_cause(
-    certificate: Certificate, self_motion: SelfMotion, representation: pure.Representation
-) -> tuple[bool, str]:
-    """Whether a real motion is proved, and why there is a set of positive dimension, by the first three causes."""
+def check_cause(
+    certificate: Certificate, cause: str, representation: pure.Representation
+) -> Generator[str, None, bool]:
+    """One of the first three causes; returns whether a real motion is proved."""
     robot = certificate.robot
     real = number_of_real_roots(representation) > 0
-    if self_motion.cause == "dependent-forms":
+    if cause == "dependent-forms":
         free = robot.kind.dimension - robot.number_of_rows
-        pure.require(free > 0, "self-motion: the forms are not dependent")
-        return real and are_regular(Slopes(robot), representation, free), f"{free} freedoms are left"
-    if self_motion.cause == "symmetry":
-        pure.require(has_symmetry(robot), "self-motion: no motion leaves all forms as they are")
-        return real, "motions leave all forms as they are"
+        pure.require(free > 0, "self-motion: the constraints are not dependent")
+        yield "self-motion: the constraints are dependent, their poses form sets of positive dimension"
+        return real and are_regular(Slopes(robot), representation, free)
+    if cause == "symmetry":
+        pure.require(has_symmetry(robot), "self-motion: no motion of the platform or of the base leaves all forms")
+        yield "self-motion: a group of motions leaves all constraints as they are"
+        return real
     equal = legs_are_equal(certificate, representation)
     pure.require(equal, "self-motion: the legs are not the same vector at every pose")
-    return real, "all legs are the same vector"
+    yield "self-motion: all legs are the same vector, their poses form a sphere or circle"
+    return real
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -1357,23 +1339,24 @@ def check_claims(certificate: Certificate) -> Iterator[str]:
     pure.require(claimed == listed, f"real poses: {claimed} claimed, {listed} listed")
     check_parts(certificate)
     if certificate.claim.startswith("positive-dimensional"):
-        yield from positive_dimension(certificate)
+        yield from check_positive_dimension(certificate)
     else:
         yield from solutions(certificate)
     pure.require(listed or not certificate.box_exponent, "boxes: a grid is given, but there is no pose")
 
 
-def positive_dimension(certificate: Certificate) -> Iterator[str]:
+def check_positive_dimension(certificate: Certificate) -> Iterator[str]:
     """A set of positive dimension, and isolated poses beside it in boxes."""
     pure.require(certificate.route is None, "claim: beside positive dimension, completeness is claimed")
     number = 0 if certificate.boxes is None else certificate.boxes.number()
-    if certificate.boxes is not None:
+    if certificate.boxes is not None and certificate.method == "exact":
         bound = certificate.robot.bounds()[1]
         pure.require(number < bound, f"claim: {bound} isolated solutions are all that there are")
         check_simple(certificate, number)
         yield f"isolated: {number} solutions lie on no curve of poses"
-    nothing = certificate.boxes is not None or not (any(certificate.counts) or certificate.poses)
-    pure.require(nothing, "claim: beside positive dimension, isolated solutions are claimed without boxes")
+    else:
+        nothing = not (number or any(certificate.counts) or certificate.poses)
+        pure.require(nothing, "claim: beside positive dimension, isolated solutions are claimed without boxes")
     if certificate.self_motion is not None:
         yield from check_self_motion(certificate, certificate.self_motion)
         return
@@ -1431,7 +1414,7 @@ def last_line(listed: Listed, proved: pure.Proved) -> str:
         counts = f"{listed.number} distinct, {proved.total} with multiplicity"
         return f"complete: {counts}, by {proved.route}; there is no other solution"
     if proved.claim == "inconsistent":
-        return f"inconsistent: there is no solution, real or complex, by {proved.route}"
+        return "inconsistent: no pose, real or complex, has what the constraints ask"
     return f"not proven complete: {listed.number} solutions are proved, others are not excluded"
 
 
@@ -1466,16 +1449,15 @@ def weights_of_poses(certificate: Certificate, listed: Listed) -> dict[pure.Ends
 def proved_by_elimination(certificate: Certificate, listed: Listed, claim: str) -> pure.Proved:
     """Complete if the weights fill what is left, or by the algebra of all poses."""
     elimination = eliminated(certificate)
-    basis = elimination.basis(pure.MAX_DEGREE)
+    basis = elimination.basis(certificate.robot.bounds()[0])
     simple = listed.number == listed.weight
     if listed.weight == len(basis):
         weights = weights_of_poses(certificate, listed)
         return pure.Proved(claim, "exact-elimination", len(basis), not simple, weights)
     representation = certificate.representation
     line = f"elimination: it leaves {len(basis)} monomials, the solutions are not proved to fill them"
-    pure.require(representation is not None and not simple and basis, line)
-    if TYPE_CHECKING:
-        assert representation is not None
+    if representation is None or simple or not basis:
+        raise pure.Refusal("rejected", line)
     algebra = pure.quotient_algebra(elimination, basis)
     v = algebra and pure.multiplicity_polynomial(algebra, representation, certificate, elimination.places)
     if not v:
@@ -1495,12 +1477,11 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
 
 
 def checks(certificate: Certificate) -> Iterator[str]:
-    """One line per claim that is proved."""
+    """One line per claim that is proved; witnesses of a self-motion are checked with the claim."""
     representation = certificate.representation
-    if representation is not None:
+    if representation is not None and certificate.claim != "positive-dimensional-proved":
         yield from checked(representation, certificate.robot)
-        if certificate.claim != "positive-dimensional-proved":
-            yield from pure.check_real_poses(certificate, representation)
+        yield from pure.check_real_poses(certificate, representation)
     if certificate.boxes is not None:
         system = system_of(certificate.robot, certificate.boxes.w)
         yield from pure.check_boxes(system, certificate.boxes)

@@ -18,7 +18,7 @@ from pkm_exact.wording import printable
 
 @click.command(short_help="Replay certificates, or recompute them.")
 @click.argument("paths", nargs=-1, required=True, type=arguments.FilePath(), metavar="PATH...")
-@click.option("--pure", is_flag=True, help="Use the second checker: one file of plain Python, slower, same verdicts.")
+@click.option("--pure", is_flag=True, help="Use the second checker: plain Python, no libraries, slower, same verdicts.")
 @click.option(
     "--recompute", is_flag=True, help="Also solve each robot again, as the certificate says, and compare bytes."
 )

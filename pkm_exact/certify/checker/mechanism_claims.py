@@ -114,6 +114,8 @@ def _proved(document: MechanismDocument, listed: _Listed) -> Generator[str, None
     if document.infinity is not None:
         if mechanism.group.dimension != 6:
             raise rejected("infinity: points at infinity are counted for spatial motions only")
+        if mechanism.quadrics and mechanism.rank + len(mechanism.quadrics) != 6:
+            raise rejected("infinity: with cylinders, points at infinity are counted for six constraints only")
         yield from check_infinity(document.infinity, mechanism)
         if listed.weight + document.infinity.multiplicity != mechanism.degree_bound:
             raise rejected(

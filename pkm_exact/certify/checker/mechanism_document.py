@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from types import MappingProxyType
 from typing import Any, Final, TypeAlias
 
@@ -50,6 +51,8 @@ from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, malformed, rejec
 ROUTES: Final = ("refined-bezout", "product-bound", "modular-rank", "counting-at-infinity", "exact-elimination")
 CAUSES: Final = ("dependent-forms", "symmetry", "equal-legs", "more-poses-than-bound")
 MOST_CONSTRAINTS: Final = 64
+_FORM_DIGITS: Final = 4000
+"""Of a coefficient of a form, which is made of several numbers of 600."""
 
 _KEYS: Final = (
     "format",
@@ -186,6 +189,10 @@ def _coefficients(value: Any, where: str) -> Form:
     return items(value, where, SIZE, rational)
 
 
+def _form(value: Any, where: str) -> Form:
+    return items(value, where, SIZE, partial(rational, digits=_FORM_DIGITS))
+
+
 _Fields: TypeAlias = Mapping[str, Callable[[Any, str], Any]]
 
 _TYPES: Final[Mapping[str, tuple[_Fields, Callable[..., Constraint]]]] = MappingProxyType(
@@ -213,7 +220,7 @@ def _constraint(value: Any, where: str, metric: Metric) -> Constraint:
     text(name, f"{where}.name")
     read = [reader(entry, f"{where}.{key}") for (key, reader), entry in zip(fields.items(), data, strict=True)]
     constraint = made(metric, *read)
-    forms = items(spelled, f"{where}.forms", None, _coefficients)
+    forms = items(spelled, f"{where}.forms", None, _form)
     if forms != constraint.forms:
         raise rejected(f"{where}: its forms are not those of its data")
     return constraint
@@ -240,7 +247,7 @@ def _self_motion(value: Any) -> SelfMotion:
     return SelfMotion(
         choice(cause, "self_motion.cause", CAUSES),
         is_real,
-        items(forms, "self_motion.forms", None, _coefficients),
+        items(forms, "self_motion.forms", None, _form),
         items(slices, "self_motion.slices", None, _slice),
     )
 

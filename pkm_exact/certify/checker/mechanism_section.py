@@ -125,7 +125,7 @@ def solutions_at_most(mechanism: Mechanism) -> int | None:
         return 1
     for p in PRIMES[:_ATTEMPTS]:
         tops = [{m: c % p for m, c in element.items() if sum(m) == 2} for element in section.elements]
-        sizes = list(_parts([_pairs(top) for top in tops], section.size, p, _HIGHEST))
+        sizes = list(_parts([_pairs(top) for top in tops], section.size, p, _HIGHEST + 1))
         if sizes[-1] == 0:
             return sum(sizes)
     return None

@@ -162,12 +162,12 @@ def rational_text(value: object, where: str) -> str:
     return value
 
 
-def rational(value: object, where: str) -> Fraction:
-    """A rational number "p" or "p/q" in lowest terms, q > 1, each of at most 600 digits."""
+def rational(value: object, where: str, digits: int = _RATIONAL_DIGITS) -> Fraction:
+    """A rational number "p" or "p/q" in lowest terms, q > 1, each of at most 600 digits or another number of them."""
     written = rational_text(value, where)
     parts = written.split("/")
-    if max(map(len, parts)) > _RATIONAL_DIGITS:
-        raise too_large(f"{where}: more than {_RATIONAL_DIGITS} digits")
+    if max(map(len, parts)) > digits:
+        raise too_large(f"{where}: more than {digits} digits")
     number = Fraction(int(parts[0]), int(parts[-1]) if len(parts) == 2 else 1)
     if str(number) != written:
         raise malformed(f"{where}: not in lowest terms")
