@@ -9,6 +9,7 @@ from typing import Any, Final
 from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.constraint_types import CONSTRAINTS
 from pkm_exact.constraints.distance import Distance
+from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
@@ -35,12 +36,24 @@ def certified_machine(content: Mapping[str, Any]) -> Machine:
     return Robot(robot["name"], kind, robot["unit"], robot["source"], base, platform, _metric(robot))
 
 
+def is_of_legs(content: Mapping[str, Any]) -> bool:
+    """Whether the robot of a certificate has legs without names only, as many as its motions have freedoms."""
+    robot = content["robot"]
+    if "constraints" not in robot:
+        return True
+    legs = [entry for entry in robot["constraints"] if entry["type"] == Distance.type and not entry["name"]]
+    return (robot["motion"], len(legs)) in _KINDS and len(legs) == len(robot["constraints"])
+
+
 def certified_problem(content: Mapping[str, Any]) -> ForwardProblem:
-    """The problem that an accepted certificate answers."""
-    machine = certified_machine(content)
-    if isinstance(machine, Robot):
-        return machine.problem(certified_squares(content))
-    return machine.problem(machine.configuration())
+    """The problem that an accepted certificate answers; it may have legs that models may not have."""
+    robot = content["robot"]
+    if "constraints" in robot:
+        return ForwardProblem(tuple(map(_constraint, robot["constraints"])), _metric(robot), MOTIONS[robot["motion"]])
+    joints = zip(*(map(_vector, robot[side]) for side in ("base", "platform")), strict=True)
+    squares = certified_squares(content)
+    legs = tuple(Distance(a, b, square) for (a, b), square in zip(joints, squares, strict=True))
+    return ForwardProblem(legs, _metric(robot), KINDS[robot["kind"]].motion)
 
 
 def certified_squares(content: Mapping[str, Any]) -> list[Fraction]:

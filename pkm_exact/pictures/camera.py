@@ -59,6 +59,7 @@ def camera(scene: Scene, view: View) -> Camera:
     Examples
     --------
     >>> from types import SimpleNamespace
+    >>> from pkm_exact.motions.motion_groups import SPATIAL
     >>> front = camera(SimpleNamespace(motion=SPATIAL), View(-90, 0))
     >>> [round(x, 9) + 0.0 for x in front.flat((1, 2, 3))]
     [1.0, 3.0]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from math import floor, log10
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
 from pkm_exact.pictures.scene import PoseView, Scene
+from pkm_exact.pictures.shapes import Shape
 from pkm_exact.wording import counted
 
 if TYPE_CHECKING:
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 
 KEY_WIDTH, KEY_HEIGHT = 1.75, 0.76
 """Inches that the key takes."""
+LONG_ENTRY_WIDTH: Final = 1.9
+"""The same where constraints have names."""
 ENTRY_WIDTH: Final = 0.74
 """Inches that an entry of the legend takes."""
 _SIZE: Final = 8.5
@@ -93,12 +96,13 @@ def axis_names(scene: Scene) -> tuple[str, ...]:
 
 def legend_rows(scene: Scene, width: float, *, key: bool = True) -> int:
     """How many rows the legend has, at most, on a figure of this width, with or without a key beside it."""
-    entries = len(scene.legs) + 3 + 2 * bool(scene.chain)
-    return -(-entries // _columns(width, key))
+    entries = len(scene.legs) + 3 + 2 * bool(scene.chain) + len(scene.shapes)
+    return -(-entries // _columns(scene, width, key))
 
 
-def _columns(width: float, key: bool) -> int:
-    return max(1, floor((width - KEY_WIDTH * key - 0.1) / ENTRY_WIDTH))
+def _columns(scene: Scene, width: float, key: bool) -> int:
+    entry = LONG_ENTRY_WIDTH if scene.shapes else ENTRY_WIDTH
+    return max(1, floor((width - KEY_WIDTH * key - 0.1) / entry))
 
 
 def add_legend(figure: Figure, scene: Scene, *, ghosts: bool = False, key: bool = True) -> None:
@@ -109,9 +113,13 @@ def add_legend(figure: Figure, scene: Scene, *, ghosts: bool = False, key: bool 
     handles: list[Artist] = []
     if not ghosts:
         handles += [
-            Line2D([], [], color=style.LEG_COLOURS[leg], linewidth=2.2, label=f"leg {leg + 1}")
+            Line2D([], [], color=style.leg_colour(leg + 1), linewidth=2.2, label=f"leg {leg + 1}")
             for leg in range(len(scene.legs))
         ]
+        for shape in scene.shapes:
+            dashes: Any = style.SHAPE_DASHES[shape.kind]
+            colour = style.leg_colour(shape.number)
+            handles.append(Line2D([], [], color=colour, linestyle=dashes, label=_named(shape)))
     if scene.chain:
         dashes = style.DASHES[scene.chain]
         handles.append(Line2D([], [], color=style.INK, linewidth=3.2, linestyle=dashes, label=scene.chain))
@@ -123,7 +131,7 @@ def add_legend(figure: Figure, scene: Scene, *, ghosts: bool = False, key: bool 
     else:
         handles.append(Patch(facecolor=style.PLATFORM_FILL, edgecolor=style.INK, label="platform"))
     width, height = figure.get_size_inches()
-    columns = min(_columns(width, key), len(handles))
+    columns = min(_columns(scene, width, key), len(handles))
     figure.legend(
         # Matplotlib fills columns; read row by row they are in order.
         handles=[handle for column in range(columns) for handle in handles[column::columns]],
@@ -186,3 +194,8 @@ def round_length(longest: float) -> float:
     """
     power = 10.0 ** floor(log10(longest))
     return power * max(step for step in (1, 2, 5) if step * power <= longest * (1 + 1e-9))
+
+
+def _named(shape: Shape) -> str:
+    """The name of a constraint, short, and what it is."""
+    return f"{style.drawable(shape.name, 12)} ({shape.kind})"

@@ -15,16 +15,17 @@ from flint import arb
 
 from pkm_exact.certify.checker.document import read_document
 from pkm_exact.certify.checker.krawczyk import Equations, narrowed
+from pkm_exact.certify.checker.mechanism_boxes import MechanismEquations
+from pkm_exact.certify.checker.mechanism_document import read_mechanism_document
 from pkm_exact.certify.checker.realposes import ordinary_coordinates
-from pkm_exact.constraints.distance import Distance
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.poses.jacobian import LegJacobian, pose_jacobians
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.isolation import real_root_enclosures
 
 if TYPE_CHECKING:
-    from pkm_exact.certify.checker.document import Document, Representation
+    from pkm_exact.certify.checker.document import ListedPose, Representation
+    from pkm_exact.certify.checker.krawczyk import Isolated
 
 FIRST_PRECISION: Final = 256
 DOUBLE_BITS: Final = 60
@@ -40,31 +41,43 @@ class Placed:
     jacobian: LegJacobian | None
 
 
-def typed_document(view: Mapping[str, Any]) -> Document:
-    """What the checker reads in an accepted certificate of legs (``certify.legs_view``), but for what proves it."""
-    proofs = ("infinity", "self_motion", "digest")
-    body = {key: value for key, value in view.items() if key not in proofs}
-    return read_document({**body, "version": 1, "completeness_route": None})
+@dataclass(frozen=True)
+class ListedPoses:
+    """The poses that a certificate lists, and what encloses them: a representation, or boxes with their equations."""
+
+    representation: Representation | None
+    isolated: Isolated | None
+    equations: Equations | None
+    metric: tuple[int, int, int]
+    poses: tuple[ListedPose, ...]
 
 
-def problem_of(document: Document) -> ForwardProblem:
-    """The forward kinematics problem that a certificate answers."""
-    legs = tuple(Distance(leg.base, leg.platform, leg.length_squared) for leg in document.legs)
-    return ForwardProblem(legs, document.metric, PLANAR if len(legs) == 3 else SPATIAL)
+def listed_poses(content: Mapping[str, Any]) -> ListedPoses:
+    """The poses of an accepted certificate of either version."""
+    body = {key: value for key, value in content.items() if key != "digest"}
+    if "constraints" in content["robot"]:
+        found = read_mechanism_document(body)
+        boxes, mechanism = found.isolated, found.mechanism
+        equations = None if boxes is None else MechanismEquations(mechanism, boxes.chart)
+        return ListedPoses(found.representation, boxes, equations, mechanism.metric, found.poses)
+    document = read_document(body)
+    isolated = document.isolated
+    legs = None if isolated is None else Equations(document.legs, document.metric, isolated.chart)
+    return ListedPoses(document.representation, isolated, legs, document.metric, document.poses)
 
 
-def placed_poses(document: Document) -> list[Placed]:
-    """The listed poses of an accepted certificate, in its order."""
-    enclosures = _Enclosures(document)
+def placed_poses(listed: ListedPoses, problem: ForwardProblem) -> list[Placed]:
+    """The listed poses, in their order, and what is certified of the Jacobians of the problem that they answer."""
+    enclosures = _Enclosures(listed)
     places = enclosures.in_doubles()
-    jacobians = _jacobians(document, enclosures)
+    jacobians = _jacobians(listed, enclosures, problem)
     return [Placed(coordinates, *jacobian) for coordinates, jacobian in zip(places, jacobians, strict=True)]
 
 
 class _Enclosures:
     """Enclosures of the listed poses, to any precision."""
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: ListedPoses) -> None:
         self._document = document
         # The isolating intervals lie on one grid: in their order, the poses are those of the real roots in theirs.
         ends = [(Fraction(pose.parameter[0]), Fraction(pose.parameter[1])) for pose in document.poses if pose.parameter]
@@ -74,8 +87,8 @@ class _Enclosures:
         """Position, rotation and quaternion of the poses with these indices."""
         representation, isolated = self._document.representation, self._document.isolated
         metric = self._document.metric
-        if isolated is not None:  # also if a representation of witnesses stands beside it
-            equations = Equations(self._document.legs, metric, isolated.chart)
+        equations = self._document.equations
+        if isolated is not None and equations is not None:  # also if a representation of witnesses stands beside it
             for index in indices:
                 bits = precision
                 while (point := narrowed(equations, isolated.real[index], bits)) is None:
@@ -115,7 +128,9 @@ def _is_fine(value: arb) -> bool:
     return bool(value.is_finite() and value.rad() * arb(2) ** DOUBLE_BITS < 1 + abs(value.mid()))
 
 
-def _jacobians(document: Document, enclosures: _Enclosures) -> list[tuple[int | None, LegJacobian | None]]:
+def _jacobians(
+    document: ListedPoses, enclosures: _Enclosures, problem: ForwardProblem
+) -> list[tuple[int | None, LegJacobian | None]]:
     """Sign of the determinant of the leg Jacobian, and what is certified of it: 0 and None at a multiple solution.
 
     None twice where it is not proved whether the solution is simple.
@@ -125,7 +140,7 @@ def _jacobians(document: Document, enclosures: _Enclosures) -> list[tuple[int | 
     def of_simple(precision: int, indices: Sequence[int]) -> Iterator[Sequence[arb]]:
         return enclosures(precision, [simple[index] for index in indices])
 
-    found = dict(zip(simple, pose_jacobians(of_simple, problem_of(document), [None] * len(simple)), strict=True))
+    found = dict(zip(simple, pose_jacobians(of_simple, problem, [None] * len(simple)), strict=True))
     return [
         (found[index].det_sign, found[index]) if index in found else (None if pose.multiplicity is None else 0, None)
         for index, pose in enumerate(document.poses)

@@ -10,6 +10,7 @@ from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
 from pkm_exact.pictures.hull import faces
 from pkm_exact.pictures.scene import Point, PoseView, Scene
+from pkm_exact.pictures.shapes import PLANE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,6 +49,7 @@ def draw_robot(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen)
     draw_base(axes, scene, shot, pen, FAR if above else NEAR)
     draw_chains(axes, scene, pose, pen)
     draw_legs(axes, scene, pose, shot, pen)
+    draw_shapes(axes, scene, pose, pen)
     draw_platform(axes, scene, pose, shot, pen, style.PLATFORM_FILL, style.INK, NEAR if above else FAR)
 
 
@@ -55,7 +57,7 @@ def draw_chains(axes: Axes, scene: Scene, pose: PoseView, pen: Pen, colour: str 
     """Cranks or slides, from base joints to knees, in the colours of their legs unless a colour is given."""
     for leg, knee in enumerate(pose.knees):
         options = {"linewidth": 1.9 * pen.width, "linestyle": style.DASHES[scene.chain], "zorder": _CHAINS}
-        shade = colour or style.LEG_COLOURS[leg]
+        shade = colour or style.leg_colour(leg + 1)
         _line(axes, scene, (scene.base[leg], knee), color=shade, gid=f"chain-{leg + 1}", **options)
     if pose.knees:
         _dots(axes, scene, pose.knees, "D", style.INK, pen)
@@ -70,11 +72,22 @@ def draw_legs(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen, 
     ends = [(feet[a], pose.platform[b]) for a, b in scene.legs]
     order = sorted(range(len(ends)), key=lambda leg: shot.depth(middle(ends[leg])))
     for place, leg in enumerate(order):
-        shade, layer = colour or style.LEG_COLOURS[leg], _LEGS + place / len(order)
+        shade, layer = colour or style.leg_colour(leg + 1), _LEGS + place / len(order)
         if pen.opacity == 1:
             _line(axes, scene, ends[leg], color="white", linewidth=2.2 * pen.width, zorder=layer)
         options = {"linewidth": pen.width, "alpha": pen.opacity, "zorder": layer}
         _line(axes, scene, ends[leg], color=shade, gid=f"leg-{leg + 1}", **options)
+
+
+def draw_shapes(axes: Axes, scene: Scene, pose: PoseView, pen: Pen) -> None:
+    """Planes as squares, lines and axes as segments, at the joints that they hold."""
+    for shape in scene.shapes:
+        shade = style.leg_colour(shape.number)
+        for number, line in enumerate(shape.lines(pose.position, pose.rotation, scene.size), 1):
+            options = {"linewidth": 0.8 * pen.width, "linestyle": style.SHAPE_DASHES[shape.kind], "zorder": _CHAINS}
+            _line(axes, scene, line, color=shade, gid=f"{shape.kind}-{shape.number}-{number}", **options)
+            if shape.kind == PLANE and not scene.motion.is_planar:
+                _face(axes, scene, line[:-1], shade, 0.12 * pen.opacity, FAR)
 
 
 def middle(points: Sequence[Point]) -> Point:

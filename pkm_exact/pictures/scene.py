@@ -16,10 +16,11 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from pkm_exact.errors import InputError
 from pkm_exact.motions.motion import Motion
-from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
+from pkm_exact.pictures.shapes import Shape
 from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.geometry.robot import Configuration, Robot
     from pkm_exact.pictures.coordinates import Placed
     from pkm_exact.poses.jacobian import LegJacobian
@@ -105,6 +106,8 @@ class Scene:
     chain : str
         "crank" or "slide" if these stand between base joints and rods; otherwise empty.
     poses : tuple of PoseView
+    shapes : tuple of Shape
+        What holds joints without being a leg: planes, lines, points, axes.
     """
 
     name: str
@@ -120,6 +123,13 @@ class Scene:
     lengths: tuple[float, ...]
     chain: str
     poses: tuple[PoseView, ...]
+    shapes: tuple[Shape, ...] = ()
+
+    @property
+    def size(self) -> float:
+        """How large the robot is in all its poses."""
+        points = [*self.base, *(joint for pose in self.poses for joint in pose.platform)]
+        return max(max(values) - min(values) for values in zip(*points, strict=True)) or 1.0
 
     def feet(self, pose: PoseView) -> tuple[Point, ...]:
         """The lower ends of the legs or rods: knees, or base joints."""
@@ -193,34 +203,39 @@ def scene_of(document: Mapping[str, Any], robot: Robot | None = None) -> Scene:
 
 
 def _scene(document: Mapping[str, Any], robot: Robot | None) -> Scene:
-    from pkm_exact.certify.legs_view import legs_view
-    from pkm_exact.pictures.coordinates import placed_poses, typed_document
+    from pkm_exact.certify.certified_machine import certified_configuration, certified_problem, is_of_legs
+    from pkm_exact.pictures.coordinates import listed_poses, placed_poses
+    from pkm_exact.pictures.mechanism_scene import mechanism_scene
 
-    document = legs_view(document)
-    typed = typed_document(document)
-    axes = _axes(typed.metric)
+    problem = certified_problem(document)
+    if not is_of_legs(document):
+        if robot is not None:
+            raise InputError("model: cranks and slides are those of robots with legs; leave it out")
+        return mechanism_scene(document, problem)
+    legs = problem.distances
+    axes = _axes(problem.metric)
     locked = None if robot is None else configuration_of(document, robot)
-    base = tuple(_ordinary(leg.base, axes) for leg in typed.legs)
-    platform = tuple(_ordinary(leg.platform, axes) for leg in typed.legs)
+    base = tuple(_ordinary(leg.base, axes) for leg in legs)
+    platform = tuple(_ordinary(leg.platform, axes) for leg in legs)
     knees: tuple[Point, ...] = ()
     if robot is not None and robot.chains and locked is not None:
         base, knees = tuple(_ordinary(joint, axes) for joint in robot.base_joints), base
-    places = placed_poses(typed)
+    places = placed_poses(listed_poses(document), problem)
     return Scene(
         name=str(document["robot"]["name"]),
-        configuration=document["configuration"]["name"],
-        kind=robot.kind if robot is not None else str(document["robot"]["kind"]),
+        configuration=certified_configuration(document),
+        kind=robot.kind if robot is not None else _kind(problem),
         unit=str(document["robot"]["unit"]),
-        motion=PLANAR if len(typed.legs) == 3 else SPATIAL,
-        claim=typed.claim,
-        complex_solutions=typed.complex_solutions,
+        motion=problem.motion,
+        claim=document["claim"],
+        complex_solutions=document["complex_solutions"],
         base=base,
         platform=platform,
-        legs=tuple((i, i) for i in range(len(typed.legs))),
-        lengths=tuple(sqrt(leg.length_squared) for leg in typed.legs),
+        legs=tuple((i, i) for i in range(len(legs))),
+        lengths=tuple(sqrt(leg.length_squared) for leg in legs),
         chain=_chain(robot),
         poses=tuple(
-            _view(number, listed, place, platform, knees)
+            view_of(number, listed, place, platform, knees)
             for number, (listed, place) in enumerate(zip(document["poses"], places, strict=True), 1)
         ),
     )
@@ -242,9 +257,10 @@ def scene_of_solution(robot: Robot, configuration_name: str | None, solution: So
     return scene_of(certificate(robot, configuration_name, solution), robot)
 
 
-def _view(
+def view_of(
     number: int, listed: Mapping[str, Any], place: Placed, platform: Sequence[Point], knees: tuple[Point, ...]
 ) -> PoseView:
+    """A listed pose with its coordinates, ready to be drawn."""
     x = place.coordinates
     position = (x[0], x[1], x[2])
     rotation = ((x[3], x[4], x[5]), (x[6], x[7], x[8]), (x[9], x[10], x[11]))
@@ -278,6 +294,11 @@ def _axes(metric: Sequence[int]) -> Point:
 def _ordinary(joint: Sequence[Fraction], axes: Point) -> Point:
     x, y, z = (float(value) * axis for value, axis in zip(joint, axes, strict=True))
     return x, y, z
+
+
+def _kind(problem: ForwardProblem) -> str:
+    """The kind of robot whose legs themselves are actuated."""
+    return "3-RPR" if problem.motion.is_planar else "6-UPS"
 
 
 def _chain(robot: Robot | None) -> str:

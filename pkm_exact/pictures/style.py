@@ -12,6 +12,8 @@ from pkm_exact.wording import printable
 
 LEG_COLOURS: Final = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """One per leg. M. Okabe, K. Ito, Color Universal Design (2008): told apart by colour-blind readers too."""
+SHAPE_DASHES: Final = {"plane": "-", "line": "--", "axis": "-.", "point": ":"}
+"""Lines of constraints that are no legs, by what they are."""
 PLATFORM_FILL: Final = "#F0E442"
 BASE_FILL: Final = "#B8B8B8"
 INK: Final = "#202020"
@@ -71,3 +73,12 @@ def _characters() -> frozenset[int]:
     from matplotlib.font_manager import FontProperties, findfont, get_font
 
     return frozenset(get_font(findfont(FontProperties(family="DejaVu Sans"))).get_charmap())
+
+
+def leg_colour(number: int) -> str:
+    """The colour of a leg or another constraint, by its number from 1; they are used again after the last.
+
+    >>> leg_colour(1) == leg_colour(7)
+    True
+    """
+    return LEG_COLOURS[(number - 1) % len(LEG_COLOURS)]

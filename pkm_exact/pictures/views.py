@@ -156,7 +156,7 @@ def _number_legs(axes: Axes, scene: Scene, pose: PoseView) -> None:
     """The numbers of the legs, near the middle of each, for those who do not tell the colours."""
     feet = scene.feet(pose)
     for leg, (a, b) in enumerate(scene.legs):
-        colour, foot, joint = style.LEG_COLOURS[leg], feet[a], pose.platform[b]
+        colour, foot, joint = style.leg_colour(leg + 1), feet[a], pose.platform[b]
         ends = (foot, foot, joint) if leg % 2 else (foot, joint, joint)  # neighbours at different heights
         label(axes, scene, middle(ends), str(leg + 1), colour, LABELS)
 
@@ -179,5 +179,12 @@ def _title(figure: Figure, text: str, cell: Rectangle, size: float) -> None:
 
 
 def _points(scene: Scene, poses: Sequence[PoseView]) -> list[Point]:
-    """All joints that are drawn."""
-    return [*scene.base, *(joint for pose in poses for joint in (*pose.platform, *pose.knees))]
+    """All joints that are drawn, and the corners of planes and ends of lines."""
+    held = [
+        point
+        for pose in poses
+        for shape in scene.shapes
+        for line in shape.lines(pose.position, pose.rotation, scene.size)
+        for point in line
+    ]
+    return [*scene.base, *(joint for pose in poses for joint in (*pose.platform, *pose.knees)), *held]

@@ -16,9 +16,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 import pkm_exact
 from pkm_exact.certify.build import canonical_bytes
+from pkm_exact.certify.certified_machine import certified_machine, is_of_legs
 from pkm_exact.certify.legs_view import legs_view
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.pictures.scene import configuration_of, scene_of
 from pkm_exact.report_page.markup import Markup, element, embedded_json, joined
 from pkm_exact.report_page.numerals import exact, unit_words, with_unit
@@ -29,6 +31,7 @@ from pkm_exact.report_page.sections import (
     claim_section,
     groups,
     legend,
+    mechanism_section,
     pose_table,
     proof_section,
     robot_section,
@@ -64,7 +67,9 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
         If the certificate is not one of the given robot, or its numbers are too large to be drawn.
     """
     tolerances = is_of_tolerances(document)
-    shown_robot = document if tolerances else legs_view(document)
+    machine = None if tolerances or is_of_legs(document) else certified_machine(document)
+    mechanism = machine if isinstance(machine, Mechanism) else None
+    shown_robot = document if tolerances or mechanism else legs_view(document)
     facts = Facts(
         file,
         sha256(canonical_bytes(document)).hexdigest(),
@@ -81,12 +86,12 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
     sections = {
         "claim": claim_section(meaning, counts, limits_of(document), notes),
         "explorer": _explorer(scene, poses, tolerances=tolerances) if poses.rows else Markup(),
-        "robot": robot_section(
-            shown_robot, {**extra, **_actuators(document, scene, robot)}, has_knees=bool(scene.chain)
-        ),
+        "robot": mechanism_section(mechanism, scene.configuration)
+        if mechanism is not None
+        else robot_section(shown_robot, {**extra, **_actuators(document, scene, robot)}, has_knees=bool(scene.chain)),
         "proof": proof_section(facts, document),
     }
-    return _assembled(shown_robot, scene, meaning, poses, sections)
+    return _assembled(scene, meaning, poses, sections)
 
 
 def _certified(document: Mapping[str, Any], robot: Robot | None) -> tuple[Scene, PoseRows]:
@@ -159,7 +164,7 @@ def _explorer(scene: Scene, poses: PoseRows, *, tolerances: bool) -> Markup:
     words = {
         "view_keys": f"{turn}, wheel or pinch to zoom; by keyboard: {arrows}, 0 to reset.",
         "presets": joined(*buttons),
-        "legend": legend(len(scene.legs)),
+        "legend": legend(len(scene.legs), scene.shapes),
         "precision": precision,
         "count": str(len(poses.rows)),
         "table": pose_table(poses),
@@ -167,17 +172,14 @@ def _explorer(scene: Scene, poses: PoseRows, *, tolerances: bool) -> Markup:
     return Markup(Template(_asset("explorer.html")).substitute(words))
 
 
-def _assembled(
-    document: Mapping[str, Any], scene: Scene, meaning: Meaning, poses: PoseRows, sections: Mapping[str, Markup]
-) -> str:
+def _assembled(scene: Scene, meaning: Meaning, poses: PoseRows, sections: Mapping[str, Markup]) -> str:
     style = _asset("style.css")
     script = '"use strict";\n' + "\n".join(map(_asset, SCRIPTS))
     policy = (
         f"default-src 'none'; script-src '{_digest(script)}'; style-src '{_digest(style)}'; img-src data:; "
         "base-uri 'none'; form-action 'none'"
     )
-    kind, actuated = document["robot"]["kind"], document["configuration"]["name"]
-    configuration = f"configuration {actuated}" if actuated else "given leg lengths"
+    configuration = f"configuration {scene.configuration}" if scene.configuration else "given leg lengths"
     target, words = ("#poses", "Skip to the poses") if poses.rows else ("#claim", "Skip to the claim")
     parts: dict[str, str] = {
         "policy": policy,
@@ -185,7 +187,7 @@ def _assembled(
         "style": style,
         "skip": element("a", words, href=target, cls="skip"),
         "name": joined(scene.name),
-        "subtitle": joined(f"{kind}, {configuration}, unit of length: {unit_words(scene.unit)}"),
+        "subtitle": joined(f"{scene.kind}, {configuration}, unit of length: {unit_words(scene.unit)}"),
         "footer": joined(
             f"Made by pkm_exact {pkm_exact.__version__} from an accepted certificate. "
             "It holds all its data and connects to nothing."

@@ -21,19 +21,25 @@ def payload(scene: Scene, poses: PoseRows) -> dict[str, Any]:
         "unit": with_unit("", scene.unit),
         "planar": scene.motion.is_planar,
         "base": _points(scene.base),
+        "legs": [list(pair) for pair in scene.legs],
         "columns": poses.plain,
         "exact_first": poses.first,
-        "poses": [_pose(row, view) for row, view in zip(poses.rows, scene.poses, strict=True)],
+        "poses": [_pose(row, view, scene) for row, view in zip(poses.rows, scene.poses, strict=True)],
     }
 
 
-def _pose(row: Row, view: PoseView) -> dict[str, Any]:
+def _pose(row: Row, view: PoseView, scene: Scene) -> dict[str, Any]:
     return {
         "number": row.number,
         "origin": _point(view.position),
         "axes": _points(view.rotation),
         "platform": _points(view.platform),
         "knees": _points(view.knees),
+        "shapes": [
+            {"number": shape.number, "kind": shape.kind, "points": _points(line)}
+            for shape in scene.shapes
+            for line in shape.lines(view.position, view.rotation, scene.size)
+        ],
         "lines": row.lines,
         "summary": row.summary,
         "position": row.position,

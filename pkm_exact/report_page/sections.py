@@ -13,6 +13,8 @@ from pkm_exact.report_page.markup import Markup, element, joined
 from pkm_exact.report_page.numerals import exact, in_unit, root_of, times_root, unit_words
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.mechanism import Mechanism
+    from pkm_exact.pictures.shapes import Shape
     from pkm_exact.report_page.rows import PoseRows, Row
     from pkm_exact.report_page.words import Meaning
 
@@ -137,13 +139,15 @@ def _table_row(row: Row, *, first: bool) -> Markup:
     )
 
 
-def legend(legs: int) -> Markup:
-    """Number and colour of each leg."""
-    return element("ul", *(element("li", _swatch(i), f"leg {i}") for i in range(1, legs + 1)), cls="legend small")
+def legend(legs: int, shapes: Sequence[Shape] = ()) -> Markup:
+    """Number and colour of each leg, and of what else holds the platform."""
+    entries = [(i, f"leg {i}") for i in range(1, legs + 1)]
+    entries += [(shape.number, f"{shape.name} ({shape.kind})") for shape in shapes]
+    return element("ul", *(element("li", _swatch(i), text) for i, text in entries), cls="legend small")
 
 
 def _swatch(number: int) -> Markup:
-    line = element("line", x1=2, y1=5, x2=20, y2=5, cls=f"leg leg-{number}")
+    line = element("line", x1=2, y1=5, x2=20, y2=5, cls=f"leg leg-{(number - 1) % 6 + 1}")
     return element("svg", line, cls="swatch", viewBox="0 0 22 10", aria_hidden="true")
 
 
@@ -173,6 +177,47 @@ def robot_section(document: Mapping[str, Any], extra: Mapping[str, str], *, has_
         id="robot",
         aria_labelledby="robot-title",
     )
+
+
+def mechanism_section(mechanism: Mechanism, configuration: str | None) -> Markup:
+    """A mechanism as the certificate has it: each constraint with its data, exactly."""
+    facts = {
+        "name": mechanism.name,
+        "kind": f"{len(mechanism.constraints)} constraints on {mechanism.motion.title}",
+        "configuration": configuration or "values given freely",
+        "unit of length": unit_words(mechanism.unit),
+        "source": mechanism.source,
+    }
+    if set(mechanism.metric) != {1}:
+        facts["metric"] = f"{', '.join(map(str, mechanism.metric))}: coordinates times the roots of these are ordinary"
+    entries = (joined(element("dt", key), element("dd", value)) for key, value in facts.items())
+    rows = (
+        element(
+            "tr",
+            element("th", _swatch(number), constraint.name, scope="row"),
+            element("td", constraint.type),
+            element("td", "; ".join(f"{field} {_data(getattr(constraint, field))}" for field in constraint.fields)),
+        )
+        for number, constraint in enumerate(mechanism.constraints, 1)
+    )
+    table = element(
+        "table",
+        element("caption", f"Constraints, exact, in the coordinates of the certificate{in_unit(mechanism.unit)}."),
+        element("thead", element("tr", *(element("th", title, scope="col") for title in ("name", "type", "data")))),
+        element("tbody", *rows),
+    )
+    return element(
+        "section",
+        element("h2", "The robot", id="robot-title"),
+        element("div", element("dl", *entries, cls="facts"), element("div", table, cls="scroll"), cls="halves"),
+        cls="sheet",
+        id="robot",
+        aria_labelledby="robot-title",
+    )
+
+
+def _data(value: object) -> str:
+    return f"({', '.join(map(str, value))})" if isinstance(value, tuple) else str(value)
 
 
 def _joint_table(document: Mapping[str, Any], caption: str, foot: str) -> Markup:

@@ -205,10 +205,18 @@ class View {
     };
     if (!isGhost) body("base", this.scene.base);
     body("platform", pose.platform);
-    this.scene.base.forEach((joint, i) => {
-      if (pose.knees.length && !isGhost) add(this.line(at, "leg crank", joint, feet[i]), joint, feet[i]);
-      add(this.line(at, `leg leg-${i + 1}`, feet[i], pose.platform[i]), feet[i], pose.platform[i]);
+    this.scene.legs.forEach(([a, b], i) => {
+      const [joint, foot, end] = [this.scene.base[a], feet[a], pose.platform[b]];
+      if (pose.knees.length && !isGhost) add(this.line(at, "leg crank", joint, foot), joint, foot);
+      add(this.line(at, `leg leg-${(i % 6) + 1}`, foot, end), foot, end);
     });
+    if (!isGhost) {
+      pose.shapes.forEach(({ number, kind, points }) => {
+        points.slice(1).forEach((p, k) => {
+          add(this.line(at, `leg leg-${((number - 1) % 6) + 1} shape ${kind}`, points[k], p), points[k], p);
+        });
+      });
+    }
     if (!isGhost) {
       const joint = (style, p) => {
         const { x, y } = at(p);
