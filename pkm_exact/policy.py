@@ -46,7 +46,7 @@ class Policy:
     lifting_bits: int = 1 << 17
     degree_limit: int = 40
     dimension_limit: int = 2000
-    short_proofs: bool = False
+    short_proofs: bool = True
 
     def seed_for(self, *data: Data) -> int:
         """The seed of a choice about these data: the same for the same data, and for others another.

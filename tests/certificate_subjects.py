@@ -14,8 +14,11 @@ from certificate_tools import boxed_certificate, golden, tolerant_certificate, w
 from pkm_exact.certify.build import certificate
 from pkm_exact.engine import solve
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.policy import Policy
 
 Content = dict[str, Any]
+FIRST_VERSION = Policy(short_proofs=False)
+"""For certificates of version 1, whatever shorter proofs there are."""
 
 
 def _open(name: str, tolerance: str) -> Content:
@@ -45,7 +48,7 @@ CIRCLE = tuple(
 
 def _made_up(kind: str, base: Any, platform: Any, squares: Any, metric: Any = (1, 1, 1)) -> Content:
     robot = Robot("made up", kind, "m", "made up", tuple(base), tuple(platform), metric)
-    return certificate(robot, None, solve(robot.problem(squares)))
+    return certificate(robot, None, solve(robot.problem(squares), policy=FIRST_VERSION))
 
 
 def _congruent() -> Content:

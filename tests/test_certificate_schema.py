@@ -32,6 +32,7 @@ def _schema(name: str) -> Any:
 def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     """The validator for a certificate of this kind."""
     name = TOLERANCES if content["format"] == tolerance_build.FORMAT else POSES
+    name = SECOND if name == POSES and content["version"] == 2 else name
     return jsonschema.Draft202012Validator(_schema(name))
 
 

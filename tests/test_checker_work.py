@@ -10,11 +10,7 @@ from pkm_exact.certify import check, pure
 
 ROOT = Path(__file__).parents[1]
 CASES = Path(__file__).parent / "cases"
-LONG = ("hexaglide", "ssm-rounded")
-GOLDENS = [
-    pytest.param(path, id=path.stem, marks=[pytest.mark.slow] * (path.stem in LONG))
-    for path in sorted((ROOT / "certs").glob("*.json"))
-]
+GOLDENS = [pytest.param(path, id=path.stem) for path in sorted((ROOT / "certs").glob("*.json"))]
 
 
 @pytest.mark.parametrize("path", GOLDENS)

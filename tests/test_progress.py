@@ -95,7 +95,7 @@ def test_lifting_by_primes_tells_bits() -> None:
 
 
 def test_exact_elimination_tells_matrices() -> None:
-    matrices = _recorded(solve, _problem("mssm")).amounts["completeness"]
+    matrices = _recorded(solve, _problem("similar-planar-s")).amounts["completeness"]
     counted = [amount for amount in matrices if amount.unit == "exact matrices"]
     assert [amount.done for amount in counted] == list(range(len(counted)))
     assert {amount.total for amount in counted} == {len(counted)}
@@ -298,7 +298,7 @@ SLOW = [
         ["solve", "models/rolland-6-6.toml", "--formulation", "AFD2"],
         r"Groebner basis: \d+ of at least \d+ critical pairs",
     ),
-    (["solve", "models/hexaglide.toml"], r"completeness: \[=* *\] \d of \d exact matrices, \d+ rows"),
+    (["solve", "models/similar-planar-s.toml"], r"completeness: \[=* *\] \d of \d exact matrices, \d+ rows"),
     (["check", "--pure", "certs/rolland-6-6.json"], r"checking rolland-6-6.json: \[ *\] 0 of 1 files"),
 ]
 

@@ -190,9 +190,9 @@ def test_robots_with_cranks_have_no_lengths_to_vary() -> None:
 
 
 def test_fallbacks_are_counted_and_say_why() -> None:
-    """An exact MSSM has 16 finite solutions, which do not prove themselves complete."""
-    lengths = read_robot(path("mssm")).configuration().lengths_squared
-    found = solve_many(path("mssm"), [lengths] * 2, squared=True)
+    """A robot with curves at infinity has 16 solutions, and no short proof that these are all."""
+    lengths = read_robot(path("similar-planar-s")).configuration().lengths_squared
+    found = solve_many(path("similar-planar-s"), [lengths] * 2, squared=True)
     assert found.fallbacks == 2
     assert all("the exact engine answered" in note for note in found.rows["note"])
     assert len(set(found.rows["count"])) == 1

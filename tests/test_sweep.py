@@ -159,21 +159,21 @@ def test_every_row_has_the_certificate_that_solve_writes(tmp_path: Path, method:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["alone.json", "certs", "lengths.csv", "out.jsonl"]
 
 
-@pytest.mark.parametrize("name", ["rolland-6-6", pytest.param("mssm", marks=pytest.mark.slow), "dietmaier"])
+@pytest.mark.parametrize("name", ["rolland-6-6", pytest.param("similar-planar-s", marks=pytest.mark.slow), "dietmaier"])
 def test_spatial_rows_have_the_certificate_of_a_single_solve(tmp_path: Path, name: str) -> None:
-    """Whether the near start serves (Rolland, Dietmaier) or the robot has fewer than 40 solutions (MSSM)."""
+    """Whether the near start serves (Rolland, Dietmaier) or the robot has fewer than 40 solutions (the other)."""
     robot = read_robot(FILES[name])
     squares = [float(square) for square in robot.configuration().lengths_squared]
     random = Random(4)
     lines = [",".join(f"{square**0.5 * random.uniform(0.99, 1.01):.3f}" for square in squares) for _ in range(3)]
     lengths = read_lengths(written(tmp_path / "lengths.csv", lines), robot)
     job = sweep_job(robot, lengths, method="krawczyk", width=WIDTH, policy=Policy(), squared=False, certificates=True)
-    assert (job.solver.start is None) == (name == "mssm")
-    for row in list(lengths.rows())[: 1 if name == "mssm" else 3]:
+    assert (job.solver.start is None) == (name == "similar-planar-s")
+    for row in list(lengths.rows())[: 1 if name == "similar-planar-s" else 3]:
         problem = robot.problem([Fraction(field) ** 2 for field in row.fields])
         alone = RowSolver("krawczyk", WIDTH, Policy()).solution(problem)
         assert job.answer(row).certificate == canonical_bytes(certificate(robot, None, alone))
-        assert alone.method == ("exact" if name == "mssm" else "krawczyk")
+        assert alone.method == ("exact" if name == "similar-planar-s" else "krawczyk")
 
 
 def test_decimals_are_right_to_one_unit_of_the_last_digit(tmp_path: Path) -> None:
