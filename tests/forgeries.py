@@ -175,9 +175,116 @@ def _at_infinity() -> Content:
 
 BOXES = {"solutions at infinity are no poses": Forgery(_at_infinity, reason="boxes: not proved that complex box 1")}
 
-FORGERIES: dict[str, Forgery] = {**POLYNOMIALS, **CELLS, **BOXES}
+# Claims
 
 
-def changed(content: Content, **entries: Any) -> Content:
-    """The content with other entries at the top."""
-    return {**content, **entries}
+def _circling(**entries: Any) -> Content:
+    """A parallelogram that moves on a circle, with two complex poses as witnesses: C1 = 5, C2 = t, t^2 = -16.
+
+    No box stands beside them, though a list of boxes does; no pose is listed.
+    """
+    content = {**subject("moving beside isolated poses")}
+    h, slope = ROOT * ROOT + 16, 2 * ROOT
+    f = [NONE, 5 * slope, fmpq_poly([-32]), NONE]
+    set_representation(content, [h, slope, NONE, NONE, NONE, *f], (0, 0, 0, 0, 0, 0, 1, 0))
+    return {
+        **_as_witnesses(content),
+        "krawczyk": {"chart": [1, 0, 0, 0], "real": [], "complex": []},
+        **entries,
+    }
+
+
+def _without(name: str, *keys: str, **entries: Any) -> Content:
+    """A certificate that lacks some parts, which are null then, and has other entries."""
+    return {**subject(name), **dict.fromkeys(keys), **entries}
+
+
+NOTHING: Content = {"poses": [], "real_poses": 0, "complex_solutions": 0, "distinct_solutions": 0, "box_exponent": 0}
+DETECTED = {"claim": "positive-dimensional-detected"}
+PROVED = {"claim": "positive-dimensional-proved"}
+OPEN = {"claim": "not-proven-complete", "completeness_route": None}
+
+
+def _with_multiplicities(name: str, *multiplicities: int | None) -> Content:
+    content = subject(name)
+    poses = zip(content["poses"], multiplicities, strict=True)
+    return {**content, "poses": [{**pose, "multiplicity": multiplicity} for pose, multiplicity in poses]}
+
+
+CLAIMS = {
+    "complex witnesses of a motion": Forgery(_circling, "accepted"),
+    "a motion that is proved is called detected": Forgery(lambda: _circling(**DETECTED), reason="claim"),
+    "a motion is called detected beside an elimination": Forgery(
+        lambda: _circling(**DETECTED, representation=None, elimination=[]), reason="claim"
+    ),
+    "a motion is called detected, and complete": Forgery(
+        lambda: _circling(**DETECTED, representation=None, completeness_route="refined-bezout"), reason="claim"
+    ),
+    "a motion is called detected beside boxes": Forgery(lambda: _circling(**DETECTED, representation=None), "accepted"),
+    "a motion is proved by nothing": Forgery(lambda: _circling(**PROVED, representation=None), reason="claim"),
+    **{
+        f"boxes with multiplicities {here}": Forgery(
+            lambda here=here: _with_multiplicities("planar, boxes", *here),
+            reason="multiplicity",  # type: ignore[misc]
+        )
+        for here in ((2, 1), (1, 2), (0, 1), (1, 0), (None, 1), (1, None))
+    },
+    **{
+        f"{key} of {name} is {step} off": Forgery(
+            lambda name=name, key=key, step=step: _without(name, **{key: subject(name)[key] + step}),  # type: ignore[misc]
+            reason=reason,
+        )
+        for name in ("planar, boxes", "planar, representation", "planar, multiple solutions", "not proven complete")
+        for key, reason in (
+            ("complex_solutions", "complex solutions"),
+            ("distinct_solutions", ""),
+            ("real_poses", "real poses"),
+        )
+        for step in (1, -1)
+    },
+    **{
+        f"{key} where nothing is listed": Forgery(
+            lambda key=key: _without("nothing known", **{key: 1}),  # type: ignore[misc]
+        )
+        for key in ("complex_solutions", "distinct_solutions", "real_poses", "box_exponent")
+    },
+    **{
+        f"{key} where no pose is, by an elimination": Forgery(
+            lambda key=key: _without("inconsistent, joints in a point", **{key: 1}),  # type: ignore[misc]
+        )
+        for key in ("complex_solutions", "distinct_solutions", "real_poses", "box_exponent")
+    },
+    **{
+        f"{key} beside a motion": Forgery(
+            lambda key=key: _without("moving, dependent legs", **{key: 1}),  # type: ignore[misc]
+        )
+        for key in ("complex_solutions", "distinct_solutions", "real_poses", "box_exponent")
+    },
+    "an elimination beside a motion": Forgery(
+        lambda: _without("moving, dependent legs", elimination=[]), reason="claim"
+    ),
+    **{
+        f"route {route} of {name}": Forgery(
+            lambda name=name, route=route: _without(name, completeness_route=route),  # type: ignore[misc]
+            reason="claim",
+        )
+        for name in ("moving, dependent legs", "moving beside isolated poses", "not proven complete", "nothing known")
+        for route in ("refined-bezout", "exact-elimination")
+    },
+    "method krawczyk without boxes": Forgery(lambda: _without("nothing known", method="krawczyk"), reason="method"),
+    "method krawczyk with a representation": Forgery(
+        lambda: _without("planar, representation", method="krawczyk"), reason="method"
+    ),
+    "method krawczyk with boxes and a representation": Forgery(
+        lambda: _circling(**OPEN, method="krawczyk"), reason="method"
+    ),
+    "method krawczyk with boxes and an elimination": Forgery(
+        lambda: _circling(**OPEN, method="krawczyk", representation=None, elimination=[]), reason="method"
+    ),
+    "method krawczyk with boxes": Forgery(
+        lambda: _circling(**OPEN, method="krawczyk", representation=None), "accepted"
+    ),
+}
+
+
+FORGERIES: dict[str, Forgery] = {**POLYNOMIALS, **CELLS, **BOXES, **CLAIMS}
