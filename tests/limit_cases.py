@@ -93,7 +93,7 @@ def _texts() -> Iterator[tuple[str, Path_, Any, str]]:
     )
     for code in wrong:
         yield NOTHING, ("formulation",), code, "malformed"
-    for value, status in ((0, "malformed"), (2, "malformed"), (True, "malformed"), (1, "accepted")):
+    for value, status in ((0, "malformed"), (3, "malformed"), (True, "malformed"), (1, "accepted")):
         yield NOTHING, ("version",), value, status
         yield TOLERANT, ("version",), value, status
 
