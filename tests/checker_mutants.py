@@ -31,21 +31,24 @@ EQUIVALENT = HERE / "equivalent_mutants.toml"
 Key = tuple[str, str, str]
 
 
-def equivalents() -> dict[Key, str]:
-    """The mutants that no certificate can tell from the checker, with the reasons."""
+def equivalents(every: Sequence[Mutant]) -> tuple[dict[Key, str], list[str]]:
+    """The mutants that need not be told from the checker, with the reasons; and entries of the list that are wrong.
+
+    A group lists mutants, or places whose mutants all are of this kind, as a constant's or a function's may be.
+    """
     found: dict[Key, str] = {}
+    wrong = []
+    known = {mutant.key for mutant in every}
     for group in tomllib.loads(EQUIVALENT.read_text(encoding="utf-8")).get("equivalent", []):
-        for place, was, becomes in group["mutants"]:
-            if (place, was, becomes) in found:
-                raise ValueError(f"{EQUIVALENT.name}: listed twice: {place}: {was} -> {becomes}")
-            found[place, was, becomes] = group["reason"]
-    return found
-
-
-def unmatched(every: Sequence[Mutant]) -> list[Key]:
-    """Entries of the list of equivalent mutants that are none any longer."""
-    keys = {mutant.key for mutant in every}
-    return [key for key in equivalents() if key not in keys]
+        keys = [tuple(entry) for entry in group.get("mutants", [])]
+        wrong += [f"there is no mutant {key}" for key in keys if key not in known]
+        for place in group.get("places", []):
+            there = [key for key in known if place in (key[0], f"{key[0]}: {key[1].partition(':')[0]}")]
+            wrong += [] if there else [f"there is no mutant at {place}"]
+            keys += there
+        wrong += [f"listed twice: {key}" for key in keys if key in found]
+        found |= dict.fromkeys(keys, group["reason"])
+    return found, wrong
 
 
 # Certificates
@@ -122,7 +125,7 @@ def _reach(checker: str, examples: list[Example], journal: Journal) -> Reach:
 
 def run(checker: str, examples: list[Example], only: str) -> list[tuple[Mutant, Outcome]]:
     """Those that survive, of the mutants of a checker that are not listed as equivalent."""
-    listed = equivalents()
+    listed, _ = equivalents(mutants(checker))
     chosen = [m for m in mutants(checker) if m.key not in listed and only in str(m)]
     journal = Journal(BUILD / f"{checker}.jsonl", checker, examples)
     known = [(mutant, found) for mutant in chosen if (found := journal.outcome(mutant)) is not None]
@@ -150,16 +153,16 @@ def main(words: Sequence[str]) -> int:
     parser.add_argument("--only", default="", metavar="TEXT", help="mutants whose description has this text")
     parser.add_argument("--collect", action="store_true", help="run the tests again for their certificates")
     options = parser.parse_args(words)
-    wrong = unmatched([mutant for checker in SOURCES for mutant in mutants(checker)])
-    for key in wrong:
-        print(f"{EQUIVALENT.name}: there is no such mutant: {key}")
+    listed, wrong = equivalents([mutant for checker in SOURCES for mutant in mutants(checker)])
+    for line in wrong:
+        print(f"{EQUIVALENT.name}: {line}")
     examples = _fresh_corpus(options.collect)
     survivors = [
         survivor for checker in options.checker or SOURCES for survivor in run(checker, examples, options.only)
     ]
     for mutant, outcome in survivors:
         print(f"{mutant}  ({outcome.how})")
-    print(f"{len(survivors)} survive; {len(equivalents())} are listed as equivalent")
+    print(f"{len(survivors)} survive; {len(listed)} are listed as equivalent")
     return 1 if survivors or wrong else 0
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import copy
 import re
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -48,13 +49,17 @@ _SWAPPED = {"any": "all", "all": "any", "min": "max", "max": "min"}
 
 @dataclass(frozen=True)
 class Mutant:
-    """One change: the entry ``index`` (None: all of it) of the field ``field`` of ``parent`` becomes ``new``."""
+    """One change: the entry ``index`` (None: all of it) of the field ``field`` of ``parent`` becomes ``new``.
+
+    ``lines`` are those of the file that must be reached for it to show, ``guarded`` also what a condition guards.
+    """
 
     checker: str
     path: Path
     function: str
     line: int
     lines: range
+    guarded: range
     was: str
     becomes: str
     owner: ast.stmt
@@ -138,6 +143,7 @@ class _Site:
     old: ast.AST
     new: ast.AST
     header: ast.AST
+    guarded: ast.AST
     shown: ast.AST
 
 
@@ -150,6 +156,7 @@ def _mutant(checker: str, path: Path, name: str, owner: ast.stmt, site: _Site) -
         name,
         site.old.lineno,  # type: ignore[attr-defined]
         range(line, last + 1),
+        range(line, site.guarded.end_lineno + 1),  # type: ignore[attr-defined]
         _text(site.shown),
         _text(site.shown, site.old, new),
         owner,
@@ -174,6 +181,23 @@ def _text(node: ast.AST, old: ast.AST | None = None, new: ast.AST | None = None)
     return written.splitlines()[0] if isinstance(node, ast.stmt) else written
 
 
+def uses(checker: str, name: str) -> set[tuple[str, int]]:
+    """The lines of a checker that use a constant, and those that a condition with it guards."""
+    return {(str(path), line) for path in SOURCES[checker] for line in _lines_by_name(path).get(name, ())}
+
+
+@cache
+def _lines_by_name(path: Path) -> dict[str, set[int]]:
+    found: dict[str, set[int]] = defaultdict(set)
+    for statement in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(statement, ast.stmt) and not isinstance(statement, ast.FunctionDef | ast.ClassDef):
+            last = statement.body[0] if isinstance(statement, ast.If | ast.For | ast.While) else statement
+            for node in ast.walk(statement):
+                if isinstance(node, ast.Name) and node.lineno <= (last.end_lineno or 0):
+                    found[node.id].update(range(statement.lineno, (last.end_lineno or 0) + 1))
+    return found
+
+
 # Where
 
 
@@ -196,7 +220,8 @@ def _below(
     for new in _changes(node, parent, field):
         if isinstance(node, ast.stmt) and isinstance(parent, ast.FunctionDef) and index is None:
             index = parent.body.index(node)
-        yield _Site(parent, field, index, node, new, _range_of(header, node), node if shown is None else shown)
+        guarded = header.body[0] if isinstance(header, ast.If) else header
+        yield _Site(parent, field, index, node, new, _range_of(header, node), guarded, shown or node)
     for name, value in ast.iter_fields(node):
         if name in ("annotation", "returns", "decorator_list", "args") and isinstance(
             node, ast.FunctionDef | ast.AnnAssign
@@ -370,7 +395,7 @@ def _constants(statement: ast.Assign | ast.AnnAssign) -> Iterator[_Site]:
             for index, child in enumerate(value) if isinstance(value, list) else [(None, value)]:
                 if isinstance(child, ast.Constant):
                     for new in _changed_constant(child, parent):
-                        yield _Site(parent, field, index, child, new, statement, statement)
+                        yield _Site(parent, field, index, child, new, statement, statement, statement)
 
 
 def _changed_constant(node: ast.Constant, parent: ast.AST) -> Iterator[ast.Constant]:

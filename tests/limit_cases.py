@@ -25,6 +25,7 @@ BOXED = "planar, boxes"
 TOLERANT = "tolerance, planar, complete"
 NOTHING = "nothing known"
 WITNESSES = "moving, joints in a point"
+NONE = "inconsistent, joints in a point"
 
 
 def cases() -> Iterator[Case]:
@@ -131,6 +132,8 @@ def _polynomials() -> Iterator[tuple[str, Path_, Any, str]]:
     for length, status in ((2001, "rejected"), (2002, "too-large")):
         for key in (("eliminant",), ("quaternion", 3), ("translation", 0)):
             yield DOUBLE, ("representation", *key), ["0x1"] * length, status
+    for key, value in product((("eliminant",), ("quaternion", 0)), (None, 5, "0x1" * 2001, {})):
+        yield DOUBLE, ("representation", *key), value, "malformed"
     for polynomial in ([], ["0x1"], ["0x1", "0x0"]):
         yield DOUBLE, ("representation", "eliminant"), polynomial, "malformed"
     for polynomial in (["0x0"], ["0x1", "0x0"]):
@@ -161,7 +164,7 @@ def _eliminations() -> Iterator[tuple[str, Path_, Any, str]]:
         yield DOUBLE, ("elimination",), partial(_with_step, [row]), "malformed"
     for place, row in ((0, "0 1 0"), (-1, "0 1 0"), (0, 0), (-1, None)):
         yield DOUBLE, ("elimination", 0, place), row, "malformed"
-    for value in ([], [[]], [["0"], None], ["0"], "0", {}):
+    for value in ([], [[]], [["0"], None], ["0"], "0", {}, [5], ["0" * 5001]):
         yield DOUBLE, ("elimination",), value, "rejected" if value in ([], [[]]) else "malformed"
 
 
@@ -222,6 +225,8 @@ def _robots() -> Iterator[tuple[str, Path_, Any, str]]:
             yield NOTHING, ("robot", side, place, 2), "1", "malformed"
             yield SPATIAL, ("robot", side, place, 2), "1/3", "rejected"
     yield SPATIAL, ("robot", "metric", 2), "2", "rejected"
+    for value, status in (("2", "accepted"), ("1/2", "malformed"), ("3/2", "malformed"), ("0", "malformed")):
+        yield NONE, ("robot", "metric", 2), value, status
     for value, status in (("0", "malformed"), ("-1", "malformed"), ("1/7", "accepted")):
         for place in (0, -1):
             yield NOTHING, ("configuration", "lengths_squared", place), value, status

@@ -20,14 +20,14 @@ from types import CodeType, FrameType, ModuleType
 from typing import Any
 from zipfile import ZipFile
 
-from checker_mutations import SOURCES, Mutant
+from checker_mutations import SOURCES, Mutant, uses
 
 ROOTS = {"first": "pkm_exact.certify.check", "plain": "pkm_exact.certify.pure"}
 MEMORY = 2 << 30
 """A mutant may take so many bytes more than the checker."""
 STATISTICS = Path("/proc/self/statm")
 """Where Linux tells how much that is."""
-PATIENCE = 2.0, 10.0
+PATIENCE = 1.0, 5.0
 """A mutant may take so many seconds of processor time, and so many times that of the checker, with a certificate."""
 
 LARGE = 1 << 20
@@ -92,14 +92,19 @@ class Reach:
     refused: Places = field(default_factory=dict)
 
     def of(self, mutant: Mutant) -> list[int]:
-        """The examples that reach a mutant, first those that are refused there; all, if it is in a constant."""
-        if not mutant.function:
-            return list(range(len(self.examples)))
-        found, there = (
-            {number for line in mutant.lines for number in places.get((str(mutant.path), line), ())}
-            for places in (self.by_line, self.refused)
-        )
-        return sorted(found, key=lambda number: (number not in there, number))
+        """The examples that reach a mutant, or what uses a constant; the likely ones first.
+
+        Those are what is refused there, which a check that is dropped no longer refuses, and what is accepted.
+        """
+        if mutant.function:
+            lines = {(str(mutant.path), line) for line in mutant.lines}
+            guarded = {(str(mutant.path), line) for line in mutant.guarded}
+        else:
+            lines = guarded = uses(mutant.checker, mutant.was.partition(":")[0].partition(" ")[0])
+        found = {number for line in lines for number in self.by_line.get(line, ())}
+        there = sorted(found & {number for line in guarded for number in self.refused.get(line, ())})
+        accepted = [number for number in sorted(found) if self.examples[number].answer[0] == "accepted"]
+        return list(dict.fromkeys([*there[:4], *accepted[:6], *there, *accepted, *sorted(found)]))
 
 
 def measured(checker: str, examples: Sequence[Example]) -> Reach:
@@ -274,6 +279,8 @@ def _try_all(mutant: Mutant, chosen: Sequence[tuple[int, Example]], writer: int)
             install(mutant)
             answer = check(mutant.checker)
         except Exception as error:
+            if mutant.function:
+                raise
             chosen, how, number = [], f"cannot be imported: {type(error).__name__}", chosen[0][0]
         for number, example in chosen:
             os.write(writer, f"{number}\t\n".encode())
@@ -301,6 +308,8 @@ def outcomes(
     chosen: Sequence[Mutant], reach: Reach, first: Callable[[Mutant], str | None] = lambda _: None
 ) -> Iterator[tuple[Mutant, Outcome]]:
     """What becomes of mutants, one after another."""
+    for checker in {mutant.checker for mutant in chosen}:
+        check(checker)  # imported once, in this process
     gc.collect()
     gc.freeze()
     for mutant in chosen:
