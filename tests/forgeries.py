@@ -63,7 +63,7 @@ def point_near(x: Fraction, bits: int) -> tuple[Fraction, Fraction]:
     return 2 * u / (1 + u * u), (1 - u * u) / (1 + u * u)
 
 
-def _as_witnesses(content: Content) -> Content:
+def as_witnesses(content: Content) -> Content:
     """The representation alone, as evidence of a motion."""
     counts = dict.fromkeys(("complex_solutions", "distinct_solutions", "real_poses", "box_exponent"), 0)
     return {**content, **counts, "poses": [], "claim": "positive-dimensional-proved"}
@@ -104,8 +104,8 @@ def _called_simple(content: Content) -> Content:
 
 
 POLYNOMIALS = {
-    "forty witnesses": Forgery(lambda: _as_witnesses(sliding(40)), "accepted"),
-    "forty-one witnesses": Forgery(lambda: _as_witnesses(sliding(41)), reason="eliminant"),
+    "forty witnesses": Forgery(lambda: as_witnesses(sliding(40)), "accepted"),
+    "forty-one witnesses": Forgery(lambda: as_witnesses(sliding(41)), reason="eliminant"),
     "no prime that divides the leading coefficient proves N(e) not 0": Forgery(_nowhere_a_rotation, reason="motion"),
     "no prime that divides the leading coefficient proves roots distinct": Forgery(
         _one_pose_under_two_roots, reason="eliminant"
@@ -188,7 +188,7 @@ def _circling(**entries: Any) -> Content:
     f = [NONE, 5 * slope, fmpq_poly([-32]), NONE]
     set_representation(content, [h, slope, NONE, NONE, NONE, *f], (0, 0, 0, 0, 0, 0, 1, 0))
     return {
-        **_as_witnesses(content),
+        **as_witnesses(content),
         "krawczyk": {"chart": [1, 0, 0, 0], "real": [], "complex": []},
         **entries,
     }

@@ -5,7 +5,9 @@ from collections.abc import Callable
 import pytest
 from certificate_subjects import Content
 from certificate_tools import both_resealed, last_line
+from forged_boxes import BOXES
 from forged_ends import first_and_last
+from forged_poses import POSES
 from forgeries import FORGERIES
 
 
@@ -15,6 +17,14 @@ def test_a_forgery(name: str) -> None:
     answer = both_resealed(forgery.make())
     assert answer.status == forgery.status, last_line(answer)
     assert last_line(answer).startswith(forgery.reason)
+
+
+@pytest.mark.parametrize("name", [*POSES, *BOXES])
+def test_one_condition_decides(name: str) -> None:
+    make, status, reason = (POSES | BOXES)[name]
+    answer = both_resealed(make())
+    assert answer.status == status, last_line(answer)
+    assert last_line(answer).startswith(reason)
 
 
 @pytest.mark.parametrize(("make", "reason"), [pytest.param(*case, id=name) for name, *case in first_and_last()])
