@@ -20,7 +20,7 @@ from pkm_exact.engine import solve
 from pkm_exact.failures.contradiction import attached, require
 from pkm_exact.final_checks import consistent
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.numeric.krawczyk_operator import ChartSystem
+from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.poses import approximations, certified_solutions, is_tracked, real_poses
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.policy import Policy

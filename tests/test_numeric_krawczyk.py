@@ -23,7 +23,8 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.numeric import poses as numeric_poses
 from pkm_exact.numeric.certification import GRIDS, isolated_solutions, nearest_box, refined
-from pkm_exact.numeric.krawczyk_operator import ChartSystem, centre, certified
+from pkm_exact.numeric.certified_boxes import centre, certified
+from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.poses import Approximations, approximations, box_enclosures, certified_solutions
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
@@ -213,9 +214,9 @@ def test_equations_are_of_one_size_and_exact_at_every_precision() -> None:
     system = ChartSystem(robot.problem(robot.configuration()), (3, 0, 0, 1))
     points = [arb_mat(4, 1, [int(k == place) for k in range(4)]) for place in range(4)]
     with working_precision(64):
-        system.jacobians(points[0])
+        system.jacobian(points[0])
     with working_precision(2000):
-        rows = [jacobian.tolist()[:3] for jacobian in map(system.jacobians, points) for jacobian in jacobian]
+        rows = [jacobian.tolist()[:3] for jacobian in map(system.jacobian, points)]
     assert all(entry.is_exact() for block in rows for row in block for entry in row)
     largest = [max(abs(float(entry)) for block in rows for entry in block[place]) for place in range(3)]
     assert all(0.5 <= size <= 1 for size in largest)

@@ -16,8 +16,9 @@ from enum import StrEnum
 from fractions import Fraction
 from typing import Final
 
-from flint import arb, arb_mat, fmpq
+from flint import arb, arb_mat
 
+from pkm_exact.balls import ball, hull
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.uncertified import NumericPose
 from pkm_exact.poses.pose import Pose
@@ -82,11 +83,14 @@ class Judge:
         self._precision = 64 + max(ends, default=0) + GUARD_BITS
         with working_precision(self._precision):
             scales = [arb(g).sqrt() for g in problem.metric]
-            rows = [[scale * _exact(leg.platform[i]) for leg in problem.distances] for i, scale in enumerate(scales)]
+            rows = [[scale * ball(leg.platform[i]) for leg in problem.distances] for i, scale in enumerate(scales)]
             self._joints = arb_mat([*rows, [arb(1)] * len(problem.distances)])
             self._places = [
                 self._placed(
-                    [[*map(_ball, row), _ball(c)] for row, c in zip(pose.rotation, pose.position, strict=True)]
+                    [
+                        [*(hull(r.lo, r.hi) for r in row), hull(c.lo, c.hi)]
+                        for row, c in zip(pose.rotation, pose.position, strict=True)
+                    ]
                 )
                 for pose in poses
             ]
@@ -127,14 +131,6 @@ def _distance(left: Sequence[arb], right: Sequence[arb]) -> Interval:
     low = max(value.lower() for value in sums)
     high = max(value.upper() for value in sums)
     return Interval(_end(low.sqrt().lower()) if low > 0 else Fraction(0), _end(high.sqrt().upper()))
-
-
-def _exact(value: Fraction) -> arb:
-    return arb(fmpq(value.numerator, value.denominator))
-
-
-def _ball(interval: Interval) -> arb:
-    return _exact(interval.lo).union(_exact(interval.hi))
 
 
 def _end(value: arb) -> Fraction:

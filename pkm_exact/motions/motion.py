@@ -54,6 +54,11 @@ class Motion:
         return f"Motion({self.name!r})"
 
     @property
+    def rotation_support(self) -> tuple[int, ...]:
+        """Indices of those of e0, .., e3 that are not 0 for every motion."""
+        return tuple(k for k in self.support if k < 4)
+
+    @property
     def has_study_condition(self) -> bool:
         """Whether e.f = 0 is a condition on the support; otherwise it holds by itself."""
         return any(k + 4 in self.support for k in self.support)

@@ -10,7 +10,7 @@ from flint import acb, acb_mat, arb, fmpz_mat
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, pose_quadrics
-from pkm_exact.numeric.krawczyk_operator import GUARD_BITS
+from pkm_exact.numeric.certified_boxes import GUARD_BITS
 from pkm_exact.poses.isolated_solutions import RADIUS, Box
 from pkm_exact.precision import working_precision
 

@@ -15,15 +15,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
 
+from pkm_exact.balls import Balls, ball
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import STUDY_CONDITION, motion_quadrics
 from pkm_exact.motions.motion import Motion
-from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
+from pkm_exact.numeric.quaternions import quaternion_product
 
 QUANTITIES: Final = 18
 """Number of quadratic forms: 17 coordinates of a rigid motion, and Study's condition."""
@@ -71,11 +72,6 @@ def _centroid(joints: Sequence[Vector]) -> Vector:
     return x, y, z
 
 
-def ball(value: Fraction) -> arb:
-    """A ball around a rational number."""
-    return arb(value.numerator) / value.denominator
-
-
 def centred_joint(joint: Vector, origin: Vector, unit: Fraction, metric: Sequence[int]) -> list[arb]:
     """Ordinary coordinates of a joint in a centred frame."""
     return [arb(g).sqrt() * ball((x - m) / unit) for g, x, m in zip(metric, joint, origin, strict=True)]
@@ -108,40 +104,28 @@ def gradient_forms(motion: Motion) -> fmpz_mat:
     return fmpz_mat(rows)
 
 
-def gradients(x: acb_mat) -> acb_mat:
-    """G(x): the derivatives of the 18 quantities at a point or in a box, an 18 x n matrix."""
-    size = x.nrows()
-    product = acb_mat(arb_mat(gradient_forms(PLANAR if size == len(PLANAR.support) else SPATIAL))) * x
-    return acb_mat(QUANTITIES, size, product.entries())
+@cache
+def _gradient_balls(motion: Motion, kind: Any) -> Balls:
+    return kind(arb_mat(gradient_forms(motion)))
 
 
-def quantities(slopes: acb_mat, x: acb_mat) -> list[acb]:
+def gradients(points: Balls, motion: Motion) -> list[Balls]:
+    """G at points or in boxes that are the columns of a matrix: the derivatives of the 18 quantities, 18 x n each."""
+    size = len(motion.support)
+    kind: Any = type(points)
+    entries = (_gradient_balls(motion, kind) * points).transpose().entries()
+    stride = QUANTITIES * size
+    return [kind(QUANTITIES, size, entries[k * stride : (k + 1) * stride]) for k in range(points.ncols())]
+
+
+def quantities(slopes: Balls, x: Balls) -> list[acb]:
     """The 18 quantities at x, from G(x)."""
     return [value / 2 for value in (slopes * x).entries()]
 
 
-def system_jacobian(forms: acb_mat, slopes: acb_mat, chart: Chart) -> acb_mat:
-    """F' from the rows of the equations, G and the chart."""
-    return with_chart(forms * slopes, chart)
-
-
-def with_chart(upper: acb_mat, chart: Chart) -> acb_mat:
-    """A matrix of n - 1 rows with the derivative of w.e below it."""
-    size = upper.ncols()
-    weights = [acb(*chart[index]) for index in range(4)]
-    last = [*(weights if size == 8 else (weights[0], weights[3])), *[acb(0)] * (size // 2)]
-    return acb_mat(size, size, upper.entries() + last)
-
-
-def system_values(jacobian: acb_mat, x: acb_mat) -> acb_mat:
-    """F(x) from F'(x): half of F'(x) x for the quadrics, and w.e - 1."""
-    product = (jacobian * x).entries()
-    return acb_mat(len(product), 1, [*(value / 2 for value in product[:-1]), product[-1] - 1])
-
-
-def identity(size: int) -> acb_mat:
-    """The unit matrix."""
-    return acb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+def quantities_at(x: Balls, motion: Motion) -> list[acb]:
+    """The 18 quantities at a point or in a box."""
+    return quantities(gradients(x, motion)[0], x)
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,7 +139,7 @@ class CentredRobot:
     base, platform : list of 3 balls per leg
     lengths : list of arb
     forms : (n - 1) x 18 matrix
-        Study's condition, unless planar, and the legs.
+        Study's condition where it is one, and the legs.
     """
 
     problem: ForwardProblem
@@ -176,7 +160,7 @@ def centred_robot(problem: ForwardProblem, frames: CentredFrames) -> CentredRobo
     base = [centred_joint(leg.base, frames.base, frames.unit, problem.metric) for leg in problem.gough_legs]
     platform = [centred_joint(leg.platform, frames.platform, frames.unit, problem.metric) for leg in problem.distances]
     squares = [ball(leg.length_squared / frames.unit**2) for leg in problem.distances]
-    rows = [] if problem.motion.is_planar else [study_row()]
+    rows = [study_row()] if problem.motion.has_study_condition else []
     rows += [leg_row(a, b, square) for a, b, square in zip(base, platform, squares, strict=True)]
     return CentredRobot(problem, frames, base, platform, [square.sqrt() for square in squares], acb_mat(arb_mat(rows)))
 
@@ -190,16 +174,6 @@ def origins(robot: CentredRobot) -> tuple[list[arb], list[arb]]:
         centred_joint(robot.frames.base, zero, one, metric),
         centred_joint(robot.frames.platform, zero, one, metric),
     )
-
-
-def quaternion_product(p: Sequence[acb], q: Sequence[acb]) -> list[acb]:
-    """The product of two quaternions, scalars first."""
-    return [
-        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
-        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
-        p[0] * q[2] + p[2] * q[0] + p[3] * q[1] - p[1] * q[3],
-        p[0] * q[3] + p[3] * q[0] + p[1] * q[2] - p[2] * q[1],
-    ]
 
 
 def centred_point(e: Sequence[acb], f: Sequence[acb], robot: CentredRobot) -> acb_mat:

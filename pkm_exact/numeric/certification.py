@@ -15,7 +15,9 @@ from typing import TypeAlias
 import numpy as np
 from flint import acb, acb_mat, arb
 
-from pkm_exact.numeric.krawczyk_operator import GUARD_BITS, Balls, ChartSystem, certified, middle
+from pkm_exact.balls import Balls
+from pkm_exact.numeric.certified_boxes import GUARD_BITS, certified
+from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.study_system import Complex
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
 from pkm_exact.precision import working_precision
@@ -133,7 +135,7 @@ def refined(system: ChartSystem, point: Balls, exponent: int) -> tuple[Balls, bo
     """
     large = max(_exponent(_dyadic(value)) for value in point.entries())
     with working_precision(2 * exponent + GUARD_BITS + max(0, large - exponent)):
-        jacobian = system.jacobians(point)[0]
+        jacobian = system.jacobian(point)
         values = system.values(jacobian, point)
         near = 0
         for _ in range(NEWTON_STEPS):
@@ -142,13 +144,13 @@ def refined(system: ChartSystem, point: Balls, exponent: int) -> tuple[Balls, bo
                 return None
             length, damping = _size(step), 1
             while True:
-                moved = middle(point - step / damping)
+                moved = (point - step / damping).mid()
                 relative = length / (damping * _size(moved))
                 if damping == 1 and relative < arb(2) ** -(exponent + 8):
                     near += 1
                     if (is_settled := _is_settled(system, step, moved, exponent)) or near == SETTLING_STEPS:
                         return moved, is_settled
-                matrix = system.jacobians(moved)[0]
+                matrix = system.jacobian(moved)
                 values = system.values(matrix, moved)
                 if relative < SURELY_CONVERGING:
                     break
@@ -181,7 +183,7 @@ def _grids(system: ChartSystem, values: Sequence[Dyadic], exponent: int) -> tupl
 
 def _approximate(jacobian: Balls, values: Balls) -> Balls | None:
     try:
-        return middle(jacobian.solve(values, algorithm="approx"))
+        return jacobian.solve(values, algorithm="approx").mid()
     except ZeroDivisionError:
         return None
 

@@ -16,16 +16,10 @@ from typing import Final
 
 from flint import acb, arb, arb_mat, ctx
 
+from pkm_exact.balls import ball
+from pkm_exact.numeric.data_errors import DataErrors, LegErrors, leg_errors
+from pkm_exact.numeric.linearisation import Linearisation, inverse_jacobians
 from pkm_exact.numeric.pose_maps import interval, pose_map
-from pkm_exact.numeric.tolerance_operator import (
-    DataErrors,
-    LegErrors,
-    Linearisation,
-    form_errors,
-    inverse_jacobians,
-    leg_errors,
-    spread,
-)
 from pkm_exact.roots.interval import Interval
 
 MARGIN: Final = 1 + 2**-16
@@ -114,12 +108,11 @@ def pose_bounds(near: Linearisation, errors: DataErrors, radii: Sequence[arb]) -
     radii : sequence of arb
         Of the box.
     """
-    box = spread(radii, real=True)
-    solved = inverse_jacobians(near, box, form_errors(near.robot, errors))
+    solved = inverse_jacobians(near, errors, radii)
     if solved is None:
         return None
     here = pose_map(near.robot, near.centre)
-    effect = pose_map(near.robot, near.centre + box).slopes * solved
+    effect = pose_map(near.robot, near.around(radii)).slopes * solved
     legs = leg_errors(near.robot, errors, near.quantities)
     first = near.robot.size - 1 - len(legs)
     effects = [[effect[k, first + i] for i in range(len(legs))] for k in range(effect.nrows())]
@@ -183,7 +176,7 @@ def dominant_influence(near: Linearisation, errors: DataErrors) -> Influence:
     effect = pose_map(near.robot, near.centre).slopes * _real(near.inverse.entries(), near.robot.size)
     legs = leg_errors(near.robot, errors, near.quantities)
     first = near.robot.size - 1 - len(legs)
-    unit = arb(near.robot.frames.unit.numerator) / near.robot.frames.unit.denominator
+    unit = ball(near.robot.frames.unit)
     best, found = arb(-1), Influence(1, "length", "")
     for i, leg in enumerate(legs):
         column = [effect[k, first + i] for k in range(effect.nrows())]

@@ -8,9 +8,13 @@ from typing import Final, cast
 
 from flint import acb, acb_mat, acb_poly, arb, ctx
 
+from pkm_exact.balls import ball, hull
+from pkm_exact.motions.motion import Motion
 from pkm_exact.numeric.centred import CentredRobot, Chart, centred_point
-from pkm_exact.numeric.pose_maps import interval_ball, pose_map
-from pkm_exact.numeric.tolerance_operator import Linearisation, holds_one, linearise, refined, rounded, spread
+from pkm_exact.numeric.charts import in_chart
+from pkm_exact.numeric.linearisation import Linearisation, chart_weights, is_proved, linearise, refined, rounded
+from pkm_exact.numeric.pose_maps import pose_map
+from pkm_exact.numeric.quaternions import quaternion_product
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.precision import working_precision
@@ -27,18 +31,11 @@ def pose_point(robot: CentredRobot, pose: Pose) -> acb_mat:
     """The middle of a pose's box: e = q, f = C q."""
     q = [acb(_middle(bounds)) for bounds in pose.quaternion]
     c = [acb(0), *(acb(_middle(bounds)) for bounds in pose.position)]
-    f = [
-        -c[1] * q[1] - c[2] * q[2] - c[3] * q[3],
-        c[1] * q[0] + c[2] * q[3] - c[3] * q[2],
-        c[2] * q[0] + c[3] * q[1] - c[1] * q[3],
-        c[3] * q[0] + c[1] * q[2] - c[2] * q[1],
-    ]
-    return centred_point(q, f, robot)
+    return centred_point(q, quaternion_product(c, q), robot)
 
 
 def _middle(bounds: Interval) -> arb:
-    value = bounds.midpoint
-    return arb(value.numerator) / value.denominator
+    return ball(bounds.midpoint)
 
 
 def complex_points(robot: CentredRobot, solution: Solution) -> list[acb_mat]:
@@ -97,14 +94,16 @@ def _ordinary(robot: CentredRobot, row: Sequence[acb]) -> acb_mat:
     return centred_point(e, f, robot)
 
 
-def own_chart(x: acb_mat) -> Chart:
+def own_chart(x: acb_mat, motion: Motion) -> Chart:
     """The chart w.e = 1 with w near the conjugate of e, so that |e| is small and of one size in all directions."""
-    half = x.entries()[: x.nrows() // 2]
+    turning = motion.rotation_support
+    half = x.entries()[: len(turning)]
     size = sum((abs(value) * abs(value) for value in half), arb(0)).nonnegative_part().sqrt()
-    weights = [(_integer(CHART_SIZE * v.real / size), _integer(-CHART_SIZE * v.imag / size)) for v in half]
-    if len(half) == 2:
-        return (weights[0], (0, 0), (0, 0), weights[1])
-    return tuple(weights)
+    weights = {
+        k: (_integer(CHART_SIZE * v.real / size), _integer(-CHART_SIZE * v.imag / size))
+        for k, v in zip(turning, half, strict=True)
+    }
+    return tuple(weights.get(k, (0, 0)) for k in range(4))
 
 
 def _integer(value: arb) -> int:
@@ -117,19 +116,13 @@ def exact_integer(value: arb) -> int:
     return int(mantissa) << int(power) if int(power) >= 0 else int(mantissa) >> -int(power)
 
 
-def in_chart(x: acb_mat, chart: Chart) -> acb_mat:
-    """The same projective point with w.e = 1."""
-    places = (0, 3) if x.nrows() == 4 else range(4)
-    product = sum((acb(*chart[k]) * x[row, 0] for row, k in enumerate(places)), acb(0))
-    return acb_mat(x.nrows(), 1, [value / product for value in x.entries()])
-
-
 def certified_point(robot: CentredRobot, point: acb_mat, exponent: int) -> Linearisation | None:
     """The equations around the solution near a point, in a chart of its own, if it is proved to be one."""
-    chart = own_chart(point)
-    limit = refined(robot, chart, in_chart(point, chart), exponent)
+    motion = robot.problem.motion
+    chart = own_chart(point, motion)
+    limit = refined(robot, chart, in_chart(point, chart_weights(chart, motion)), exponent)
     near = None if limit is None else linearise(robot, chart, rounded(limit, exponent))
-    if near is None or not holds_one(near, None, core_radii(robot.size, exponent)):
+    if near is None or not is_proved(near, None, core_radii(robot.size, exponent)):
         return None
     return near
 
@@ -144,7 +137,7 @@ def certified_pose(robot: CentredRobot, pose: Pose, poses: Sequence[Pose], expon
     near = certified_point(robot, pose_point(robot, pose), exponent)
     if near is None:
         return None
-    values = pose_map(robot, near.centre + spread(core_radii(robot.size, exponent), real=True)).values
+    values = pose_map(robot, near.around(core_radii(robot.size, exponent))).values
     # Close to another pose, Newton's method may go there, or the enclosure reach so far.
     return near if all(meets(other, values) is (other is pose) for other in poses) else None
 
@@ -152,4 +145,4 @@ def certified_pose(robot: CentredRobot, pose: Pose, poses: Sequence[Pose], expon
 def meets(pose: Pose, values: Sequence[arb]) -> bool:
     """Whether enclosed components of a pose overlap the box of position and rotation."""
     bounds = [*pose.position, *(entry for row in pose.rotation for entry in row)]
-    return all(interval_ball(bound).overlaps(value) for bound, value in zip(bounds, values[:12], strict=True))
+    return all(hull(bound.lo, bound.hi).overlaps(value) for bound, value in zip(bounds, values[:12], strict=True))

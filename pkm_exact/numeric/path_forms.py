@@ -20,13 +20,15 @@ from typing import Final, TypeAlias
 
 from flint import arb, arb_mat
 
+from pkm_exact.balls import ball
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, JointValue, cosine_and_sine
 from pkm_exact.geometry.kinds import KINDS, gough_legs, knees
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.numeric.centred import CentredFrames, ball, centred_joint, leg_row, study_row
+from pkm_exact.motions.motion import Motion
+from pkm_exact.numeric.centred import CentredFrames, centred_joint, leg_row, study_row
 
 JointRow: TypeAlias = tuple[Fraction, ...]
 """Leg lengths, slide positions, or half tangents of crank angles: one value per leg."""
@@ -35,14 +37,16 @@ _STATIONS: Final = (Fraction(0), Fraction(1, 2), Fraction(1))
 
 @dataclass(frozen=True, eq=False)
 class PathForms:
-    """The equations between two rows: Study's condition unless planar, and the legs.
+    """The equations between two rows: Study's condition where it is one, and the legs.
 
     Attributes
     ----------
+    motion : Motion
     coefficients : tuple of three (n - 1) x 18 matrices
         Of 1, s and s^2.
     """
 
+    motion: Motion
     coefficients: tuple[arb_mat, arb_mat, arb_mat]
 
 
@@ -67,12 +71,12 @@ def path_forms(robot: Robot, frames: CentredFrames, first: JointRow, last: Joint
     stations = [[a + s * (b - a) for a, b in zip(first, last, strict=True)] for s in _STATIONS]
     start, between, end = (arb_mat(_rows(robot, frames, values)) for values in stations)
     square = 2 * (start - 2 * between + end)
-    return PathForms((start, end - start - square, square))
+    return PathForms(KINDS[robot.kind].motion, (start, end - start - square, square))
 
 
 def _rows(robot: Robot, frames: CentredFrames, values: Sequence[Fraction]) -> list[list[arb]]:
     rows = []
-    if not KINDS[robot.kind].motion.is_planar:
+    if KINDS[robot.kind].motion.has_study_condition:
         rows.append(study_row())
     for leg, value in zip(_legs(robot, values), values, strict=True):
         base = centred_joint(leg.base, frames.base, frames.unit, robot.metric)

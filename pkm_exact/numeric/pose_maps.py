@@ -16,16 +16,8 @@ from typing import Final
 
 from flint import acb_mat, arb, arb_mat
 
-from pkm_exact.numeric.centred import (
-    NORM,
-    POSITION,
-    ROTATION,
-    CentredRobot,
-    ball,
-    gradients,
-    origins,
-    quantities,
-)
+from pkm_exact.balls import ball
+from pkm_exact.numeric.centred import NORM, POSITION, ROTATION, CentredRobot, gradients, origins, quantities
 from pkm_exact.roots.interval import Interval
 
 OUTPUT_BITS: Final = 24
@@ -50,7 +42,7 @@ class PoseMap:
 
 def pose_map(robot: CentredRobot, x: acb_mat) -> PoseMap:
     """The components and their derivatives at x, where N(e) must not vanish."""
-    complex_slopes = gradients(x)
+    complex_slopes = gradients(x, robot.problem.motion)[0]
     size = robot.size
     flat = [value.real for value in complex_slopes.entries()]
     slopes = [flat[k * size : (k + 1) * size] for k in range(complex_slopes.nrows())]
@@ -92,7 +84,7 @@ def _moved(robot: CentredRobot, centroid: Sequence[_Row], rotation: Sequence[_Ro
 
 def _unit_quaternion(robot: CentredRobot, x: acb_mat, norm: arb, norm_slopes: Sequence[arb]) -> list[_Row]:
     length = norm.sqrt()
-    places = {0: 0, 3: 1} if robot.problem.motion.is_planar else {k: k for k in range(4)}
+    places = {k: place for place, k in enumerate(robot.problem.motion.rotation_support)}
     rows: list[_Row] = []
     for k in range(4):
         if k not in places:
@@ -115,11 +107,6 @@ def interval(value: arb) -> Interval:
     grid = Fraction(2) ** (int(power) + int(mantissa).bit_length() - OUTPUT_BITS)
     low, high = _exact(middle) - _exact(radius), _exact(middle) + _exact(radius)
     return Interval((low / grid).__floor__() * grid, -((-high / grid).__floor__()) * grid)
-
-
-def interval_ball(bounds: Interval) -> arb:
-    """A ball that contains an interval."""
-    return ball(bounds.lo).union(ball(bounds.hi))
 
 
 def _exact(value: arb) -> Fraction:

@@ -10,19 +10,14 @@ from typing import Final
 import numpy as np
 from flint import arb
 
+from pkm_exact.balls import Balls
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import support
 from pkm_exact.numeric.certification import isolated_solutions
-from pkm_exact.numeric.krawczyk_operator import (
-    GUARD_BITS,
-    Balls,
-    ChartSystem,
-    ball,
-    centre,
-    krawczyk_image,
-    middle,
-)
+from pkm_exact.numeric.certified_boxes import GUARD_BITS, centre, enclosing_balls
+from pkm_exact.numeric.chart_equations import ChartSystem
+from pkm_exact.numeric.krawczyk_operator import around_zero, is_inside, krawczyk
 from pkm_exact.numeric.start import StartSection, generic_start, start_quadrics
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates
 from pkm_exact.numeric.tracker import polished, track
@@ -198,19 +193,17 @@ def _narrowed(system: ChartSystem, box: Box, exponent: int) -> Balls:
     enclosure = _near_limit(system, box, exponent, most)
     if enclosure is None:
         with working_precision(precision):
-            enclosure = ball(system, box)
+            enclosure = enclosing_balls(system, box)
     else:
         precision = most
     for _ in range(NARROWINGS):
         if all(entry.rad() <= width for entry, width in zip(enclosure.entries(), wanted, strict=True)):
             return enclosure
         with working_precision(precision):
-            point = middle(enclosure)
-            gradients = (system.jacobians(place)[0] for place in (point, enclosure))
-            image = krawczyk_image(system, point, enclosure - point, *gradients)
-            if image is None:
+            near = system.around(enclosure.mid())
+            if near is None:
                 break
-            enclosure = point + image
+            enclosure = near.point + krawczyk(near, enclosure - near.point).moved
         precision = min(2 * precision, most)
     raise InternalContradictionError("a certified box cannot be narrowed")
 
@@ -226,20 +219,21 @@ def _near_limit(system: ChartSystem, box: Box, exponent: int, most: int) -> Ball
         start = point = centre(system, box)
     while 2 * (reached - LOST_BITS) < exponent:
         with working_precision(precision):
-            jacobian = system.jacobians(point)[0]
+            jacobian = system.jacobian(point)
             try:
-                point = middle(point - jacobian.solve(system.values(jacobian, point), algorithm="approx"))
+                point = (point - jacobian.solve(system.values(jacobian, point), algorithm="approx")).mid()
             except ZeroDivisionError:
                 return None
         reached, precision = 2 * reached, min(2 * precision, most)
     with working_precision(most):
         widths = [arb(2) ** (LOST_BITS - reached + box.exponents[0] - box.exponent(index)) for index in system.support]
-        spread = type(point)(system.size, 1, [arb(0, width) for width in widths])
-        image = krawczyk_image(system, point, spread, *(system.jacobians(x)[0] for x in (point, point + spread)))
-        if image is None:
+        near = system.around(point)
+        if near is None:
             return None
-        moved = (point - start).entries()
-        for index, value, offset, width in zip(system.support, image.entries(), moved, widths, strict=True):
-            if not (abs(value) < width and abs(offset) + width < RADIUS * arb(2) ** -box.exponent(index)):
+        image = krawczyk(near, around_zero(near, widths))
+        if not is_inside(near, image, widths):
+            return None
+        for index, offset, width in zip(system.support, (point - start).entries(), widths, strict=True):
+            if not abs(offset) + width < RADIUS * arb(2) ** -box.exponent(index):
                 return None
-        return point + image
+        return point + image.moved

@@ -1,4 +1,4 @@
-"""Unit quaternions in floating point, scalar first: four numbers, or four arrays for many at once."""
+"""Quaternions, scalar first: four numbers, or four arrays for many at once."""
 
 from __future__ import annotations
 
@@ -7,6 +7,22 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+
+def quaternion_product(p: Sequence[Any], q: Sequence[Any]) -> list[Any]:
+    """The product of two quaternions over any ring.
+
+    Examples
+    --------
+    >>> quaternion_product((0, 1, 0, 0), (0, 0, 1, 0))
+    [0, 0, 0, 1]
+    """
+    return [
+        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
+        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
+        p[0] * q[2] + p[2] * q[0] + p[3] * q[1] - p[1] * q[3],
+        p[0] * q[3] + p[3] * q[0] + p[1] * q[2] - p[2] * q[1],
+    ]
 
 
 def rotation_matrix(quaternion: Sequence[Any]) -> NDArray[np.float64]:
@@ -38,14 +54,7 @@ def turned(quaternion: Sequence[Any], rotation: Sequence[Any]) -> tuple[Any, Any
     x, y, z = rotation
     half = np.sqrt(x * x + y * y + z * z) / 2
     scale = np.sinc(half / np.pi) / 2
-    a, b, c, d = np.cos(half), scale * x, scale * y, scale * z
-    e, f, g, h = quaternion
-    product = (
-        a * e - b * f - c * g - d * h,
-        a * f + b * e + c * h - d * g,
-        a * g - b * h + c * e + d * f,
-        a * h + b * g - c * f + d * e,
-    )
+    product = quaternion_product((np.cos(half), scale * x, scale * y, scale * z), quaternion)
     norm = np.sqrt(sum(value * value for value in product))
     q0, q1, q2, q3 = (value / norm for value in product)
     return q0, q1, q2, q3

@@ -33,8 +33,8 @@ from pkm_exact.formulations.registry import formulation_codes
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import support, translation_coordinates
 from pkm_exact.numeric.certification import isolated_solutions
+from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.constraint_descent import approximate_poses
-from pkm_exact.numeric.krawczyk_operator import ChartSystem
 from pkm_exact.numeric.levenberg_marquardt import DescentPolicy, distinct_poses, levenberg_marquardt
 from pkm_exact.numeric.numeric_robot import numeric_robot
 from pkm_exact.numeric.uncertified import NumericPose

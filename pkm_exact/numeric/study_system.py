@@ -30,6 +30,7 @@ from pkm_exact.geometry.problem import ForwardProblem, points
 from pkm_exact.geometry.study import STUDY_CONDITION, Quadric, motion_quadrics
 from pkm_exact.motions.motion import Motion
 from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
+from pkm_exact.numeric.quaternions import quaternion_product
 
 Complex: TypeAlias = NDArray[np.complex128]
 Real: TypeAlias = NDArray[np.float64]
@@ -218,6 +219,4 @@ def _pure(vector: Real) -> Real:
 
 def _product(left: Inexact, right: Inexact) -> Inexact:
     """Products of quaternions (.., 4)."""
-    real = left[:, :1] * right[:, :1] - (left[:, 1:] * right[:, 1:]).sum(axis=1, keepdims=True)
-    vector = left[:, :1] * right[:, 1:] + left[:, 1:] * right[:, :1] + np.cross(left[:, 1:], right[:, 1:])
-    return np.concatenate([real, vector], axis=1)
+    return np.stack(quaternion_product([*left.T], [*right.T]), axis=-1)

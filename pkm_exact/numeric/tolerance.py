@@ -1,10 +1,11 @@
 """Poses of all robots within tolerance: for every pose one box that holds exactly one pose of each of them.
 
-Around each certified pose Krawczyk's operator with the robot's data as parameters (``parametric``) proves a box in the
-chart of the pose; the pose's bounds in ordinary coordinates (``deviations``) must lie in it, so that they hold exactly
-one pose too. If all 40 complex solutions (6 of a planar robot) are proved so, and the nominal ones are distinct, then
-those of every robot within tolerance are distinct as well: two of them that met would do so for all robots of the
-connected set. So the refined theorem of Bezout holds for each of them, and the list is complete for each.
+Around each certified pose Krawczyk's operator with the robot's data as parameters (``linearisation``) proves a box in
+the chart of the pose; the pose's bounds in ordinary coordinates (``deviations``) must lie in it, so that they hold
+exactly one pose too. If all 40 complex solutions (6 of a planar robot) are proved so, and the nominal ones are
+distinct, then those of every robot within tolerance are distinct as well: two of them that met would do so for all
+robots of the connected set. So the refined theorem of Bezout holds for each of them, and the list is complete for
+each.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import Final
 
 from flint import acb, acb_mat, arb
 
+from pkm_exact.balls import Balls, ball, hull
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.tolerances import Tolerances
@@ -23,32 +25,17 @@ from pkm_exact.numeric.centred import (
     NORM,
     POSITION,
     CentredFrames,
-    ball,
     centred_frames,
     centred_robot,
-    gradients,
     origins,
-    quantities,
-    quaternion_product,
+    quantities_at,
 )
+from pkm_exact.numeric.charts import in_chart
+from pkm_exact.numeric.data_errors import data_errors
 from pkm_exact.numeric.deviations import MARGIN, PoseBounds, dominant_influence, pose_bounds
-from pkm_exact.numeric.nominal import (
-    certified_point,
-    certified_pose,
-    complex_points,
-    core_radii,
-    exact_integer,
-    in_chart,
-)
-from pkm_exact.numeric.pose_maps import interval_ball
-from pkm_exact.numeric.tolerance_operator import (
-    Linearisation,
-    data_errors,
-    enclosing_radii,
-    holds_one,
-    spread,
-    up,
-)
+from pkm_exact.numeric.linearisation import Linearisation, chart_weights, enclosing_radii, is_proved, up
+from pkm_exact.numeric.nominal import certified_point, certified_pose, complex_points, core_radii, exact_integer
+from pkm_exact.numeric.quaternions import quaternion_product
 from pkm_exact.numeric.tolerance_result import ProvedBox, ToleranceBox, ToleranceResult
 from pkm_exact.poses.pose import Pose
 from pkm_exact.precision import working_precision
@@ -193,7 +180,7 @@ def _proved_pose(near: Linearisation, tolerances: Tolerances, exponent: int) -> 
         return None
     core = core_radii(near.robot.size, exponent)
     outer = [max(radii) for radii in zip(inner, needed, core, strict=True)]
-    if not holds_one(near, errors, outer):
+    if not is_proved(near, errors, outer):
         return None
     return _boxed(near, outer, inner, exponent), bounds
 
@@ -206,15 +193,16 @@ def _containing(near: Linearisation, bounds: PoseBounds, exponent: int) -> list[
     return [up(MARGIN * abs(value.real), exponent) for value in (x - near.centre).entries()]
 
 
-def _points_of_box(near: Linearisation, bounds: PoseBounds) -> acb_mat:
+def _points_of_box(near: Linearisation, bounds: PoseBounds) -> Balls:
     """Balls with the coordinates of all poses with these bounds of centroid and quaternion: e = q, f = C' q."""
-    q = [acb(interval_ball(bound)) for bound in bounds.quaternion]
+    q = [acb(hull(bound.lo, bound.hi)) for bound in bounds.quaternion]
     unit = ball(near.robot.frames.unit)
-    centroid = [interval_ball(bound) for bound in bounds.centroid]
+    centroid = [hull(bound.lo, bound.hi) for bound in bounds.centroid]
     c = [acb((value - a) / unit) for value, a in zip(centroid, origins(near.robot)[0], strict=True)]
     full = [*q, *quaternion_product([acb(0), *c], q)]
-    kept = near.robot.problem.motion.support
-    return in_chart(acb_mat(near.robot.size, 1, [full[k] for k in kept]), near.chart)
+    motion = near.robot.problem.motion
+    x = acb_mat(near.robot.size, 1, [full[k] for k in motion.support])
+    return in_chart(x, chart_weights(near.chart, motion))
 
 
 def _proved_pair(near: Linearisation, tolerances: Tolerances, exponent: int) -> ProvedBox | None:
@@ -224,7 +212,7 @@ def _proved_pair(near: Linearisation, tolerances: Tolerances, exponent: int) -> 
     if inner is None:
         return None
     outer = [max(radii) for radii in zip(inner, core_radii(near.robot.size, exponent), strict=True)]
-    return _boxed(near, outer, inner, exponent) if holds_one(near, errors, outer) else None
+    return _boxed(near, outer, inner, exponent) if is_proved(near, errors, outer) else None
 
 
 def _boxed(near: Linearisation, outer: Sequence[arb], inner: Sequence[arb], exponent: int) -> ProvedBox:
@@ -240,9 +228,7 @@ def _boxed(near: Linearisation, outer: Sequence[arb], inner: Sequence[arb], expo
 
 def _core(near: Linearisation, exponent: int) -> list[acb]:
     """Position and rotation, in the centred frames, of the nominal solution."""
-    radii = core_radii(near.robot.size, exponent)
-    x = near.centre + spread(radii, real=near.is_real)
-    values = quantities(gradients(x), x)
+    values = quantities_at(near.around(core_radii(near.robot.size, exponent)), near.robot.problem.motion)
     return [value / values[NORM] for value in values[POSITION:NORM]]
 
 

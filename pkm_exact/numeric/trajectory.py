@@ -21,11 +21,12 @@ from flint import acb, acb_mat, arb, arb_mat
 from pkm_exact.errors import InputError, InternalContradictionError, PkmExactError
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric.centred import CentredFrames, CentredRobot, Chart, centred_frames, centred_robot
-from pkm_exact.numeric.nominal import certified_point, certified_pose, core_radii, exact_integer, in_chart
+from pkm_exact.numeric.charts import in_chart
+from pkm_exact.numeric.linearisation import Linearisation, chart_weights
+from pkm_exact.numeric.nominal import certified_point, certified_pose, core_radii, exact_integer
 from pkm_exact.numeric.path_forms import JointRow, path_forms, problem_at
 from pkm_exact.numeric.pose_maps import pose_map
-from pkm_exact.numeric.tolerance_operator import Linearisation, spread
-from pkm_exact.numeric.tube import FloatPath, Prediction, Tube, floats, in_weights, predict, prove, station
+from pkm_exact.numeric.tube import FloatPath, Prediction, Tube, floats, predict, prove, station
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, Enclosures, disjoint_cells, exponent_for_width, pose_in_cells
 from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.pose import Pose
@@ -252,7 +253,7 @@ class _Run:
         with working_precision(self._exponent + GUARD_BITS):
             point = acb_mat([[acb(value.mid())] for value in tube.leaving.entries()])
             near = certified_point(self._robot_at(row, frames), point, self._exponent)
-            if near is None or not tube.holds(in_weights(_core_ball(near, self._exponent), tube.weights)):
+            if near is None or not tube.holds(in_chart(_core_ball(near, self._exponent), tube.weights)):
                 raise InternalContradictionError(f"row {row + 1}: the pose at the end of a proved step was not found")
         return near
 
@@ -291,7 +292,7 @@ class _Run:
             exponent = max(self._exponent, 2 * precision)
             with working_precision(exponent + GUARD_BITS):
                 finer = near if exponent == self._exponent else self._finer(frames, row, near, exponent)
-                x = finer.centre + spread(core_radii(finer.robot.size, exponent), real=True)
+                x = finer.around(core_radii(finer.robot.size, exponent))
                 values = pose_map(finer.robot, x).values[:16]
             return [values for _ in indices]
 
@@ -301,8 +302,9 @@ class _Run:
         robot = self._robot_at(row, frames)
         finer = certified_point(robot, near.centre, exponent)
         if finer is not None:
-            x = finer.centre + spread(core_radii(robot.size, exponent), real=True)
-            differences = (in_chart(x, near.chart) - near.centre).entries()
+            weights = chart_weights(near.chart, robot.problem.motion)
+            x = in_chart(finer.around(core_radii(robot.size, exponent)), weights)
+            differences = (x - near.centre).entries()
             if all(abs(d.real) < r for d, r in zip(differences, core_radii(robot.size, self._exponent), strict=True)):
                 return finer
         raise InternalContradictionError(f"row {row + 1}: the box of a proved pose cannot be narrowed")
@@ -310,7 +312,7 @@ class _Run:
 
 def _core_ball(near: Linearisation, exponent: int) -> arb_mat:
     """The narrow box around a proved solution."""
-    box = near.centre + spread(core_radii(near.robot.size, exponent), real=True)
+    box = near.around(core_radii(near.robot.size, exponent))
     return arb_mat([[value.real] for value in box.entries()])
 
 
@@ -326,6 +328,6 @@ def _step(
         return None
     # The solution at the end is that of the branch: its box lies in the last slice of the tube, which holds no other.
     leaving = station(path, end, reached + length)
-    if leaving is None or not tube.holds(in_weights(leaving, tube.weights)):
+    if leaving is None or not tube.holds(in_chart(leaving, tube.weights)):
         return None
     return tube, end, leaving

@@ -6,10 +6,8 @@ F(x, t) the equations, quadrics in x with coefficients of degree 2 in t, and any
     K_t(B) = - Y F(x(t), t) + (1 - Y F'(x(t) + B, t)) B.
 
 If it lies in the interior of B for all |t| <= h, each t has exactly one solution in its slice of the tube, the Jacobian
-is regular all over the tube, and so these solutions form one smooth branch. F(x(t), t) and F' are polynomials in t;
-their coefficients are computed first, so that what cancels does so before intervals are put in.
-
-m, v, a and Y come from floating point and prove nothing by themselves.
+is regular all over the tube, and so these solutions form one smooth branch. m, v, a and Y come from floating point and
+prove nothing by themselves.
 
 References: Krawczyk, Computing 4 (1969); Kearfott and Xing, "An interval step control for continuation methods", SIAM
 J. Numer. Anal. 31 (1994).
@@ -27,9 +25,12 @@ import numpy as np
 from flint import arb, arb_mat
 from numpy.typing import NDArray
 
+from pkm_exact.balls import ball
 from pkm_exact.motions.motion import Motion
-from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
-from pkm_exact.numeric.centred import QUANTITIES, ball, gradient_forms
+from pkm_exact.numeric.centred import QUANTITIES, gradient_forms
+from pkm_exact.numeric.charts import chart_row, in_chart
+from pkm_exact.numeric.krawczyk_operator import inflated
+from pkm_exact.numeric.path_equations import path_equations
 from pkm_exact.numeric.path_forms import PathForms
 
 Real = NDArray[np.float64]
@@ -55,7 +56,7 @@ class Tube:
         w, on the coordinates of e.
     leaving : arb_mat
         A column of balls that hold the branch at the end of the step.
-    radii : list of arb
+    radii : sequence of arb
         Half widths of the tube.
     end : arb_mat
         x(h).
@@ -65,7 +66,7 @@ class Tube:
 
     weights: list[int]
     leaving: arb_mat
-    radii: list[arb]
+    radii: Sequence[arb]
     end: arb_mat
     contraction: float
 
@@ -86,25 +87,10 @@ def _float_forms(motion: Motion) -> Real:
     return np.array([int(value) for value in entries], dtype=float).reshape(QUANTITIES, size, size)
 
 
-def real_gradients(points: arb_mat) -> list[arb_mat]:
-    """G at points that are the columns of a matrix: an 18 x n matrix each."""
-    size, count = points.nrows(), points.ncols()
-    product = arb_mat(gradient_forms(PLANAR if size == len(PLANAR.support) else SPATIAL)) * points
-    entries = product.transpose().entries()
-    stride = QUANTITIES * size
-    return [arb_mat(QUANTITIES, size, entries[k * stride : (k + 1) * stride]) for k in range(count)]
-
-
-def weights_at(point: Real) -> list[int]:
+def weights_at(point: Real, motion: Motion) -> list[int]:
     """w near e: the chart in which |e| is small and in no direction far."""
-    e = point[: len(point) // 2]
+    e = point[: len(motion.rotation_support)]
     return [int(value) for value in np.rint(32 * e / np.linalg.norm(e))]
-
-
-def in_weights(point: arb_mat, weights: Sequence[int]) -> arb_mat:
-    """The same projective point with w.e = 1."""
-    product = sum((w * point[k, 0] for k, w in enumerate(weights)), arb(0))
-    return arb_mat(point.nrows(), 1, [value / product for value in point.entries()])
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,11 +125,10 @@ class FloatPath:
 
 def predict(path: FloatPath, near: Real, middle: float) -> Prediction | None:
     """The solution at the middle of a step and the Taylor polynomial of the branch there; None without convergence."""
-    size = len(near)
-    forms = _float_forms(PLANAR if size == len(PLANAR.support) else SPATIAL)
-    weights = weights_at(near)
-    chart = np.zeros(size)
-    chart[: len(weights)] = weights
+    motion = path.forms.motion
+    forms = _float_forms(motion)
+    weights = weights_at(near, motion)
+    chart = np.array(chart_row(weights, motion), dtype=float)
     x = near / (chart @ near)
     zeroth, first, second = path.coefficients
     upper = zeroth + middle * first + middle * middle * second
@@ -186,27 +171,22 @@ def prove(path: FloatPath, prediction: Prediction, entering: arb_mat, middle: Fr
         Dyadic.
     """
     m, v, a = (_column(values) for values in (prediction.point, prediction.first, prediction.second))
-    h = ball(half)
-    both, square = arb(0, h), (h * h) * arb(0.5, 0.5)
-    expansion = _expand(path.forms, prediction, (m, v, a), ball(middle))
-    residual = expansion.residual(both, square)
-    start = in_weights(entering, prediction.weights) - (m - h * v + (h * h) * a)
+    h, inverse = ball(half), _square(prediction.inverse)
+    equations = path_equations(path.forms, prediction.weights, (m, v, a), inverse, ball(middle), h)
+    start = in_chart(entering, prediction.weights) - (m - h * v + (h * h) * a)
     # The box must hold what enters, whatever the operator makes of it.
     least = [ROOM * abs(d).upper() + FLOOR * abs(c).upper() for d, c in zip(start.entries(), m.entries(), strict=True)]
-    contraction = expansion.contraction(both, square)
-    radii = [(2 * abs(r)).max(b).upper() for r, b in zip(residual.entries(), least, strict=True)]
-    for _ in range(ENLARGEMENTS):
-        box = arb_mat(len(radii), 1, [arb(0, r) for r in radii])
-        left = (contraction - expansion.widened(box, both, square)) * box
-        image = (left - residual).entries()
-        if all(abs(value) < r for value, r in zip(image, radii, strict=True)):
-            end = m + h * v + (h * h) * a
-            share = max(float((abs(value) / r).upper()) for value, r in zip(left.entries(), radii, strict=True))
-            return Tube(prediction.weights, end + arb_mat(len(radii), 1, image), radii, end, share)
-        radii = [(GROWTH * abs(value)).max(b).upper() for value, b in zip(image, least, strict=True)]
-        if not all(r < 1 for r in radii):
-            return None
-    return None
+
+    def enlarged(values: Sequence[arb], factor: float = GROWTH) -> list[arb]:
+        return [(factor * abs(value)).max(b).upper() for value, b in zip(values, least, strict=True)]
+
+    found = inflated(equations, enlarged(equations.residual.entries(), 2), enlarged, ENLARGEMENTS)
+    if found is None:
+        return None
+    radii, image = found
+    end = m + h * v + (h * h) * a
+    share = max(float((abs(value) / r).upper()) for value, r in zip(image.contracted.entries(), radii, strict=True))
+    return Tube(prediction.weights, end + image.moved, radii, end, share)
 
 
 def station(path: FloatPath, prediction: Prediction, at: Fraction) -> arb_mat | None:
@@ -220,88 +200,5 @@ def _square(values: Real) -> arb_mat:
     return arb_mat(size, size, [arb(value) for value in values.ravel().tolist()])
 
 
-def _unit(size: int) -> arb_mat:
-    return arb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
-
-
 def _column(values: Real) -> arb_mat:
     return arb_mat(len(values), 1, [arb(value) for value in values.tolist()])
-
-
-@dataclass(frozen=True, eq=False)
-class _Expansion:
-    """Coefficients of powers of t: of Y F(x(t), t), of Y F'(x(t), t), and of the rows of the equations."""
-
-    values: list[arb_mat]
-    jacobians: list[arb_mat]
-    rows: tuple[arb_mat, arb_mat, arb_mat]
-    inverse: arb_mat
-
-    def residual(self, both: arb, square: arb) -> arb_mat:
-        """Bounds for Y F(x(t), t)."""
-        return _polynomial(self.values, both, square)
-
-    def contraction(self, both: arb, square: arb) -> arb_mat:
-        """Bounds for 1 - Y F'(x(t), t)."""
-        return _unit(self.inverse.nrows()) - _polynomial(self.jacobians, both, square)
-
-    def widened(self, box: arb_mat, both: arb, square: arb) -> arb_mat:
-        """Bounds for Y (F'(x(t) + B, t) - F'(x(t), t))."""
-        upper = _polynomial(list(self.rows), both, square) * real_gradients(box)[0]
-        return self.inverse * _padded(upper)
-
-
-def _polynomial(coefficients: Sequence[arb_mat], both: arb, square: arb) -> arb_mat:
-    """Bounds for the sum of the coefficients times powers of t; ``square`` bounds t^2."""
-    total, power = coefficients[0], arb(1)
-    for k, coefficient in enumerate(coefficients[1:], 1):
-        if k % 2:
-            total = total + coefficient * (power * both)
-        else:
-            power = power * square
-            total = total + coefficient * power
-    return total
-
-
-def _padded(upper: arb_mat) -> arb_mat:
-    """A row of zeros below: that of the chart, which does not change."""
-    return arb_mat(upper.nrows() + 1, upper.ncols(), upper.entries() + [arb(0)] * upper.ncols())
-
-
-def _expand(forms: PathForms, prediction: Prediction, curve: tuple[arb_mat, ...], middle: arb) -> _Expansion:
-    size = len(prediction.point)
-    inverse = _square(prediction.inverse)
-    zeroth, first, second = forms.coefficients
-    rows = (zeroth + middle * first + (middle * middle) * second, first + (2 * middle) * second, second)
-    m, v, a = curve
-    slopes = real_gradients(arb_mat([column.entries() for column in curve]).transpose())
-    gm, gv, ga = slopes
-    quantities = [gm * m, 2 * (gm * v), 2 * (gm * a) + gv * v, 2 * (gv * a), ga * a]
-    values = [
-        inverse * _with_last(total * arb(0.5), last)
-        for total, last in zip(_product(rows, quantities), _chart_values(prediction.weights, curve), strict=True)
-    ]
-    jacobians = [_padded(total) for total in _product(rows, slopes)]
-    chart = [arb(w) for w in prediction.weights] + [arb(0)] * (size - len(prediction.weights))
-    jacobians[0] = arb_mat(size, size, jacobians[0].entries()[:-size] + chart)
-    return _Expansion(values, [inverse * matrix for matrix in jacobians], rows, inverse)
-
-
-def _product(rows: Sequence[arb_mat], factors: Sequence[arb_mat]) -> list[arb_mat]:
-    """The coefficients of a product of polynomials."""
-    found: list[arb_mat | None] = [None] * (len(rows) + len(factors) - 1)
-    for i, row in enumerate(rows):
-        for j, factor in enumerate(factors):
-            term, sofar = row * factor, found[i + j]
-            found[i + j] = term if sofar is None else sofar + term
-    return [total for total in found if total is not None]
-
-
-def _chart_values(weights: Sequence[int], curve: Sequence[arb_mat]) -> list[arb]:
-    """w.x(t) - 1, as many coefficients as F has."""
-    sums = [sum((w * column[k, 0] for k, w in enumerate(weights)), arb(0)) for column in curve]
-    return [sums[0] - 1, *sums[1:], *[arb(0)] * 4]
-
-
-def _with_last(column: arb_mat, last: arb) -> arb_mat:
-    return arb_mat(column.nrows() + 1, 1, [*column.entries(), last])

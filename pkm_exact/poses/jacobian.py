@@ -12,12 +12,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache, reduce
+from functools import reduce
 from math import isqrt
 
 import numpy as np
 from flint import arb, arb_mat
 
+from pkm_exact.balls import unit_matrix
 from pkm_exact.constraints.constraint import Role
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InternalContradictionError
@@ -173,16 +174,11 @@ def _largest_singular_value(matrix: arb_mat) -> arb | None:
     largest = reduce(arb.max, [abs(entries[place]) for place in diagonal])
     largest += arb(0, _norm([entry for place, entry in enumerate(entries) if place not in diagonal]))
     for basis in (u, v):
-        defect = _norm((basis.transpose() * basis - _unit(basis.nrows())).entries())
+        defect = _norm((basis.transpose() * basis - unit_matrix(basis.nrows())).entries())
         if not defect < 1:
             return None
         largest /= (1 + arb(0, defect)).sqrt()
     return largest * arb(2) ** exponent if largest > 0 else None
-
-
-@cache
-def _unit(size: int) -> arb_mat:
-    return arb_mat(size, size, [int(place % (size + 1) == 0) for place in range(size * size)])
 
 
 def _exponent(matrix: arb_mat) -> int:

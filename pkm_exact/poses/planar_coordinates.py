@@ -6,6 +6,7 @@ from fractions import Fraction
 
 from flint import arb
 
+from pkm_exact.balls import hull
 from pkm_exact.poses.pose import Pose
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
@@ -42,7 +43,7 @@ def angle_in_degrees(cos: Interval, sin: Interval) -> Interval | None:
         return None
     longest = max(end.denominator.bit_length() for end in (cos.lo, cos.hi, sin.lo, sin.hi))
     with working_precision(longest + GUARD_BITS):
-        c, s = _ball(cos), _ball(sin)
+        c, s = hull(cos.lo, cos.hi), hull(sin.lo, sin.hi)
         if cos.hi < 0:  # away from the cut of the arctangent
             turns = -1 if sin.hi < 0 else 1
             angle = arb.atan2(-s, -c) + turns * arb.pi()
@@ -50,11 +51,6 @@ def angle_in_degrees(cos: Interval, sin: Interval) -> Interval | None:
             angle = arb.atan2(s, c)
         angle = 180 * angle / arb.pi()
         return Interval(_exact(angle.lower()), _exact(angle.upper()))
-
-
-def _ball(interval: Interval) -> arb:
-    low, high = (arb(end.numerator) / end.denominator for end in (interval.lo, interval.hi))
-    return low.union(high)
 
 
 def _exact(value: arb) -> Fraction:

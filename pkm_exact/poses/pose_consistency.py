@@ -20,8 +20,9 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
-from flint import arb, arb_mat, fmpq, fmpz_mat
+from flint import arb, arb_mat, fmpz_mat
 
+from pkm_exact.balls import ball, hull
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Form, ordinary, value_at
 from pkm_exact.errors import InternalContradictionError
@@ -179,18 +180,18 @@ class _Robot:
         self.volume = self.axes[0] * self.axes[1] * self.axes[2]
         self.joints = self._joints(legs) if legs else None
         """B, 1 and -A: what R, C and 1 are multiplied with."""
-        self.squares = [_rational(leg.length_squared) for leg in legs]
+        self.squares = [ball(leg.length_squared) for leg in legs]
         others = replace(problem, constraints=tuple(found for found in problem.constraints if found not in legs))
         self.forms = [self._ordinary(form) for form in (*others.forms, *map(_fractions, problem.motion.forms))]
         self.quadrics = [
-            (self._ordinary(square.linear), self._ordinary(square.root), _rational(square.factor))
+            (self._ordinary(square.linear), self._ordinary(square.root), ball(square.factor))
             for square in problem.squares
         ]
 
     def _joints(self, legs: Sequence[Distance]) -> arb_mat:
         platform, base = (
             [
-                [_rational(value) * axis for value in row]
+                [ball(value) * axis for value in row]
                 for axis, row in zip(self.axes, zip(*side, strict=True), strict=True)
             ]
             for side in ([leg.platform for leg in legs], [leg.base for leg in legs])
@@ -198,7 +199,7 @@ class _Robot:
         return arb_mat([*platform, [arb(1)] * len(legs), *([-value for value in row] for row in base)])
 
     def _ordinary(self, form: Form) -> list[arb]:
-        return ordinary([_rational(value) for value in form], self.axes)
+        return ordinary([ball(value) for value in form], self.axes)
 
     def admits(self, values: Sequence[arb]) -> bool:
         """Whether every other constraint, and what the motions satisfy by themselves, is possible at a pose."""
@@ -262,10 +263,6 @@ def _fractions(form: Sequence[int]) -> Form:
     return tuple(map(Fraction, form))
 
 
-def _rational(value: Fraction) -> arb:
-    return arb(fmpq(value.numerator, value.denominator))
-
-
 def _enclosures(poses: Sequence[Pose], exponent: int) -> list[list[arb]]:
     """Position (3), rotation (9) and quaternion (4) of each pose, as balls that are its intervals, exactly."""
     middles, radii = [], []
@@ -289,4 +286,4 @@ def _in_cells(value: Fraction, exponent: int) -> int:
 
 def _enclosing(interval: Interval) -> arb:
     """A ball around an interval with rational ends."""
-    return _rational(interval.lo).union(_rational(interval.hi))
+    return hull(interval.lo, interval.hi)

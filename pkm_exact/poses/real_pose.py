@@ -20,6 +20,7 @@ from itertools import combinations
 
 from flint import arb, fmpq_mat
 
+from pkm_exact.balls import ball
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
 from pkm_exact.formulations.base import rational
@@ -81,5 +82,5 @@ def _is_open(first: Distance, second: Distance, metric: Metric) -> bool:
     for a, b in ((first.base, second.base), (first.platform, second.platform)):
         side = _difference(a, b)
         squares.append(dot(side, side, metric))
-    sides = [(arb(square.numerator) / square.denominator).sqrt() for square in squares]
+    sides = [ball(square).sqrt() for square in squares]
     return any(2 * side > sum(sides, arb(0)) for side in sides)

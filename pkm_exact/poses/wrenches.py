@@ -11,8 +11,9 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, arb_mat, fmpq
+from flint import arb, arb_mat
 
+from pkm_exact.balls import ball
 from pkm_exact.constraints.form import Form, integral, ordinary, rational_wrench, value_at, wrench
 from pkm_exact.geometry.problem import ForwardProblem
 
@@ -69,15 +70,15 @@ class BallRows:
         roots = [arb(g).sqrt() for g in problem.metric]
 
         def balls(form: Form) -> list[arb]:
-            return ordinary([_ball(value) for value in form], roots)
+            return ordinary([ball(value) for value in form], roots)
 
         self._forms, self._squares = [], []
         for found in problem.constraints:
-            scales = [_ball(scale).rsqrt() for scale in found.scales(problem.metric, length)]
+            scales = [ball(scale).rsqrt() for scale in found.scales(problem.metric, length)]
             forms, squares = found.forms(problem.metric), found.squares(problem.metric)
             self._forms += [(balls(form), scale) for form, scale in zip(forms, scales[: len(forms)], strict=True)]
             for square, scale in zip(squares, scales[len(forms) :], strict=True):
-                self._squares.append((balls(square.linear), balls(square.root), _ball(square.factor), scale))
+                self._squares.append((balls(square.linear), balls(square.root), ball(square.factor), scale))
 
     def at(self, position: Sequence[arb], rotation: Sequence[Sequence[arb]]) -> arb_mat:
         """The Jacobian at a pose: a row for every form, then for every quadric."""
@@ -91,10 +92,6 @@ class BallRows:
     def _row(self, found: Sequence[arb], scale: arb) -> list[arb]:
         parts = [value * scale for value in found[:3]] + [value * scale * self._per_length for value in found[3:]]
         return [parts[k] for k in self._twist]
-
-
-def _ball(value: Fraction) -> arb:
-    return arb(fmpq(value.numerator, value.denominator))
 
 
 def least_multiplicity(problem: ForwardProblem, rank: int) -> int:

@@ -12,8 +12,9 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Final
 
-from flint import arb, arb_poly, fmpq, fmpz_poly
+from flint import arb, arb_poly, fmpz_poly
 
+from pkm_exact.balls import ball
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
@@ -49,7 +50,7 @@ def roots_in_gaps(polynomial: fmpz_poly, intervals: Sequence[Interval]) -> list[
             return [below if below is not False else _ray(rounded, degree, Fraction(0), 1)]
         gaps = [_ray(rounded, degree, intervals[0].lo, -1)]
         for left, right in pairwise(intervals):
-            low, high = _ball(left.hi), _ball(right.lo)
+            low, high = ball(left.hi), ball(right.lo)
             gaps.append(_decided(rounded(arb_poly([low, high - low])), degree, DEPTH))
         gaps.append(_ray(rounded, degree, intervals[-1].hi, 1))
         return gaps
@@ -57,7 +58,7 @@ def roots_in_gaps(polynomial: fmpz_poly, intervals: Sequence[Interval]) -> list[
 
 def _ray(polynomial: arb_poly, degree: int, start: Fraction, sign: int) -> bool | None:
     """The same for the numbers beyond the start: x / (1 - x) takes (0, 1) to them."""
-    moved = polynomial(arb_poly([_ball(start), sign]))
+    moved = polynomial(arb_poly([ball(start), sign]))
     changes = _changes(moved)
     if changes in (0, 1):
         return changes == 1
@@ -92,7 +93,3 @@ def _changes(polynomial: arb_poly) -> int | None:
         elif not value.is_zero():
             return None
     return sum(left != right for left, right in pairwise(signs))
-
-
-def _ball(value: Fraction) -> arb:
-    return arb(fmpq(value.numerator, value.denominator))
