@@ -861,6 +861,31 @@ def eliminated(certificate: Certificate) -> pure.Elimination:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
+def solved_relations(relations: Sequence[Mapping[int, int]], n: int) -> dict[int, dict[int, int]]:
+    """The reduced echelon form modulo 2^n - 1: rows by their pivots, which are 1 and left out."""
+    solved: dict[int, dict[int, int]] = {}
+    for relation in relations:
+        row: dict[int, int] = {}
+        for column, value in relation.items():
+            known = solved.get(column)
+            if known is None:
+                row[column] = row.get(column, 0) + value
+            else:
+                pure.spend(len(known) * 500)
+                for other, entry in known.items():
+                    row[other] = row.get(other, 0) - value * entry
+        row = pure.remainders(row, n)
+        if not row:
+            continue
+        lead = min(row)
+        row = pure.scaled(row, row.pop(lead), n)
+        for other_row in solved.values():
+            if lead in other_row:
+                pure.subtract(other_row, other_row.pop(lead), row, n)
+        solved[lead] = row
+    return solved
+
+
 def graded_dimensions(number: int, quadrics: Sequence[Mapping[tuple[int, int], int]], most: int, n: int) -> list[int]:
     """dim A_0, dim A_1, .. modulo 2^n - 1, up to the first 0, or to that of degree ``most``.
 
@@ -878,10 +903,8 @@ def graded_dimensions(number: int, quadrics: Sequence[Mapping[tuple[int, int], i
                 relations.append(relation)
         if len(found) == 2:
             relations += [{i * size + j: value for (i, j), value in quadric.items()} for quadric in quadrics]
-        relations = [row for row in (pure.remainders(relation, n) for relation in relations) if row]
-        pivots, independent = pure.pivots_modulo(relations, n)
-        solved = pure.solved_modulo(independent, pivots, n) or {}
-        free = {symbol: place for place, symbol in enumerate(s for s in range(number * size) if s not in pivots)}
+        solved = solved_relations(relations, n)
+        free = {symbol: place for place, symbol in enumerate(s for s in range(number * size) if s not in solved)}
         products = [
             [
                 {free[symbol]: 1}
@@ -928,10 +951,8 @@ def is_finite_modulo(
     """Whether, modulo a prime, forms, quadrics and a random form have all monomials of some degree."""
     random = Random(n)
     p = (1 << n) - 1
-    rows = [row for row in (pure.remainders(form, n) for form in forms) if row]
-    pivots, independent = pure.pivots_modulo([*rows, {place: random.randrange(p) for place in range(17)}], n)
-    solved = pure.solved_modulo(independent, pivots, n) or {}
-    unknowns = {place: number for number, place in enumerate(c for c in range(17) if c not in pivots)}
+    solved = solved_relations([*forms, {place: random.randrange(p) for place in range(17)}], n)
+    unknowns = {place: number for number, place in enumerate(c for c in range(17) if c not in solved)}
     coordinates = [
         {unknowns[place]: 1}
         if place in unknowns
