@@ -46,10 +46,19 @@ def made(problem: Callable[[], ForwardProblem], engine: Callable[[ForwardProblem
     return canonical_bytes(content)
 
 
-def few_legs() -> ForwardProblem:
+def few_legs(left_out: int) -> ForwardProblem:
     """The H4 without one of its legs."""
-    problem = h4()
-    return replace(problem, constraints=problem.constraints[:3])
+    legs = h4().constraints
+    return replace(h4(), constraints=legs[:left_out] + legs[left_out + 1 :])
+
+
+def concurrent() -> ForwardProblem:
+    """Four planar legs whose lines meet in a point: one pose, a double one, as their rows have rank 2."""
+    legs = []
+    for (x, y), factor in zip(((0, 0), (4, 0), (0, 4), (5, 3)), (2, -1, 3, -2), strict=True):
+        base, platform = vector(3 + factor * (x - 3), 5 + factor * (y - 5), 0), vector(x, y, 0)
+        legs.append(Distance(base, platform, F(1 - factor) ** 2 * ((x - 3) ** 2 + (y - 5) ** 2)))
+    return ForwardProblem(tuple(legs), motion=PLANAR)
 
 
 def wrong_leg() -> ForwardProblem:
@@ -83,6 +92,18 @@ def parallelogram() -> ForwardProblem:
     return ForwardProblem(tuple(Distance(corner, corner, F(9)) for corner in corners), motion=PLANAR)
 
 
+def boxed_cylinders() -> bytes:
+    """The cylinders with boxes around their solutions, all of them real and, in the chart e0 = 1, f = C."""
+    content = mechanism_content("cylinders")
+    grid, boxes = 1 << 20, []
+    for pose in content["poses"]:
+        position = [round(Fraction(low) * grid) for low, _ in pose["position"]]
+        boxes.append({"exponents": [20, 20], "centre": list(map(hex, (grid, 0, 0, 0, 0, *position)))})
+        pose["parameter"] = None
+    parts = {"krawczyk": {"chart": [1, 0, 0, 0], "real": boxes, "complex": []}, "method": "krawczyk"}
+    return canonical_bytes(sealed(content | parts | {"representation": None}))
+
+
 def slices() -> bytes:
     """The parallelogram again: as more poses than can be isolated, on four slices."""
     found = more_poses(parallelogram(), Policy(short_proofs=True))
@@ -104,13 +125,18 @@ MADE: dict[str, Callable[[], bytes]] = {
     "Delta": partial(made, delta),
     "about a point": partial(made, spherical),
     "planar lines": partial(made, turning_lines),
+    "planar lines, boxes": partial(made, turning_lines, solve_krawczyk),
     "six planes": partial(made, partial(mixed, 0, 6)),
     "cylinders": partial(made, cartesian),
+    "cylinders, boxes": boxed_cylinders,
     "point and spheres": partial(made, point_and_spheres),
-    "3-PSS+C with multiple solutions": partial(made, partial(pssc, (F(0),) * 3)),
+    "3-PSS+C": partial(made, partial(pssc, (F(0),) * 3)),
+    "3-PSS+C, general": partial(made, partial(pssc, (F(0), F(1, 2), F(-1, 4)))),
     "redundant leg": partial(made, redundant),
     "contradictory leg": partial(made, wrong_leg),
-    "few legs": partial(made, few_legs),
+    "more legs than freedoms, a multiple solution": partial(made, concurrent),
+    "few legs, real": partial(made, partial(few_legs, 0)),
+    "few legs": partial(made, partial(few_legs, 3)),
     "joints on a line": partial(made, on_a_line),
     "parallelogram": partial(made, parallelogram),
     "slices": slices,

@@ -132,6 +132,8 @@ def irregular_factors(representation: Representation, mechanism: Mechanism) -> l
     Those at which they may have full rank, without a proof of it, are not among them.
     """
     factors = irreducible_factors(primitive_part(representation.eliminant))
+    if len(mechanism.linear) + len(mechanism.quadrics) < mechanism.group.dimension:
+        return factors
     doubtful = [factor for factor in factors if not are_regular(factor, representation, mechanism)]
     return [factor for factor in doubtful if _rank(factor, representation, mechanism) < mechanism.group.dimension]
 
@@ -182,7 +184,7 @@ def _rank(factor: fmpz_poly, representation: Representation, mechanism: Mechanis
     numerators = (*representation.quaternion, *representation.translation)
     modulus = fmpq_poly(factor)
     # Entries of the rows are forms of degree 6 at most; after an elimination they are quotients of minors of them.
-    products = 36 * (len(mechanism.linear) + len(mechanism.quadrics)) + 12 * int(factor.degree()) ** 2
+    products = 36 * (len(mechanism.linear) + len(mechanism.quadrics)) + 12 * int(factor.degree())
     charge(products * algebraic_cost(factor, representation, 72))
     left = [[entry.value for entry in row] for row in _rows_at([fmpq_poly(x) for x in numerators], modulus, mechanism)]
     rank = 0
