@@ -56,6 +56,8 @@ MAX_BOX_GRID: Final = 2048  # of boxes around solutions
 MAX_ISOLATION: Final = 4096  # real roots in cells of the grid 2^-4096 that touch are too close
 MAX_PRECISION: Final = 1 << 14
 MAX_PRODUCTS: Final = 5000
+MAX_CELL_BITS: Final = 14_000  # Python writes no integers of more than 4300 decimal digits
+MAX_MONOMIAL_DEGREE: Final = 100  # where an algebra is needed
 MAX_TERMS: Final = 1 << 20  # of the products of a step, and of all elements
 MAX_ENTRIES_OF_A_MATRIX: Final = 1 << 22
 
@@ -124,9 +126,9 @@ class Work:
         self.allowed = WORK_OF_ANY_FILE + WORK_OF_A_BYTE * size
         self.spent = 0
 
-    def spend(self, operations: float) -> None:
+    def spend(self, operations: int) -> None:
         """Count operations; refuse if they are too many."""
-        self.spent += int(operations)
+        self.spent += operations
         affordable(
             self.spent <= self.allowed,
             f"work: checking takes more than {self.allowed} operations, all that a file of {self.size} bytes may cost",
@@ -137,16 +139,35 @@ WORK: Final[ContextVar[Work | None]] = ContextVar("WORK", default=None)
 """That of the file being checked."""
 
 
-def spend(operations: float) -> None:
+def spend(operations: int) -> None:
     """Count operations, about to be done, on the file being checked, if it is a file that is checked."""
     work = WORK.get()
     if work is not None:
         work.spend(operations)
 
 
-def product_cost(a: float, b: float) -> float:
-    """Operations for a product of integers of a and b bits, or for a quotient of b bits by a divisor of a bits."""
-    return 150 + a * b / 1200
+def product_cost(a: int, b: int) -> int:
+    """Operations for a product of integers of a and b bits: Karatsuba's method above some size."""
+    small, large = (a, b) if a < b else (b, a)
+    times = large // (small + 1) + 1
+    while small > 2000:
+        small, times = small // 2, 3 * times
+    return 150 + times * (small * small // 900 + small // 10)
+
+
+def division_cost(quotient: int, divisor: int) -> int:
+    """Operations for a quotient, both in bits, or for a greatest common divisor or an inverse of numbers so long."""
+    return 300 + (quotient + 30) * (divisor + 30) // 750
+
+
+def fraction_cost(bits: int) -> int:
+    """Operations for a sum or a product of fractions, with numerators and denominators of so many bits."""
+    return 4000 + 8 * bits + bits * bits // 400
+
+
+def most_bits(values: Iterable[int]) -> int:
+    """The length of the longest number."""
+    return max((value.bit_length() for value in values), default=0)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -697,6 +718,7 @@ def combination(scalars: Iterable[int], values: Iterable[Any]) -> Any:
 
 def at_power(polynomial: Sequence[int], k: int) -> int:
     """The value at 2^k."""
+    spend(len(polynomial) * (300 + (len(polynomial) * k + most_bits(polynomial)) // 50))
     value = 0
     for coefficient in reversed(polynomial):
         value = (value << k) + coefficient
@@ -705,6 +727,7 @@ def at_power(polynomial: Sequence[int], k: int) -> int:
 
 def digits(value: int, k: int) -> Polynomial:
     """The polynomial with coefficients between -2^(k-1) and 2^(k-1) that has a value at 2^k."""
+    spend((value.bit_length() // k + 2) * (300 + value.bit_length() // 50))
     mask, half = (1 << k) - 1, 1 << (k - 1)
     coefficients = []
     while value:
@@ -722,6 +745,8 @@ def derivative(polynomial: Sequence[int]) -> Polynomial:
 
 def primitive_part(polynomial: Sequence[int]) -> Polynomial:
     """The polynomial divided by the greatest common divisor of its coefficients."""
+    bits = most_bits(polynomial)
+    spend(2 * len(polynomial) * division_cost(bits, bits))
     content = gcd(*polynomial)
     return [coefficient // content for coefficient in polynomial]
 
@@ -748,6 +773,7 @@ class Multiples:
         self.value = at_power(h0, self.k)
         self.zeros = (self.value & -self.value).bit_length() - 1
         self.length = self.k * (number + 1)
+        spend(6 * product_cost(self.length, self.length))
         odd, self.inverse, known = self.value >> self.zeros, 1, 1
         while known < self.length:
             known = min(2 * known, self.length)
@@ -756,6 +782,7 @@ class Multiples:
 
     def include(self, value: int) -> bool:
         """Whether h0 divides the polynomial with this value at X."""
+        spend(3 * product_cost(self.length, max(self.length, value.bit_length())))
         quotient = (value >> self.zeros) * self.inverse & ((1 << self.length) - 1)
         quotient -= quotient >> (self.length - 1) << self.length
         if quotient * self.value != value:
@@ -781,6 +808,12 @@ def reduced(polynomial: Iterable[int], p: int) -> Polynomial:
 
 def divided(a: Polynomial, b: Polynomial, p: int) -> tuple[Polynomial, Polynomial]:
     """Quotient and remainder modulo a prime, or modulo any p if b is monic."""
+    bits, steps = p.bit_length(), max(len(a) - len(b) + 1, 0)
+    spend(
+        8000
+        + bits * bits // 8
+        + (len(a) + steps * len(b)) * (300 + product_cost(bits, bits) + division_cost(bits, bits))
+    )
     inverse = pow(b[-1], -1, p)
     rest, quotient = list(a), [0] * max(len(a) - len(b) + 1, 0)
     for place in reversed(range(len(quotient))):
@@ -801,6 +834,7 @@ def common_divisor(a: Polynomial, b: Polynomial, p: int) -> Polynomial:
 def product(a: Polynomial, b: Polynomial, p: int) -> Polynomial:
     """The product modulo p."""
     k = 2 * p.bit_length() + len(a).bit_length() + 1
+    spend(product_cost(k * len(a), k * len(b)) + (len(a) + len(b)) * (500 + division_cost(k, k // 2)))
     return reduced(digits(at_power(a, k) * at_power(b, k), k), p)
 
 
@@ -811,12 +845,16 @@ class Residues:
     """
 
     def __init__(self, g: Polynomial, m: int) -> None:
+        bits = m.bit_length()
+        spend(8000 + bits * bits // 8 + len(g) ** 2 * (500 + product_cost(bits, bits) + division_cost(bits, bits)))
         inverse = pow(g[-1], -1, m)
         self.m = m
         self.g = [coefficient * inverse % m for coefficient in g]
         self.degree = len(g) - 1
         self.width = (2 * m.bit_length() + self.degree.bit_length() + 8) // 8
         power = [-coefficient % m for coefficient in self.g[:-1]]
+        whole, part = 8 * self.width * self.degree, division_cost(8 * self.width, bits)
+        self.cost = product_cost(whole, whole) + self.degree * (product_cost(bits, whole) + 3 * (part + 500))
         self.powers = []  # T^d, T^(d+1), ..
         for _ in range(self.degree):
             self.powers.append(self.packed(power))
@@ -835,6 +873,7 @@ class Residues:
 
     def element(self, polynomial: Polynomial) -> Residue:
         """The class of a polynomial."""
+        spend(len(polynomial) * division_cost(most_bits(polynomial), self.m.bit_length()))
         rest = divided(reduced(polynomial, self.m), self.g, self.m)[1]
         return Residue(self, [*rest, *[0] * (self.degree - len(rest))])
 
@@ -858,10 +897,13 @@ class Residue:
 
     def __rmul__(self, scalar: int) -> Residue:
         m = self.ring.m
+        bits = scalar.bit_length() if isinstance(scalar, int) else 0
+        spend(len(self.value) * (300 + product_cost(bits, m.bit_length()) + division_cost(bits, m.bit_length())))
         return Residue(self.ring, [scalar * x % m for x in self.value])
 
     def __mul__(self, other: Residue) -> Residue:
         ring = self.ring
+        spend(ring.cost)
         low = ring.packed(self.value) * ring.packed(other.value)
         coefficients = ring.unpacked(low, 2 * ring.degree)
         total = ring.packed(coefficients[: ring.degree])
@@ -906,6 +948,8 @@ def check_eliminant(representation: Representation, most: int = GREATEST_NUMBER)
         degree <= most,
         f"eliminant: degree {degree}, but six legs have at most {GREATEST_NUMBER} isolated poses",
     )
+    numbers = [*h, *(coefficient for numerator in representation.numerators for coefficient in numerator)]
+    spend(2 * len(numbers) * division_cost(most_bits(numbers), most_bits(h)))
     content = gcd(*h, *(coefficient for numerator in representation.numerators for coefficient in numerator))
     require(h[-1] > 0 and content == 1, "eliminant: not in lowest terms with positive leading coefficient")
     h0 = primitive_part(h)
@@ -916,6 +960,7 @@ def check_eliminant(representation: Representation, most: int = GREATEST_NUMBER)
 
 def is_coprime(h0: Polynomial, q: Polynomial, p: int) -> bool:
     """Whether two polynomials have no common factor modulo p."""
+    spend(sum(len(each) * division_cost(most_bits(each), p.bit_length()) for each in (h0, q)))
     return len(common_divisor(reduced(h0, p), reduced(q, p), p)) == 1
 
 
@@ -953,6 +998,7 @@ def check_poses(representation: Representation, legs: Sequence[Leg], g: Metric) 
     yield "motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
     quantities = placed.quantities()
     for number, form in enumerate(forms, 1):
+        spend(17 * product_cost(most_bits(form), most_bits(quantities)))
         holds = multiples.include(combination(form, quantities))
         require(holds, f"legs: leg {number} does not have its length at every solution")
     yield f"legs: all {len(legs)} have their lengths at every solution"
@@ -963,6 +1009,7 @@ def evaluated(representation: Representation, g: Metric, scale: int) -> tuple[Mu
     bound = size_of_quantities(representation, g)
     multiples = Multiples(primitive_part(representation.h), bound * max(scale, 1))
     values = [at_power(numerator, multiples.k) for numerator in representation.numerators]
+    spend(80 * product_cost(most_bits(values), most_bits(values)))
     return multiples, motion(values[:4], values[4:], g)
 
 
@@ -1021,6 +1068,7 @@ def positive_roots(h0: Polynomial, b: int) -> Iterator[Root]:
     pending = [(0, -b, [c << (b * power) for power, c in enumerate(h0)])]
     while pending:
         m, k, q = pending.pop()
+        spend(len(q) * (2000 + len(q) * (150 + most_bits(q) // 200)))
         changes = sign_changes(shifted(q[::-1]))
         if changes == 1 and k >= 0:
             yield Root(m, k, False)
@@ -1050,6 +1098,8 @@ def sign_changes(coefficients: Sequence[int]) -> int:
 
 def value_at(polynomial: Polynomial, m: int, k: int) -> int:
     """The value at m / 2^k, times 2^(k degree)."""
+    bits, terms = max(m.bit_length(), k), len(polynomial)
+    spend(terms * (300 + product_cost(bits, terms * bits + most_bits(polynomial))))
     value = 0
     for power, coefficient in enumerate(reversed(polynomial)):
         value = value * m + (coefficient << (k * power))
@@ -1077,6 +1127,7 @@ def refined(h0: Polynomial, root: Root, k: int) -> Root:
             )
             step = 2
             continue
+        spend(division_cost(step, low.bit_length()))
         guess = (m << step) + (low << step) // (low - high)
         ends = value_at(h0, guess, grid + step), value_at(h0, guess + 1, grid + step)
         if not all(ends):
@@ -1097,6 +1148,7 @@ def isolated(h0: Polynomial) -> list[Root]:
         affordable(k < MAX_ISOLATION, TOO_CLOSE)
         k = min(2 * k, MAX_ISOLATION)
         roots = [refined(h0, root, k) for root in roots]
+    spend((k - 31) * (2000 + 3000 * len(roots)))
     grids = ([coarser(root, grid) for root in roots] for grid in range(32, k + 1))
     return next(cells for cells in grids if are_apart(cells))
 
@@ -1133,23 +1185,33 @@ class Interval:
         return Interval(min(ends), max(ends), self.p)
 
     def __mul__(self, other: Interval) -> Interval:
+        spend(1200 + 4 * product_cost(self.bits(), other.bits()))
         ends = [x * y for x in (self.low, self.high) for y in (other.low, other.high)]
         return Interval(min(ends) >> self.p, -(-max(ends) >> self.p), self.p)
 
     def over(self, other: Interval) -> Interval:
         """The quotient by an interval that does not contain 0."""
+        bits = other.bits()
+        spend(2000 + 8 * division_cost(max(self.p + self.bits() - bits, 0), bits))
         pairs = [(x << self.p, y) for x in (self.low, self.high) for y in (other.low, other.high)]
         return Interval(min(x // y for x, y in pairs), max(-(-x // y) for x, y in pairs), self.p)
 
     def root(self) -> Interval:
         """The square root of an interval of positive numbers."""
+        bits = self.p + self.high.bit_length()
+        spend(6000 + division_cost(bits, bits))
         return Interval(isqrt(self.low << self.p), isqrt((self.high << self.p) - 1) + 1, self.p)
 
     def square(self) -> Interval:
         """The squares."""
         ends = sorted((abs(self.low), abs(self.high)))
+        spend(500 + 2 * product_cost(ends[1].bit_length(), ends[1].bit_length()))
         least = 0 if self.contains_zero() else ends[0]
         return Interval(least * least >> self.p, -(-ends[1] * ends[1] >> self.p), self.p)
+
+    def bits(self) -> int:
+        """The length of the longer end."""
+        return max(self.low.bit_length(), self.high.bit_length())
 
     def contains_zero(self) -> bool:
         """Whether 0 is in the interval."""
@@ -1194,6 +1256,9 @@ def at_root(representation: Representation, g: Metric, root: Root, p: int) -> li
 def check_cells(certificate: Certificate, boxes: Sequence[list[tuple[int, int]]]) -> Iterator[str]:
     """The intervals listed are those of the poses, and no two boxes meet."""
     poses, exponent = certificate.poses, certificate.box_exponent
+    bits = most_bits(end for cells in boxes for pair in cells for end in pair)
+    affordable(bits <= MAX_CELL_BITS, f"boxes: a coordinate of more than {MAX_CELL_BITS} bits")
+    spend(len(poses) * (32 * (5000 + division_cost(bits, bits) * 4) + 20000 * len(poses)))
     for number, (pose, cells) in enumerate(zip(poses, boxes, strict=True), 1):
         same = pose.box == tuple(ends(low, high, exponent) for low, high in cells)
         require(same, f"boxes: the box of pose {number} is not that of its solution")
@@ -1268,6 +1333,7 @@ def enclosed(polynomial: Polynomial, root: Root, p: int) -> Interval:
     m, k, exact = root
     value = value_at(polynomial, m, k)
     b = max(0, (abs(m) + 1).bit_length() - k)
+    spend(len(polynomial) * (500 + (len(polynomial) * (b + k) + most_bits(polynomial)) // 30))
     slope = sum(i * abs(c) << (b * (i - 1)) for i, c in enumerate(polynomial) if i)
     error = 0 if exact else slope << (k * (len(polynomial) - 2))
     return Interval(value - error, value + error, p)
@@ -1513,21 +1579,32 @@ def section(legs: Sequence[Leg], g: Metric) -> tuple[tuple[int, ...], list[Terms
 
 def cleared_terms(polynomial: Affine) -> Terms:
     """An integer multiple."""
+    bits = max((bits_of_fraction(value) for value in polynomial.values()), default=0)
+    spend(len(polynomial) * (2000 + 4 * division_cost(len(polynomial) * bits, bits)))
     return dict(zip(polynomial, cleared(list(polynomial.values())), strict=True))
 
 
 def added(*terms: tuple[Fraction | int, Affine]) -> Affine:
     """The combination of polynomials."""
     total: Affine = {}
+    bits = max((bits_of_fraction(value) for _, each in terms for value in each.values()), default=0)
+    spend(sum(len(each) for _, each in terms) * 2 * fraction_cost(bits))
     for scalar, polynomial in terms:
         for monomial, value in polynomial.items():
             total[monomial] = total.get(monomial, Fraction(0)) + scalar * value
     return {monomial: value for monomial, value in total.items() if value}
 
 
+def bits_of_fraction(value: Fraction) -> int:
+    """The length of its longer part."""
+    return max(value.numerator.bit_length(), value.denominator.bit_length())
+
+
 def multiplied(a: Affine, b: Affine) -> Affine:
     """The product."""
     total: Affine = {}
+    bits = max(map(bits_of_fraction, [*a.values(), *b.values(), Fraction(0)]))
+    spend(len(a) * len(b) * (3000 + 2 * fraction_cost(2 * bits)))
     for one, x in a.items():
         for other, y in b.items():
             monomial = tuple(map(sum, zip(one, other, strict=True)))
@@ -1720,7 +1797,7 @@ def denominator_of(residues: Sequence[int], modulus: int) -> tuple[int, int] | N
 
 def inverse_of(value: int, n: int) -> int:
     """The inverse modulo 2^n - 1; ValueError if there is none."""
-    spend(8000 + n * n / 8)
+    spend(8000 + n * n // 8)
     return pow(value, -1, (1 << n) - 1)
 
 
@@ -1815,7 +1892,7 @@ def lifted_rows(pivots: Mapping[int, Mapping[int, int]], n: int, denominator: in
 
 def least_denominator(value: int, p: int, bound: int) -> int:
     """The denominator of the fraction, numerator up to a bound, that is this value modulo p (Wang 1981)."""
-    spend(1000 + (p.bit_length() - bound.bit_length()) * (300 + p.bit_length() / 8))
+    spend(1000 + (p.bit_length() - bound.bit_length()) * (300 + p.bit_length() // 8))
     older, newer, before, now = p, min(value, p - value), 0, 1
     while newer > bound:
         quotient = older // newer
@@ -1827,7 +1904,7 @@ def least_denominator(value: int, p: int, bound: int) -> int:
 def is_combination(row: Mapping[int, int], lifted: Mapping[int, Mapping[int, int]]) -> bool:
     """Whether a row is the combination of the lifted rows that its entries at their pivots demand, over Q."""
     pivots = [column for column in row if column in lifted]
-    spend(300 * len(row) + sum(lifted[pivot][pivot].bit_length() for pivot in pivots) ** 2 / 1000)
+    spend(300 * len(row) + sum(lifted[pivot][pivot].bit_length() for pivot in pivots) ** 2 // 700)
     scale = lcm(*(lifted[pivot][pivot] for pivot in pivots))
     entry = max(max(map(abs, lifted[pivot].values())).bit_length() for pivot in pivots) if pivots else 0
     given = max(map(abs, row.values())).bit_length()
@@ -1854,12 +1931,17 @@ class Vector(NamedTuple):
 
 def combined(terms: Sequence[tuple[int, Vector]], divisor: int, length: int) -> Vector:
     """The combination of vectors, divided by a number."""
-    common = lcm(*(vector.denominator for _, vector in terms))
+    common = 1
+    for _, vector in terms:
+        spend(2 * division_cost(common.bit_length(), vector.denominator.bit_length()))
+        common = lcm(common, vector.denominator)
     total = [0] * length
     for scalar, vector in terms:
         factor = scalar * (common // vector.denominator)
+        spend(length * (200 + product_cost(factor.bit_length(), most_bits(vector.numerators))))
         for place, value in enumerate(vector.numerators):
             total[place] += factor * value
+    spend(2 * length * division_cost(most_bits(total), most_bits([common * divisor])))
     shared = gcd(common * divisor, *total)
     return Vector([value // shared for value in total], common * divisor // shared)
 
@@ -1880,6 +1962,7 @@ class Algebra:
         """Whether all elements are 0, evaluated by the matrices alone; those of leading monomials may define none."""
         vectors = {self.basis[0]: Vector([1] + [0] * (len(self.basis) - 1), 1)}
         for element in elements:
+            spend(1000 * len(element))
             for monomial in element:
                 if monomial not in vectors:
                     self.reach(monomial, vectors)
@@ -1907,6 +1990,8 @@ class Algebra:
             smaller = tuple(exponent - (place == axis) for place, exponent in enumerate(monomial))
             products[monomial] = [self.times_unknown(row, axis) for row in products[smaller]]
         tables = [products[monomial] for monomial in self.basis]
+        bits = max(row.denominator.bit_length() + most_bits(row.numerators) for table in tables for row in table)
+        spend(2 * size**2 * fraction_cost(bits))
         diagonals = [[Fraction(row.numerators[i], row.denominator) for i, row in enumerate(rows)] for rows in tables]
         return tables, [sum(diagonal, Fraction(0)) for diagonal in diagonals]
 
@@ -1948,6 +2033,8 @@ class Reduction:
 def quotient_algebra(elimination: Elimination, basis: list[Monomial]) -> Algebra | None:
     """The algebra, or None if the matrices do not commute or an element is not 0 in it (Mourrain 1999)."""
     reduction = Reduction(elimination, basis)
+    shallow = all(sum(m) <= MAX_MONOMIAL_DEGREE for element in elimination.elements for m in element)
+    affordable(shallow, f"elimination: a monomial of degree above {MAX_MONOMIAL_DEGREE}")
     border = {times(m, axis) for m in basis for axis in range(len(elimination.places))}
     for m in sorted(border.union(*elimination.elements), key=order):  # smaller ones first, so that recursion is shallow
         reduction.monomial(m)
@@ -1973,8 +2060,9 @@ def multiplicity_polynomial(
     """
     h0 = primitive_part(representation.h)
     tables, traces = algebra.traces()
+    scale, *trace_numbers = cleared([Fraction(1), *traces])
     rows: list[Terms] = [
-        {(-j,): value for j, value in enumerate(cleared([inner(row, traces) for row in table])) if value}
+        {(-j,): value for j, value in enumerate(cleared([inner(row, trace_numbers, scale) for row in table])) if value}
         for table in tables
     ]
     if len(echelon_form(rows)) != len(h0) - 1:  # the rank of the trace form
@@ -1999,9 +2087,11 @@ def multiplicity_polynomial(
     raise Refusal("rejected", "elimination: no form in its unknowns tells the multiple solutions apart")
 
 
-def inner(vector: Vector, values: Sequence[Fraction]) -> Fraction:
-    """The value of a linear form at a vector."""
-    return sum((x * y for x, y in zip(vector.numerators, values, strict=True)), Fraction(0)) / vector.denominator
+def inner(vector: Vector, values: Sequence[int], scale: int) -> Fraction:
+    """The value of a linear form, given with a common denominator, at a vector."""
+    bits, by = most_bits(vector.numerators), most_bits(values)
+    spend(len(values) * (200 + product_cost(bits, by)) + fraction_cost(bits + by))
+    return Fraction(sum(x * y for x, y in zip(vector.numerators, values, strict=True)), vector.denominator * scale)
 
 
 def powers_modulo(
@@ -2047,6 +2137,9 @@ def power_sums(
 ) -> list[int] | None:
     """Tr(1), Tr(u), .. modulo p; None if p divides a denominator."""
     vectors = [row for rows in algebra.unknowns for row in rows]
+    bits, each = p.bit_length(), max(most_bits([v.denominator, *v.numerators]) for v in vectors)
+    cost = 300 + product_cost(bits, max(bits, each)) + division_cost(max(bits, each), bits)
+    spend((len(vectors) + number + 1) * (len(traces) * cost + bits * bits // 8))
     if any(x % p == 0 for x in [*(v.denominator for v in vectors), *(trace.denominator for trace in traces)]):
         return None
     tau = [trace.numerator * pow(trace.denominator, -1, p) % p for trace in traces]
@@ -2299,6 +2392,8 @@ class System:
 
     def slopes(self, x: Sequence[Gaussian]) -> list[list[Gaussian]]:
         """F'(x)."""
+        bits = bits_of(x) + max(most_bits(row) for form in self.forms for row in form)
+        spend(4 * len(x) ** 3 * fraction_cost(bits))
         rows = [[dot(row, x) for row in form] for form in self.forms]
         return [*rows, [weight * UNIT for weight in self.chart]]
 
@@ -2312,8 +2407,15 @@ class System:
 
     def values(self, x: Sequence[Gaussian], slopes: Sequence[Sequence[Gaussian]]) -> list[Gaussian]:
         """F(x), as quadratic forms are half of x^T (2 Q) x."""
+        spend(8 * len(x) ** 2 * fraction_cost(bits_of(x) + max(map(bits_of, slopes))))
         products = [total(a * b for a, b in zip(row, x, strict=True)) for row in slopes]
         return [*(Fraction(1, 2) * value for value in products[:-1]), products[-1] - UNIT]
+
+
+def bits_of(values: Iterable[Gaussian]) -> int:
+    """The length of the longest numerator or denominator."""
+    parts = (part for value in values for part in (value.re, value.im))
+    return max((max(part.numerator.bit_length(), part.denominator.bit_length()) for part in parts), default=0)
 
 
 def total(values: Iterable[Gaussian]) -> Gaussian:
@@ -2391,6 +2493,8 @@ def has_one_solution(system: System, box: Box, p: int) -> bool:
     y = near_inverse(slopes, p)
     if y is None:
         return False
+    bits = max(map(bits_of, y)) + max(map(bits_of, slopes)) + bits_of(box.centre)
+    spend(16 * len(y) ** 3 * fraction_cost(bits))
     reach = [(1 if box.real else 2) * r for r in box.radius]
     bends = system.bends(box.centre, reach)
     values = system.values(box.centre, slopes)
@@ -2432,6 +2536,8 @@ def near_inverse(matrix: Sequence[Sequence[Gaussian]], p: int) -> list[list[Gaus
         unit = [(int(i == j) << p, 0) for j in range(n)]
         rows.append([*((int(scale * entry.re), int(scale * entry.im)) for entry in row), *unit])
     for column in range(n):
+        bits = max(abs(part).bit_length() for row in rows for entry in row for part in entry)
+        spend(8 * n * n * (500 + product_cost(bits, bits)) + 4 * n * division_cost(bits + p, 2 * bits))
         best = max(range(column, n), key=lambda i: abs(rows[i][column][0]) + abs(rows[i][column][1]))
         rows[column], rows[best] = rows[best], rows[column]
         c, d = rows[column][column]
@@ -2461,6 +2567,7 @@ def narrowed(system: System, box: Box, p: int) -> Box | None:
         if y is None:
             return None
         values = system.values(x, slopes)
+        spend(10 * len(y) ** 2 * fraction_cost(max(map(bits_of, y)) + bits_of(values)))
         steps = [total(a * b for a, b in zip(row, values, strict=True)) for row in y]
         x = tuple((a - step).rounded(min(precision, p + 4)) for a, step in zip(x, steps, strict=True))
     finer = Box(x, (Fraction(1, 1 << p),) * len(x), p, real=box.real)
@@ -2514,6 +2621,8 @@ def check_boxes(system: System, boxes: Boxes) -> Iterator[str]:
         nearest = is_nearest(system, inner)
         require(nearest, f"boxes: the centre of {name} is not the grid point nearest to the solution")
     yield f"boxes: each of {len(named)} holds exactly one solution, simple, and N(e) is not 0 there"
+    most = max((box.bits + box.radius[0].denominator.bit_length() for _, box in named), default=0)
+    spend(40 * len(named) ** 2 * fraction_cost(most))
     check_pairs(boxes.others)
     for (name, one), (other_name, other) in combinations(named, 2):
         apart = one.is_disjoint(other) and one.is_disjoint(other.conjugate())
@@ -2790,6 +2899,7 @@ class Rectangle:
 
 def surrounding(value: Fraction, p: int) -> Interval:
     """The narrowest interval around a rational number."""
+    spend(1000 + 2 * division_cost(p + value.numerator.bit_length(), value.denominator.bit_length()))
     shifted = value.numerator << p
     return Interval(shifted // value.denominator, -(-shifted // value.denominator), p)
 
@@ -3115,6 +3225,8 @@ def inverse_jacobians(at: Neighbourhood, widths: Sequence[int]) -> list[list[Int
 
     def applied(matrix: list[list[int]], other: list[list[int]]) -> list[list[int]]:
         """The product, rounded up."""
+        bits = max(map(most_bits, (*matrix, *other)))
+        spend(size**3 * (200 + product_cost(bits, bits)))
         columns = list(zip(*other, strict=True))
         return [[-(-sum(a * b for a, b in zip(row, c, strict=True)) >> p) for c in columns] for row in matrix]
 
