@@ -230,7 +230,7 @@ class Span:
         return True
 
 
-def cost(value: Fraction) -> float:
+def cost(value: Fraction) -> int:
     """Operations for a few products with a fraction in lowest terms."""
     bits = max(value.numerator.bit_length(), value.denominator.bit_length())
     return 20 * pure.product_cost(bits, bits)
