@@ -51,7 +51,11 @@ Chosen: TypeAlias = dict[int, list[int]]
 
 
 def graded_parts(
-    size: int, quadrics: Sequence[Sequence[int]], prime: int, chosen: Chosen | None = None
+    size: int,
+    quadrics: Sequence[Sequence[int]],
+    prime: int,
+    chosen: Chosen | None = None,
+    first: int | None = None,
 ) -> Iterator[Degree]:
     """A_0, A_1, A_2, .. of the algebra that quadrics define; after a part of dimension 0 it ends.
 
@@ -65,6 +69,8 @@ def graded_parts(
     chosen : dict, optional
         Relations to be used alone in the degrees that it has; for other degrees it learns which ones would do. At
         another prime they nearly always do, and leave a part too large if not.
+    first : int, optional
+        Only relations x_i (x_j c) = x_j (x_i c) with i among so many first unknowns: nearly always the others follow.
 
     Examples
     --------
@@ -79,16 +85,17 @@ def graded_parts(
     part = _second(size, quadrics, prime, chosen)
     yield part
     while part.dimension:
-        below, part = part, _following(size, part, prime, chosen)
+        below, part = part, _following(size, part, prime, chosen, first)
         yield part
 
 
 def hilbert_function(
-    size: int, quadrics: Sequence[Sequence[int]], prime: int, limit: int, most: int
+    size: int, quadrics: Sequence[Sequence[int]], prime: int, limit: int, most: int, first: int | None = None
 ) -> tuple[int, ...] | None:
     """The dimensions of A_0, A_1, .. up to the last one that is not 0.
 
-    None if that of degree ``limit`` is not 0, or they sum to more than ``most``.
+    None if that of degree ``limit`` is not 0, or they sum to more than ``most``. With ``first`` unknowns (see
+    ``graded_parts``) they are upper bounds.
 
     Examples
     --------
@@ -97,7 +104,7 @@ def hilbert_function(
     ((1, 2, 1), None)
     """
     dimensions: list[int] = []
-    for part in graded_parts(size, quadrics, prime):
+    for part in graded_parts(size, quadrics, prime, first=first):
         if not part.dimension:
             break
         dimensions.append(part.dimension)
@@ -118,7 +125,7 @@ def _second(size: int, quadrics: Sequence[Sequence[int]], prime: int, chosen: Ch
     return Degree(2, normal.dimension, tuple(_matrix(table, normal.dimension, prime) for table in tables))
 
 
-def _following(size: int, part: Degree, prime: int, chosen: Chosen | None) -> Degree:
+def _following(size: int, part: Degree, prime: int, chosen: Chosen | None, first: int | None) -> Degree:
     """A_(t+1) from A_t: symbols x_i a, in the order of i, then a."""
     count = part.dimension
     rows = [
@@ -126,7 +133,8 @@ def _following(size: int, part: Degree, prime: int, chosen: Chosen | None) -> De
         for matrix in part.unknowns
     ]
     degree, below = part.degree + 1, len(rows[0])
-    products = [(i, j, c) for i, j in combinations(range(size), 2) for c in range(below)]
+    used = size if first is None else first
+    products = [(i, j, c) for i, j in combinations(range(size), 2) if i < used for c in range(below)]
     if chosen is not None and degree in chosen:
         products = [products[number] for number in chosen[degree]]
     relations = [

@@ -15,12 +15,16 @@ from pkm_exact.completeness.rigid_motions import restricted, variety_quadrics
 from pkm_exact.constraints.form import SIZE
 from pkm_exact.digests import digest
 
+FEW = 3
+"""Unknowns whose relations the quick way takes."""
 LAST_DEGREE = 6
 """Tried, besides one for each further quadric; on rigid motions 5 suffices whenever the section is finite."""
 
 
-def is_finite(conditions: Conditions, prime: int) -> bool:
+def is_finite(conditions: Conditions, prime: int, *, is_quick: bool = False) -> bool:
     """Whether it is proved that all rigid motions on the conditions, finite or at infinity, are finitely many points.
+
+    The quick way takes few relations, which nearly always suffice.
 
     Examples
     --------
@@ -37,4 +41,5 @@ def is_finite(conditions: Conditions, prime: int) -> bool:
     size, equations = restricted(quadrics, [*conditions.forms, further], prime)
     further_degree = len(conditions.quadrics)
     most = conditions.motion.degree << further_degree
-    return hilbert_function(size, equations, prime, LAST_DEGREE + further_degree, most) is not None
+    limit = LAST_DEGREE + further_degree
+    return hilbert_function(size, equations, prime, limit, most, FEW if is_quick else None) is not None

@@ -26,8 +26,12 @@ from pkm_exact.constraints.form import SIZE
 from pkm_exact.digests import digest
 from pkm_exact.errors import ReconstructionError
 
+SETTLED = 3
+"""Degree after which the dimension of a finite section hardly ever grows."""
 LAST_DEGREE = 8
 """Of the graded algebra: a section that is not finite grows for ever."""
+FEWEST_TERMS = 3
+"""In charts and separating forms that are tried first."""
 MOST_POINTS = 40
 """More than that many points, with multiplicity, are none of use: the section has no more, finite ones included."""
 MISSES = 12
@@ -76,10 +80,10 @@ def points_at_infinity(conditions: Conditions, primes: Iterator[int], limit_bits
         return None
     random = Random(conditions.digest)
     distinct = section.distinct
-    for size in range(1, 12):
-        chart = _random_form(random, size)
+    for terms in range(FEWEST_TERMS, SIZE):
+        chart = _random_form(random, terms)
         for _ in range(2):
-            form = _random_form(random, size)
+            form = _random_form(random, terms)
             image = section.representation(chart, form)
             if image is not None and image.degree == distinct:
                 return _lifted(conditions, primes, (chart, form, image), chosen, limit_bits)
@@ -157,8 +161,10 @@ def _quadric_value(quadric: Quadric, z: Sequence[fmpz_poly]) -> fmpz_poly:
     return total
 
 
-def _random_form(random: Random, size: int) -> tuple[int, ...]:
-    return tuple(random.randint(-size, size) for _ in range(SIZE - 1))
+def _random_form(random: Random, terms: int) -> tuple[int, ...]:
+    """A form with so many coefficients 1 or -1: the fewer, the shorter are the numbers of the representation."""
+    places = random.sample(range(SIZE - 1), terms)
+    return tuple(random.choice((-1, 1)) if place in places else 0 for place in range(SIZE - 1))
 
 
 @dataclass(frozen=True)
@@ -180,7 +186,7 @@ class _Section:
         for part in islice(graded_parts(size, equations, prime, chosen), LAST_DEGREE):
             if part.degree > 1 and part.dimension == below:
                 return cls(prime, basis, part)
-            if part.dimension > MOST_POINTS:
+            if part.dimension > MOST_POINTS or (part.degree > SETTLED and part.dimension > below):
                 return None
             below = part.dimension
         return cls(prime, basis, part) if part.dimension == 0 else None

@@ -8,7 +8,6 @@ together, the section being finite (``finite_section``, ``infinity``).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import islice
 
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.claim import CompletenessRoute
@@ -62,7 +61,7 @@ def short_proof(conditions: Conditions, distinct: int, total: int, policy: Polic
     if conditions.motion != SPATIAL or not _is_square(conditions):
         return None
     # "No" may be the fault of primes: it is asked twice.
-    if not any(is_finite(conditions, prime) for prime in islice(primes, 2)):
+    if not any(is_finite(conditions, next(primes), is_quick=is_quick) for is_quick in (True, False)):
         return None
     tried = (points_at_infinity(conditions, primes, policy.lifting_bits) for _ in range(2))
     found = next(filter(None, tried), None)
