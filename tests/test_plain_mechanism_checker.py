@@ -157,7 +157,7 @@ def test_the_numbers_of_solutions_are_wrong(name: str) -> None:
     for key in ("complex_solutions", "distinct_solutions", "real_poses"):
         for step in (-1, 1):
             content = mechanism_content(name)
-            content[key] += step
+            content[key] += step if content[key] else 1
             _refused(content, "solutions|real poses")
 
 
