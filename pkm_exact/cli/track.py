@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from pkm_exact.cli.track_store import TrackStore
+    from pkm_exact.geometry.mechanism import Mechanism
     from pkm_exact.geometry.path_reader import JointPath
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.interactive.progress import Progress
@@ -55,10 +56,10 @@ _SECONDS_PER_LINE: Final = 0.1
 def track(model: str, path: str, number: int, width: Fraction, output: str, verbose: bool) -> int:
     """Follow one pose of the robot in the file MODEL along a path of joint values, and prove that it is one branch.
 
-    PATH.csv has one row per sample: leg lengths (slide positions q1,.., or half tangents h1,.. of crank angles), all
-    exact, and before them, if wanted, the time; between rows the path is straight. OUT gets a certified box of the pose
-    at every row. Every step in between is proved to stay on the same branch, away from singularities; where that cannot
-    be proved, OUT ends there, with exit code 3.
+    PATH.csv has one row per sample: leg lengths (slide positions q1,.., or half tangents h1,.. of crank angles; values
+    of actuated constraints under their names), all exact, and before them, if wanted, the time; between rows the path
+    is straight. OUT gets a certified box of the pose at every row. Every step in between is proved to stay on the same
+    branch, away from singularities; where that cannot be proved, OUT ends there, with exit code 3.
 
     An interrupted run leaves OUT.partial beside OUT; the same command goes on from there.
 
@@ -69,10 +70,10 @@ def track(model: str, path: str, number: int, width: Fraction, output: str, verb
     target = Path(output)
     if target.suffix.lower() not in _SUFFIXES:
         raise click.UsageError(f"-o: {printable(output)} ends neither in .csv nor in .json; give it one of these.")
-    from pkm_exact.cli.model_reading import announced_robot
+    from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.geometry.path_reader import read_path
 
-    robot = announced_robot(model, "track")
+    robot = announced_model(model)
     joints = read_path(path, robot)
     arguments.require_other_file(target, model, "-o")
     arguments.require_other_file(target, path, "-o", "the file of the path")
@@ -109,16 +110,21 @@ def track(model: str, path: str, number: int, width: Fraction, output: str, verb
     return ExitCode.WEAKER_CLAIM
 
 
-def _job(robot: Robot, joints: JointPath, number: int, width: Fraction) -> str:
+def _job(robot: Robot | Mechanism, joints: JointPath, number: int, width: Fraction) -> str:
     """All that the samples depend on."""
     import pkm_exact
+    from pkm_exact.geometry.mechanism import Mechanism
 
-    parts = (robot.kind, robot.metric, robot.base_joints, robot.platform_joints, robot.chains, joints, number, width)
+    if isinstance(robot, Mechanism):
+        made_of: tuple[object, ...] = (robot.motion, robot.constraints, robot.actuated)
+    else:
+        made_of = (robot.base_joints, robot.platform_joints, robot.chains)
+    parts = (robot.kind, robot.metric, *made_of, joints, number, width)
     return repr((pkm_exact.__version__, robot.name, robot.unit, *parts))
 
 
 def _follow(
-    robot: Robot, joints: JointPath, number: int, width: Fraction, store: TrackStore, progress: Progress
+    robot: Robot | Mechanism, joints: JointPath, number: int, width: Fraction, store: TrackStore, progress: Progress
 ) -> dict[str, Any] | None:
     """Add what is missing to the store; return where and why the branch ends, if it does."""
     from pkm_exact.cli.track_report import point_of, record_of, stop_of
@@ -144,7 +150,7 @@ def _follow(
     return None
 
 
-def _solution(robot: Robot, joints: JointPath, width: Fraction, progress: Progress) -> Solution:
+def _solution(robot: Robot | Mechanism, joints: JointPath, width: Fraction, progress: Progress) -> Solution:
     from pkm_exact.numeric.path_forms import problem_at
     from pkm_exact.numeric_engine import solve_krawczyk
 

@@ -15,8 +15,8 @@ from pkm_exact.files import write_whole
 from pkm_exact.geometry.path_reader import TIME, joint_names
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.path_reader import JointPath
-    from pkm_exact.geometry.robot import Robot
     from pkm_exact.numeric.trajectory import BranchPoint, TrackedSample, TrackingStopped
     from pkm_exact.poses.pose import Interval
 
@@ -90,13 +90,13 @@ def start_line(number: int, *, proved: bool) -> str:
 
 
 def written(
-    target: Path, robot: Robot, joints: JointPath, number: int, records: Sequence[Record], stopped: Record | None
+    target: Path, robot: Machine, joints: JointPath, number: int, records: Sequence[Record], stopped: Record | None
 ) -> None:
     """Write the output, CSV or JSON by its suffix; it appears whole or not at all."""
     if target.suffix.lower() == ".csv":
         text = io.StringIO()
         csv.writer(text, lineterminator="\n").writerows(_rows(robot, joints, records))
-        write_whole(target, text.getvalue().encode("ascii"))
+        write_whole(target, text.getvalue().encode())
         return
     content = {
         "robot": robot_object(robot),
@@ -119,7 +119,7 @@ def _sample(joints: JointPath, record: Record) -> Record:
     return {**content, "det_sign": record["point"]["det_sign"], "steps": record["steps"]}
 
 
-def _rows(robot: Robot, joints: JointPath, records: Sequence[Record]) -> Iterator[list[str]]:
+def _rows(robot: Machine, joints: JointPath, records: Sequence[Record]) -> Iterator[list[str]]:
     """A header and one row per sample; bounds are exact rationals."""
     names = ["x", "y", "z", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), *(f"q{k}" for k in range(4))]
     time = [] if joints.times is None else [TIME]

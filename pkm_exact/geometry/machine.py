@@ -50,6 +50,11 @@ class Machine(ABC):
     def actuated(self) -> tuple[str, ...]:
         """How the locked values are called, in their order."""
 
+    @property
+    @abstractmethod
+    def are_lengths(self) -> tuple[bool, ...]:
+        """For each of them whether users give a length, which is positive."""
+
     @abstractmethod
     def problem(self, locked: Any) -> ForwardProblem:
         """The forward kinematics problem of a configuration, or of locked values in their order."""

@@ -134,6 +134,11 @@ class Mechanism(Machine):
             [value * value if is_square(field) else value for field, value in zip(fields, values, strict=True)]
         )
 
+    @property
+    def are_lengths(self) -> tuple[bool, ...]:
+        """For each actuated constraint whether users give a length, which is positive."""
+        return tuple(is_square(self._value_field(name)) for name in self.actuated)
+
     def locked(self, values: Sequence[Fraction | int | str], where: str) -> tuple[Constraint, ...]:
         """All constraints, the actuated ones with the given values."""
         if len(values) != len(self.actuated):

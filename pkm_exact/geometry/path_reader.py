@@ -1,8 +1,8 @@
 """Joint paths: CSV files with one row of joint values per sample, read exactly.
 
 One column per leg: lengths (``l1``, ``l2``, ..), slide positions (``q1``, ..) or half tangents of crank angles
-(``h1``, ..), and before them, if there is one more, ``time``. A first line with these names may be left out. Blank
-lines and lines that begin with # are skipped.
+(``h1``, ..), of a mechanism values of the actuated constraints under their names; and before them, if there is one
+more, ``time``. A first line with these names may be left out. Blank lines and lines that begin with # are skipped.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ def joint_names(robot: Machine) -> tuple[str, ...]:
     return tuple(f"{letter}{leg}" for leg in range(1, KINDS[robot.kind].legs + 1))
 
 
-def read_path(path: str | os.PathLike[str], robot: Robot) -> JointPath:
-    """The path in a file, for a robot of known kind.
+def read_path(path: str | os.PathLike[str], robot: Machine) -> JointPath:
+    """The path in a file, for a robot.
 
     Raises
     ------
@@ -84,19 +84,18 @@ def _text(name: str) -> str:
         raise InputError(f"byte {error.start + 1} is not UTF-8 text; save the path as UTF-8") from None
 
 
-def path_from_csv(text: str, robot: Robot) -> JointPath:
+def path_from_csv(text: str, robot: Machine) -> JointPath:
     """The path that the text of a CSV file describes.
 
-        Examples
-        --------
-        >>> from pkm_exact.geometry.machine import Machine
-    from pkm_exact.geometry.robot import Robot
-        >>> corners = tuple(tuple(map(Fraction, joint)) for joint in ((0, 0), (4, 0), (2, 3)))
-        >>> robot = Robot("example", "3-RPR", "m", "made up", corners, corners)
-        >>> path_from_csv("time,l1,l2,l3\\n0,1,2,3\\n0.5,1,2,3.25\\n", robot).rows[1][2]
-        Fraction(13, 4)
+    Examples
+    --------
+    >>> from pkm_exact.geometry.robot import Robot
+    >>> corners = tuple(tuple(map(Fraction, joint)) for joint in ((0, 0), (4, 0), (2, 3)))
+    >>> robot = Robot("example", "3-RPR", "m", "made up", corners, corners)
+    >>> path_from_csv("time,l1,l2,l3\\n0,1,2,3\\n0.5,1,2,3.25\\n", robot).rows[1][2]
+    Fraction(13, 4)
     """
-    names = joint_names(robot)
+    names = _path_names(robot)
     columns: tuple[str, ...] | None = None
     rows: list[tuple[Fraction, ...]] = []
     times: list[Fraction] = []
@@ -127,6 +126,16 @@ def path_from_csv(text: str, robot: Robot) -> JointPath:
     return JointPath(tuple(rows), tuple(times) if columns[0] == TIME else None, tuple(lines))
 
 
+def _path_names(robot: Machine) -> tuple[str, ...]:
+    """Those of the joint values, of which the time can be told apart."""
+    names = joint_names(robot)
+    if not names:
+        raise InputError(f"{shown(robot.name)} has no actuated constraints, so that nothing moves it; solve it instead")
+    if TIME in names:
+        raise InputError(f"a column {TIME} is that of the time; give the actuated constraint {TIME} another name")
+    return names
+
+
 def _columns(fields: list[str], names: tuple[str, ...], line: str) -> tuple[str, ...]:
     """The names of the columns, from a header or from their number."""
     with_time = (TIME, *names)
@@ -143,8 +152,7 @@ def _increasing(time: Fraction, before: list[Fraction], line: str) -> Fraction:
     return time
 
 
-def _require_lengths(values: list[Fraction], names: tuple[str, ...], line: str, robot: Robot) -> None:
-    if robot.chains:
-        return
-    for value, name in zip(values, names, strict=True):
-        require_length(value, f"{line}, {name}")
+def _require_lengths(values: list[Fraction], names: tuple[str, ...], line: str, robot: Machine) -> None:
+    for value, name, is_length in zip(values, names, robot.are_lengths, strict=True):
+        if is_length:
+            require_length(value, f"{line}, {name}")

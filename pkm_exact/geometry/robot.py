@@ -124,6 +124,11 @@ class Robot(Machine):
         """The legs, by their numbers."""
         return tuple(f"leg {number}" for number in range(1, KINDS[self.kind].legs + 1))
 
+    @property
+    def are_lengths(self) -> tuple[bool, ...]:
+        """Whether they are leg lengths: of other robots the values are positions or half tangents."""
+        return tuple(not self.chains for _ in self.actuated)
+
     def _instead_of_configurations(self) -> str:
         count = "three" if self.motion.is_planar else "six"
         return "add one with joint values" if self.chains else f"give the {count} leg lengths instead"

@@ -14,17 +14,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property
 from typing import Any, Final, TypeAlias
 
 from flint import acb, acb_mat, arb, arb_mat, fmpz_mat
 
 from pkm_exact.balls import Balls, ball
-from pkm_exact.constraints.form import Vector
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Form, Vector, in_frames, ordinary
+from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import STUDY_CONDITION, motion_quadrics
 from pkm_exact.motions.motion import Motion
 from pkm_exact.numeric.quaternions import quaternion_product
+from pkm_exact.numeric.study_system import landmarks
 
 QUANTITIES: Final = 18
 """Number of quadratic forms: 17 coordinates of a rigid motion, and Study's condition."""
@@ -53,18 +56,25 @@ class CentredFrames:
 
 
 def centred_frames(problem: ForwardProblem) -> CentredFrames:
-    """The frames at the centroids, and a unit of about the size of the robot."""
-    base = _centroid([leg.base for leg in problem.gough_legs])
-    platform = _centroid([leg.platform for leg in problem.distances])
-    squares = [leg.length_squared for leg in problem.distances]
-    for leg in problem.distances:
-        for joint, origin in ((leg.base, base), (leg.platform, platform)):
-            squares.append(
-                sum((g * (x - m) ** 2 for g, x, m in zip(problem.metric, joint, origin, strict=True)), Fraction(0))
-            )
-    greatest = max(squares)
+    """The frames at the centroids, and a unit of about the size of the robot.
+
+    Origins are moved along those axes only along which the platform can move: the motions remain the same group.
+    """
+    base, platform = landmarks(problem)
+    origins = [_along(problem.motion, _centroid(points)) for points in (base, platform)]
+    squares = [leg.length_squared for leg in problem.constraints if isinstance(leg, Distance)]
+    for points, origin in zip((base, platform), origins, strict=True):
+        for point in points:
+            terms = (g * (x - m) ** 2 for g, x, m in zip(problem.metric, point, origin, strict=True))
+            squares.append(sum(terms, Fraction(0)))
+    greatest = max(squares) or Fraction(1)
     bits = greatest.numerator.bit_length() - greatest.denominator.bit_length()
-    return CentredFrames(base, platform, Fraction(2) ** (bits // 2))
+    return CentredFrames(origins[0], origins[1], Fraction(2) ** (bits // 2))
+
+
+def _along(motion: Motion, point: Vector) -> Vector:
+    x, y, z = (value if axis in motion.twist else Fraction(0) for axis, value in enumerate(point))
+    return x, y, z
 
 
 def _centroid(joints: Sequence[Vector]) -> Vector:
@@ -83,6 +93,26 @@ def leg_row(base: Sequence[arb], platform: Sequence[arb], square: arb) -> list[a
     row += [-2 * a * b for a in base for b in platform]
     constant = sum((a * a for a in base), arb(0)) + sum((b * b for b in platform), arb(0)) - square
     return [*row, constant, arb(0)]
+
+
+def centred_leg(leg: Distance, frames: CentredFrames, metric: Sequence[int]) -> list[arb]:
+    """The 18 coefficients of a leg in centred frames."""
+    base = centred_joint(leg.base, frames.base, frames.unit, metric)
+    platform = centred_joint(leg.platform, frames.platform, frames.unit, metric)
+    return leg_row(base, platform, ball(leg.length_squared / frames.unit**2))
+
+
+def centred_form(form: Form, frames: CentredFrames, metric: Metric, size: Fraction | None = None) -> list[arb]:
+    """The 18 coefficients of a constraint of any type in centred frames, divided by ``size``, by default its own."""
+    moved = in_frames(form, frames.base, frames.platform, frames.unit, metric)
+    factor = 1 / (size or form_size(moved))
+    return [*ordinary([ball(value * factor) for value in moved], [arb(g).sqrt() for g in metric]), arb(0)]
+
+
+def form_size(form: Form) -> Fraction:
+    """The size of the largest coefficient, roughly: a power of two."""
+    greatest = max(abs(value) for value in form)
+    return Fraction(2) ** (greatest.numerator.bit_length() - greatest.denominator.bit_length())
 
 
 def study_row() -> list[arb]:
@@ -129,6 +159,21 @@ def quantities_at(x: Balls, motion: Motion) -> list[acb]:
 
 
 @dataclass(frozen=True, eq=False)
+class CentredLegs:
+    """The legs of a robot in its centred frames.
+
+    Attributes
+    ----------
+    base, platform : list of 3 balls per leg
+    lengths : list of arb
+    """
+
+    base: list[list[arb]]
+    platform: list[list[arb]]
+    lengths: list[arb]
+
+
+@dataclass(frozen=True, eq=False)
 class CentredRobot:
     """A locked robot in its centred frames, every number a ball.
 
@@ -136,17 +181,12 @@ class CentredRobot:
     ----------
     problem : ForwardProblem
     frames : CentredFrames
-    base, platform : list of 3 balls per leg
-    lengths : list of arb
     forms : (n - 1) x 18 matrix
-        Study's condition where it is one, and the legs.
+        Study's condition where it is one, and the constraints.
     """
 
     problem: ForwardProblem
     frames: CentredFrames
-    base: list[list[arb]]
-    platform: list[list[arb]]
-    lengths: list[arb]
     forms: acb_mat
 
     @property
@@ -154,15 +194,31 @@ class CentredRobot:
         """Number of unknowns."""
         return len(self.problem.motion.support)
 
+    @cached_property
+    def legs(self) -> CentredLegs:
+        """The legs of a Gough platform or its planar sister, at the precision in force when first asked for.
+
+        Raises
+        ------
+        InputError
+            If it is another robot.
+        """
+        legs, frames, metric = self.problem.gough_legs, self.frames, self.problem.metric
+        return CentredLegs(
+            [centred_joint(leg.base, frames.base, frames.unit, metric) for leg in legs],
+            [centred_joint(leg.platform, frames.platform, frames.unit, metric) for leg in legs],
+            [ball(leg.length_squared / frames.unit**2).sqrt() for leg in legs],
+        )
+
 
 def centred_robot(problem: ForwardProblem, frames: CentredFrames) -> CentredRobot:
     """The robot at the precision in force."""
-    base = [centred_joint(leg.base, frames.base, frames.unit, problem.metric) for leg in problem.gough_legs]
-    platform = [centred_joint(leg.platform, frames.platform, frames.unit, problem.metric) for leg in problem.distances]
-    squares = [ball(leg.length_squared / frames.unit**2) for leg in problem.distances]
     rows = [study_row()] if problem.motion.has_study_condition else []
-    rows += [leg_row(a, b, square) for a, b, square in zip(base, platform, squares, strict=True)]
-    return CentredRobot(problem, frames, base, platform, [square.sqrt() for square in squares], acb_mat(arb_mat(rows)))
+    if problem.has_only_distances:
+        rows += [centred_leg(leg, frames, problem.metric) for leg in problem.distances]
+    else:
+        rows += [centred_form(form, frames, problem.metric) for form in problem.forms]
+    return CentredRobot(problem, frames, acb_mat(arb_mat(rows)))
 
 
 def origins(robot: CentredRobot) -> tuple[list[arb], list[arb]]:

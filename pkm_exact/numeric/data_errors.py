@@ -86,7 +86,7 @@ def leg_errors(robot: CentredRobot, errors: DataErrors, values: Sequence[acb]) -
     mixed = sum((2 * rotation[j][k] * (errors.base * errors.platform) for j in axes for k in axes), acb(0))
     rest = norm * (square - errors.lengths * errors.lengths) - mixed
     found = []
-    for a, b, length in zip(robot.base, robot.platform, robot.lengths, strict=True):
+    for a, b, length in zip(robot.legs.base, robot.legs.platform, robot.legs.lengths, strict=True):
         line = [position[j] + sum((rotation[j][k] * b[k] for k in axes), acb(0)) - a[j] * norm for j in axes]
         # N R^-1 d = N (u + B - R^-1 A)
         back = [turned[k] + b[k] * norm - sum((rotation[j][k] * a[j] for j in axes), acb(0)) for k in axes]
@@ -103,7 +103,7 @@ def form_errors(robot: CentredRobot, errors: DataErrors) -> acb_mat:
     da = [errors.base, errors.base, errors.base * third]
     db = [errors.platform, errors.platform, errors.platform * third]
     rows = [[zero] * centred.QUANTITIES] if robot.problem.motion.has_study_condition else []
-    for a, b, length in zip(robot.base, robot.platform, robot.lengths, strict=True):
+    for a, b, length in zip(robot.legs.base, robot.legs.platform, robot.legs.lengths, strict=True):
         row = [zero, *(2 * v for v in db), *(-2 * v for v in da)]
         row += [-2 * (a[i] * db[j] + da[i] * b[j] + da[i] * db[j]) for i in range(3) for j in range(3)]
         constant = sum((2 * v * dv + dv * dv for v, dv in zip((*a, *b), (*da, *db), strict=True)), zero)

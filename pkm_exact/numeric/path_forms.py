@@ -1,4 +1,4 @@
-"""The leg equations along a straight piece of a joint path: polynomials of degree 2 in the path parameter.
+"""The equations along a straight piece of a joint path: polynomials of degree 2 in the path parameter.
 
 Between two rows of joint values the values are v(s) = v_0 + s (v_1 - v_0), 0 <= s <= 1. The row of a leg (``centred``)
 is then a polynomial of degree 2 in s:
@@ -8,7 +8,8 @@ is then a polynomial of degree 2 in s:
     cranks    (1 + t^2) times the row with t = v(s) = tan(angle / 2), for K = A + cos(angle) u + sin(angle) v with
               |u| = |v| and u.v = 0 gives |K|^2 linear in cosine and sine
 
-so that three exact values of s determine it.
+so that three exact values of s determine it. So do they for constraints of a mechanism: lengths appear squared, offsets
+and products as they are, all in the constant term.
 """
 
 from __future__ import annotations
@@ -22,22 +23,24 @@ from flint import arb, arb_mat
 
 from pkm_exact.balls import ball
 from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import in_frames
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, JointValue, cosine_and_sine
-from pkm_exact.geometry.kinds import KINDS, gough_legs, knees
+from pkm_exact.geometry.kinds import gough_legs, knees
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.motions.motion import Motion
-from pkm_exact.numeric.centred import CentredFrames, centred_joint, leg_row, study_row
+from pkm_exact.numeric.centred import CentredFrames, centred_form, centred_leg, form_size, study_row
 
 JointRow: TypeAlias = tuple[Fraction, ...]
-"""Leg lengths, slide positions, or half tangents of crank angles: one value per leg."""
+"""Leg lengths, slide positions, or half tangents of crank angles; lengths, offsets and products of a mechanism."""
 _STATIONS: Final = (Fraction(0), Fraction(1, 2), Fraction(1))
 
 
 @dataclass(frozen=True, eq=False)
 class PathForms:
-    """The equations between two rows: Study's condition where it is one, and the legs.
+    """The equations between two rows: Study's condition where it is one, and the constraints.
 
     Attributes
     ----------
@@ -50,7 +53,7 @@ class PathForms:
     coefficients: tuple[arb_mat, arb_mat, arb_mat]
 
 
-def problem_at(robot: Robot, values: JointRow) -> ForwardProblem:
+def problem_at(robot: Machine, values: JointRow) -> ForwardProblem:
     """The problem of a row of joint values.
 
     Raises
@@ -58,6 +61,8 @@ def problem_at(robot: Robot, values: JointRow) -> ForwardProblem:
     InputError
         If a length is not positive, or two rods join the same two points.
     """
+    if not isinstance(robot, Robot):
+        return robot.problem_at(values)
     if not robot.chains:
         for leg, value in enumerate(values, 1):
             if value <= 0:
@@ -66,25 +71,32 @@ def problem_at(robot: Robot, values: JointRow) -> ForwardProblem:
     return robot.problem(robot.lock("row", [cosine_and_sine(v) if has_cranks(robot) else v for v in values]))
 
 
-def path_forms(robot: Robot, frames: CentredFrames, first: JointRow, last: JointRow) -> PathForms:
+def path_forms(robot: Machine, frames: CentredFrames, first: JointRow, last: JointRow) -> PathForms:
     """The equations between two rows, at the precision in force."""
-    stations = [[a + s * (b - a) for a, b in zip(first, last, strict=True)] for s in _STATIONS]
-    start, between, end = (arb_mat(_rows(robot, frames, values)) for values in stations)
+    stations = [tuple(a + s * (b - a) for a, b in zip(first, last, strict=True)) for s in _STATIONS]
+    found = [
+        _leg_rows(robot, frames, values) if isinstance(robot, Robot) else _form_rows(robot, frames, values, first)
+        for values in stations
+    ]
+    study = [study_row()] if robot.motion.has_study_condition else []
+    start, between, end = (arb_mat(study + rows) for rows in found)
     square = 2 * (start - 2 * between + end)
-    return PathForms(KINDS[robot.kind].motion, (start, end - start - square, square))
+    return PathForms(robot.motion, (start, end - start - square, square))
 
 
-def _rows(robot: Robot, frames: CentredFrames, values: Sequence[Fraction]) -> list[list[arb]]:
+def _leg_rows(robot: Robot, frames: CentredFrames, values: JointRow) -> list[list[arb]]:
     rows = []
-    if KINDS[robot.kind].motion.has_study_condition:
-        rows.append(study_row())
     for leg, value in zip(_legs(robot, values), values, strict=True):
-        base = centred_joint(leg.base, frames.base, frames.unit, robot.metric)
-        platform = centred_joint(leg.platform, frames.platform, frames.unit, robot.metric)
-        row = leg_row(base, platform, ball(leg.length_squared / frames.unit**2))
         weight = ball(1 + value * value) if has_cranks(robot) else arb(1)
-        rows.append([weight * entry for entry in row])
+        rows.append([weight * entry for entry in centred_leg(leg, frames, robot.metric)])
     return rows
+
+
+def _form_rows(robot: Machine, frames: CentredFrames, values: JointRow, first: JointRow) -> list[list[arb]]:
+    """The rows of constraints, each divided by one number all along the path."""
+    forms, before = (problem_at(robot, row).forms for row in (values, first))
+    sizes = [form_size(in_frames(form, frames.base, frames.platform, frames.unit, robot.metric)) for form in before]
+    return [centred_form(form, frames, robot.metric, size) for form, size in zip(forms, sizes, strict=True)]
 
 
 def has_cranks(robot: Robot) -> bool:

@@ -72,6 +72,8 @@ def tolerance_boxes(
 
     Raises
     ------
+    InputError
+        If the robot is no Gough platform, nor its planar sister.
     ValueError
         If the solution is one of another problem.
 
@@ -89,6 +91,7 @@ poses, one in each box
     """
     if solution.problem != problem:
         raise ValueError("the solution is not one of this problem")
+    problem.gough_legs  # noqa: B018 - refuses other robots
     show = progress or (lambda _: None)
     frames = centred_frames(problem)
     exponent = _grid(tolerances, frames)

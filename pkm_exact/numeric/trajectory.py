@@ -19,7 +19,8 @@ from typing import Final
 from flint import acb, acb_mat, arb, arb_mat
 
 from pkm_exact.errors import InputError, InternalContradictionError, PkmExactError
-from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.machine import Machine
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.centred import CentredFrames, CentredRobot, Chart, centred_frames, centred_robot
 from pkm_exact.numeric.charts import in_chart
 from pkm_exact.numeric.linearisation import Linearisation, chart_weights
@@ -129,7 +130,7 @@ class TrackingStopped(PkmExactError):  # noqa: N818 - it ends a path
 
 
 def track_branch(
-    robot: Robot,
+    robot: Machine,
     rows: Sequence[JointRow],
     start: Pose | BranchPoint,
     *,
@@ -142,9 +143,10 @@ def track_branch(
 
     Parameters
     ----------
-    robot : Robot
+    robot : Machine
     rows : sequence of tuples of Fraction
-        Leg lengths, slide positions, or half tangents of crank angles: the path is straight between them.
+        Leg lengths, slide positions, or half tangents of crank angles; of a mechanism lengths, offsets and products:
+        the path is straight between them.
     start : Pose or BranchPoint
         A certified regular pose for the first row; or a point of an earlier run, and only what follows it is yielded.
     poses : sequence of Pose, optional
@@ -158,13 +160,15 @@ def track_branch(
     Raises
     ------
     InputError
-        If the start is singular, or a row has values that the robot cannot have.
+        If the start is singular, or a row has values that the robot cannot have; if a mechanism has quadrics among its
+        constraints, or not as many equations as freedoms.
     TrackingStopped
         If the branch cannot be followed farther; all samples before it were yielded.
 
     Examples
     --------
-    >>> from pkm_exact import read_robot, solve
+    >>> from pkm_exact import solve
+    >>> from pkm_exact.geometry.robot import Robot
     >>> joints = lambda *rows: tuple(tuple(map(Fraction, row)) for row in rows)
     >>> corners = joints((0, 0), (10, 0), (3, 10)), joints((0, 0), (4, 0), (2, 2))
     >>> robot = Robot("example", "3-RPR", "m", "made up", *corners)
@@ -182,16 +186,31 @@ def _require_regular(start: Pose) -> None:
         raise InputError("start: the pose is singular, or not proved regular; no single branch leads on from it")
 
 
+def _require_tracked(problem: ForwardProblem) -> None:
+    if problem.squares:
+        raise InputError(
+            "constraints: one is a quadric (axis-distance), but a branch can be followed only where all are linear; "
+            "solve row by row (`sweep`)"
+        )
+    if len(problem.forms) != problem.motion.dimension:
+        raise InputError(
+            f"constraints: {len(problem.forms)} equations for {problem.motion.dimension} freedoms, but a branch can be "
+            "followed only where there are as many; solve row by row (`sweep`)"
+        )
+
+
 @dataclass(frozen=True)
 class _Run:
-    robot: Robot
+    robot: Machine
     rows: Sequence[JointRow]
     width: Fraction
     policy: TrackPolicy
     on_step: Callable[[int, Fraction], None] | None
 
     def samples(self, start: Pose | BranchPoint, poses: Sequence[Pose]) -> Iterator[TrackedSample]:
-        frames = centred_frames(problem_at(self.robot, self.rows[0]))
+        problem = problem_at(self.robot, self.rows[0])
+        _require_tracked(problem)
+        frames = centred_frames(problem)
         if isinstance(start, BranchPoint):
             point, near = start, self._again(frames, start)
         else:
