@@ -200,10 +200,6 @@ MECHANISMS: dict[str, tuple[Callable[[], ForwardProblem], int]] = {
 """Each with its number of complex poses."""
 
 
-DEAR = ("5 planes, 1 sphere", "4 planes, 2 spheres", "1 line, 4 spheres")
-"""Those whose completeness takes seconds."""
-
-
 @cache
 def solved(name: str) -> Solution:
     """The exact solution, once in a test process."""

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mechanism_samples import DEAR, MECHANISMS, ORIGIN, Some, distance, general, h4, hinged, plane, solved, vector
+from mechanism_samples import MECHANISMS, ORIGIN, Some, distance, general, h4, hinged, plane, solved, vector
 
 from pkm_exact.claim import Claim, RealMotion
 from pkm_exact.cli.table import print_table
@@ -39,28 +39,17 @@ from pkm_exact.poses.singularity import singularity
 from pkm_exact.poses.symmetry import base_freedom, platform_freedom
 from pkm_exact.solution import Solution
 
-CHEAP = [name for name in MECHANISMS if name not in DEAR]
 TRACKED = ["3 lines", "3-RPS", "H4", "Delta", "3 legs about a point", "3-RPR, driven in turns"]
 UNIT = Tolerances.uniform("1/1000")
 PLACE = vector("1/3", -2, "5/2")
 TURN = (Fraction(3), Fraction(1), Fraction(-1), Fraction(2))
 
 
-def require_count(name: str) -> None:
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_published_counts(name: str) -> None:
     solution, count = solved(name), MECHANISMS[name][1]
     assert (solution.claim, solution.complex_solutions, solution.distinct_solutions) == (Claim.COMPLETE, count, count)
     assert sum(pose.det_sign or 0 for pose in solution.poses) == 0
-
-
-@pytest.mark.parametrize("name", CHEAP)
-def test_published_counts(name: str) -> None:
-    require_count(name)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", DEAR)
-def test_published_counts_that_take_seconds(name: str) -> None:
-    require_count(name)
 
 
 def positions(solution: Solution) -> Any:
