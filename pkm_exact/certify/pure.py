@@ -2392,7 +2392,7 @@ class System:
 
     def slopes(self, x: Sequence[Gaussian]) -> list[list[Gaussian]]:
         """F'(x)."""
-        bits = bits_of(x) + max(most_bits(row) for form in self.forms for row in form)
+        bits = bits_of(x) + max((most_bits(row) for form in self.forms for row in form), default=0)
         spend(4 * len(x) ** 3 * fraction_cost(bits))
         rows = [[dot(row, x) for row in form] for form in self.forms]
         return [*rows, [weight * UNIT for weight in self.chart]]

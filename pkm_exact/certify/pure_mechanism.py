@@ -1110,6 +1110,8 @@ class Quartic:
 
     def parts(self, x: Sequence[pure.Gaussian], reach: Sequence[Fraction]) -> list[Expanded]:
         """N, F and H near a point."""
+        bits = pure.bits_of(x) + max(pure.most_bits(row) for matrix in (self.norm, self.f, self.h) for row in matrix)
+        pure.spend(12 * len(x) ** 2 * pure.fraction_cost(bits))
         return [expanded(matrix, x, reach) for matrix in (self.norm, self.f, self.h)]
 
     def value(self, x: Sequence[pure.Gaussian]) -> pure.Gaussian:
@@ -1259,9 +1261,12 @@ def legs_are_equal(certificate: Certificate, representation: pure.Representation
 
 def checked(representation: pure.Representation, robot: Robot, where: str = "") -> Iterator[str]:
     """Checks 1 to 5."""
-    yield from (f"{where}{line}" for line in pure.check_eliminant(representation, pure.MAX_DEGREE))
-    yield from (f"{where}{line}" for line in pure.check_distinct(representation))
-    yield from (f"{where}{line}" for line in check_poses(representation, robot))
+    try:
+        yield from (f"{where}{line}" for line in pure.check_eliminant(representation, pure.MAX_DEGREE))
+        yield from (f"{where}{line}" for line in pure.check_distinct(representation))
+        yield from (f"{where}{line}" for line in check_poses(representation, robot))
+    except pure.Refusal as refusal:
+        raise pure.Refusal(refusal.status, f"{where}{refusal.line}") from None
 
 
 def check_slices(self_motion: SelfMotion, robot: Robot) -> Generator[str, None, bool]:

@@ -28,7 +28,7 @@ from pkm_exact.certify.checker.solutions import (
     vanishes,
 )
 from pkm_exact.certify.checker.study_motion import CYCLIC, Motion, combination, motion
-from pkm_exact.certify.checker.verdict import rejected
+from pkm_exact.certify.checker.verdict import Refusal, rejected
 
 _LARGEST_WEIGHT: Final = 1 << 16
 """Of the rows of more constraints than freedoms, combined at random: any that give a regular matrix serve."""
@@ -38,33 +38,40 @@ _PRODUCT: Final = 6
 
 def check_solutions(representation: Representation, mechanism: Mechanism, where: str = "") -> Iterator[str]:
     """Every root of the eliminant is a pose that all constraints admit, and different roots are different poses."""
+    try:
+        for line in _check_solutions(representation, mechanism):
+            yield f"{where}{line}"
+    except Refusal as refusal:
+        raise Refusal(refusal.status, f"{where}{refusal.line}") from None
+
+
+def _check_solutions(representation: Representation, mechanism: Mechanism) -> Iterator[str]:
     h = representation.eliminant
     numerators = (*representation.quaternion, *representation.translation)
     charge(_cost(representation) * (200 + 40 * len(mechanism.constraints)))
     if h.leading_coefficient() < 0 or gcd(*(int(value.content()) for value in (h, *numerators))) != 1:
-        raise rejected(f"{where}eliminant: not in lowest terms with positive leading coefficient")
+        raise rejected("eliminant: not in lowest terms with positive leading coefficient")
     h0 = primitive_part(h)
     if not proved_coprime(h0, lambda p: modulo(h0.derivative(), p)):
-        raise rejected(f"{where}eliminant: not proved squarefree")
-    yield f"{where}eliminant: squarefree of degree {h.degree()}"
-    for line in check_distinct(representation):
-        yield f"{where}{line}"
+        raise rejected("eliminant: not proved squarefree")
+    yield f"eliminant: squarefree of degree {h.degree()}"
+    yield from check_distinct(representation)
     if any(value for k, value in enumerate(numerators) if k not in mechanism.group.support):
-        raise rejected(f"{where}motion: a coordinate that is 0 for every motion of the platform is not")
+        raise rejected("motion: a coordinate that is 0 for every motion of the platform is not")
     placed = motion(representation.quaternion, representation.translation, mechanism.metric)
     if not vanishes(placed.study, h0):
-        raise rejected(f"{where}motion: e.f is not 0 at every root of the eliminant")
+        raise rejected("motion: e.f is not 0 at every root of the eliminant")
     if not proved_coprime(h0, lambda p: modulo(placed.norm, p)):
-        raise rejected(f"{where}motion: not proved that N(e) is nowhere 0")
-    yield f"{where}motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
+        raise rejected("motion: not proved that N(e) is nowhere 0")
+    yield "motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
     values = quantities(placed)
     for number, constraint in enumerate(mechanism.constraints, 1):
         held = [combination(cleared(form), values) for form in constraint.linear]
         if constraint.quadric is not None:
             held.append(quadric_value(constraint.quadric, values, placed.norm))
         if not all(vanishes(value, h0) for value in held):
-            raise rejected(f"{where}constraints: number {number} does not hold at every solution")
-    yield f"{where}constraints: all {len(mechanism.constraints)} hold at every solution"
+            raise rejected(f"constraints: number {number} does not hold at every solution")
+    yield f"constraints: all {len(mechanism.constraints)} hold at every solution"
 
 
 def _cost(representation: Representation) -> int:
