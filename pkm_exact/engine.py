@@ -218,9 +218,9 @@ class _Run:
         if motion is None:
             return None
         # Floating point is needed for this alone: it proposes.
-        from pkm_exact.numeric.real_motion import real_motion
+        from pkm_exact.numeric.real_motion import with_real_motion
 
-        return replace(motion, real=real_motion(self.problem, motion, self.policy))
+        return with_real_motion(self.problem, motion, self.policy)
 
     def _witnessed(self, bound: Mobility) -> SelfMotion | None:
         """A pose, found by joining legs until finitely many are left, or None if there seems to be none."""

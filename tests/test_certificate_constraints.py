@@ -102,12 +102,12 @@ def test_contradictory_constraints_are_certified() -> None:
     _accepted(content)
 
 
-def test_mechanisms_with_freedoms_are_certified() -> None:
-    problem = h4()
-    machine, solution = _solved(ForwardProblem(problem.constraints[:3], problem.metric, problem.motion))
+@pytest.mark.parametrize(("problem", "count"), [(h4(), 3), (mixed(1, 1, 1), 3), (cylinders(), 2)])
+def test_mechanisms_with_freedoms_are_certified_to_move(problem: ForwardProblem, count: int) -> None:
+    machine, solution = _solved(ForwardProblem(problem.constraints[:count], problem.metric, problem.motion))
     content = certificate(machine, "home", solution)
     assert content["claim"] == "positive-dimensional-proved"
-    assert content["self_motion"]["cause"] == "dependent-forms"
+    assert (content["self_motion"]["cause"], content["self_motion"]["real"]) == ("dependent-forms", True)
     _accepted(content)
 
 

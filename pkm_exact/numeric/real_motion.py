@@ -26,6 +26,7 @@ from typing import Final
 import numpy as np
 
 from pkm_exact.claim import RealMotion
+from pkm_exact.completeness.completeness_proof import has_as_many_legs_as_freedoms
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
@@ -64,11 +65,18 @@ _KEEPING: Final = (Cause.PLATFORM_MOTION, Cause.BASE_MOTION)
 _TURNING: Final = (*_POINTS, Cause.PLATFORM_LINE, Cause.BASE_LINE)
 
 
+def with_real_motion(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> SelfMotion:
+    """The same proof with what is proved of real motions; with poses that prove one, where certificates tell it."""
+    if not has_as_many_legs_as_freedoms(problem):
+        shown = next(_witnesses(problem, motion, policy), None)
+        if shown is not None:
+            return shown
+    return replace(motion, real=real_motion(problem, motion, policy) if is_of_legs(problem) else RealMotion.OPEN)
+
+
 def real_motion(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> RealMotion:
-    """What is proved of real motions on a set of complex poses."""
+    """What is proved of real motions of a robot with legs only."""
     causes = motion.mobility.causes
-    if not is_of_legs(problem):
-        return _by_witnesses(problem, motion, policy)
     for cause, side in _POINTS.items():
         if cause in causes:
             joints = [getattr(leg, side) for leg in problem.distances]
@@ -84,20 +92,19 @@ def real_motion(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> 
     return RealMotion.PROVED if _is_proved(problem, motion, policy, turns=turns) else RealMotion.OPEN
 
 
-def _by_witnesses(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> RealMotion:
-    """What is proved for constraints of any type: by the poses that are known, or by others where constraints hold."""
-    if _witnesses(problem, motion, motion.legs, motion.representation, policy):
-        return RealMotion.PROVED
+def _witnesses(problem: ForwardProblem, motion: SelfMotion, policy: Policy) -> Iterator[SelfMotion]:
+    """Proofs of a real motion, whatever the constraints: by the poses that are known, or others where they hold."""
+    if _are_witnesses(problem, motion, motion.legs, motion.representation, policy):
+        yield replace(motion, real=RealMotion.PROVED)
     for pose in _approximate_poses(problem, policy.seed):
         further = _further_legs(problem, motion.mobility.dimension, pose, policy.seed)
         extended = replace(problem, constraints=(*problem.constraints, *further))
         representation = PoseSearch(extended, formulation_codes()[0], policy, Stages()).found()[1]
-        if representation is not None and _witnesses(problem, motion, further, representation, policy):
-            return RealMotion.PROVED
-    return RealMotion.OPEN
+        if representation is not None and _are_witnesses(problem, motion, further, representation, policy):
+            yield SelfMotion(motion.mobility, tuple(further), representation, RealMotion.PROVED)
 
 
-def _witnesses(
+def _are_witnesses(
     problem: ForwardProblem,
     motion: SelfMotion,
     legs: Sequence[Distance],
