@@ -18,6 +18,8 @@ from pkm_exact.constraints.distance import Distance
 from pkm_exact.engine import solve
 from pkm_exact.errors import InputError, PkmExactError, ReconstructionError
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric.fallback import solve_within
 from pkm_exact.numeric.home import distance_squared, home_pose, random_states
 from pkm_exact.numeric.levenberg_marquardt import (
@@ -38,7 +40,8 @@ from pkm_exact.numeric.quaternions import rotation_matrix, turned
 from pkm_exact.numeric.uncertified import Ending, NumericPose, UncertifiedSolution
 from pkm_exact.solution import Solution
 
-NAMES = [path.stem for path in MODELS]
+NAMES = [path.stem for path in MODELS if isinstance(read_robot(path), Robot)]
+"""Newton's method is for legs of known length."""
 IDENTITY = (1.0, 0.0, 0.0, 0.0)
 
 
