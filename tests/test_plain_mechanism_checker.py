@@ -25,10 +25,11 @@ from forged_infinity import (
 from mechanism_certificates import MADE, mechanism_bytes, mechanism_content
 from mechanisms import random_vectors, vector
 
-from pkm_exact.certify import pure, pure_mechanism
+from pkm_exact.certify import check, pure, pure_mechanism
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.build_constraints import constraint_entry
 from pkm_exact.certify.check import check_bytes
+from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.carries import Carries
 from pkm_exact.constraints.constraint import Constraint
@@ -305,6 +306,16 @@ def test_the_section_is_not_finite() -> None:
     """Twenty singular points count 40, on a robot that has a real pose: it would be inconsistent."""
     content = _inconsistent(_planes_of_platform(), isotropic_points())
     _refused(content, "not proved (that the section is )?finite")
+
+
+@pytest.mark.slow
+def test_a_section_of_many_dimensions_is_too_large() -> None:
+    one = (Fraction(1), Fraction(0), Fraction(0))
+    data = canonical_bytes(sealed(_inconsistent([Angle(one, one, Fraction(1))], isotropic_points())))
+    for checker in (pure, check):
+        verdict, work = checker.check_counted(data)
+        assert verdict.status == "too-large"
+        assert work.spent > 0
 
 
 def test_points_at_infinity_are_counted_for_spatial_motions_and_six_conditions_only() -> None:

@@ -7,11 +7,11 @@ sections below have its order and its notation. It shares no line with the other
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
-from itertools import combinations, pairwise
+from itertools import chain, combinations, pairwise
 from math import factorial, gcd
 from random import Random
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
@@ -29,6 +29,7 @@ Quadratic: TypeAlias = dict[tuple[int, int], Fraction]  # in the 17 coordinates,
 MAX_CONSTRAINTS: Final = 64
 MAX_DIGITS_OF_A_FORM: Final = 4000
 MAX_DEGREE_OF_MONOMIALS: Final = 12
+MAX_ENTRIES: Final = 1 << 25  # of relations in a graded algebra
 DEGREE: Final = 40
 """Degree of the variety of rigid motions in P^16."""
 
@@ -861,7 +862,7 @@ def eliminated(certificate: Certificate) -> pure.Elimination:
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def solved_relations(relations: Sequence[Mapping[int, int]], n: int) -> dict[int, dict[int, int]]:
+def solved_relations(relations: Iterable[Mapping[int, int]], n: int) -> dict[int, dict[int, int]]:
     """The reduced echelon form modulo 2^n - 1: rows by their pivots, which are 1 and left out."""
     solved: dict[int, dict[int, int]] = {}
     for relation in relations:
@@ -879,11 +880,21 @@ def solved_relations(relations: Sequence[Mapping[int, int]], n: int) -> dict[int
             continue
         lead = min(row)
         row = pure.scaled(row, row.pop(lead), n)
+        pure.spend(100 * len(solved))
         for other_row in solved.values():
             if lead in other_row:
                 pure.subtract(other_row, other_row.pop(lead), row, n)
         solved[lead] = row
     return solved
+
+
+def commuting(products: Sequence[Sequence[Mapping[int, int]]], size: int) -> Iterator[dict[int, int]]:
+    """The relations x_i (x_j c) = x_j (x_i c), of symbols x_i a with the number ``i size + a``."""
+    for i, j in combinations(range(len(products)), 2):
+        for left, right in zip(products[j], products[i], strict=True):
+            relation = {i * size + place: value for place, value in left.items()}
+            relation |= {j * size + place: -value for place, value in right.items()}
+            yield relation
 
 
 def graded_dimensions(number: int, quadrics: Sequence[Mapping[tuple[int, int], int]], most: int, n: int) -> list[int]:
@@ -895,14 +906,13 @@ def graded_dimensions(number: int, quadrics: Sequence[Mapping[tuple[int, int], i
     products = [[{i: 1}] for i in range(number)]
     while found[-1] and len(found) <= most:
         size = found[-1]
-        relations: list[dict[int, int]] = []
-        for i, j in combinations(range(number), 2):
-            for left, right in zip(products[j], products[i], strict=True):
-                relation = {i * size + place: value for place, value in left.items()}
-                relation |= {j * size + place: -value for place, value in right.items()}
-                relations.append(relation)
+        entries = number * size * (found[-2] * number * (number - 1) // 2 + len(quadrics))
+        pure.affordable(entries <= MAX_ENTRIES, f"section: a matrix of more than {MAX_ENTRIES} entries")
+        relations = commuting(products, size)
         if len(found) == 2:
-            relations += [{i * size + j: value for (i, j), value in quadric.items()} for quadric in quadrics]
+            relations = chain(
+                relations, ({i * size + j: value for (i, j), value in quadric.items()} for quadric in quadrics)
+            )
         solved = solved_relations(relations, n)
         free = {symbol: place for place, symbol in enumerate(s for s in range(number * size) if s not in solved)}
         products = [
