@@ -6,6 +6,7 @@ read, and then accepted, or rejected for what they claim; those beyond it are ma
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import product
@@ -13,6 +14,7 @@ from typing import Any
 
 from certificate_subjects import Content, subject
 from certificate_tools import Path_, at, with_entry
+from wrong_sorts import wrong_sorts
 
 from pkm_exact.certify.build import canonical_bytes, sealed
 
@@ -35,6 +37,23 @@ def cases() -> Iterator[Case]:
         yield f"{'.'.join(map(str, path))} of {name}: {_short(value)}", partial(_changed, name, path, change), status
     for more, status in ((0, "accepted"), (1, "too-large")):
         yield f"{more} entries more than 2^20", partial(_with_entries, more), status
+    for depth, status in ((16, "rejected"), (17, "malformed")):
+        yield f"{depth} levels, and no digest that fits", partial(_nested, depth), status
+        yield f"{depth} objects, and no digest that fits", partial(_nested_objects, depth), status
+    for digit in "0f":
+        yield f"a digest of {digit}", partial(_with_digest, digit), "rejected"
+    for tail in (b"", b"\n\n"):
+        yield f"{tail!r} at the end", partial(_with_tail, tail), "malformed"
+
+
+def _renamed(key: str, other: str, content: Content) -> Content:
+    """Another key."""
+    return {other if old == key else old: value for old, value in content.items()}
+
+
+def _reversed(content: Content) -> Content:
+    """Keys from the last to the first."""
+    return dict(reversed(content.items()))
 
 
 def _given(value: Any, _: Any) -> Any:
@@ -60,8 +79,32 @@ def _with_entries(more: int) -> bytes:
     return canonical_bytes(sealed({**content, "notes": [*content["notes"][1:], last]}))
 
 
+def _nested(depth: int) -> bytes:
+    """An object whose values are so many levels deep, with itself."""
+    value: list[Any] = []
+    for _ in range(depth - 2):
+        value = [value]
+    return json.dumps({"digest": "none", "a": value}).encode()
+
+
+def _nested_objects(depth: int) -> bytes:
+    value: dict[str, Any] = {}
+    for _ in range(depth - 2):
+        value = {"a": value}
+    return json.dumps({"digest": "none", "a": value}).encode()
+
+
+def _with_digest(digit: str) -> bytes:
+    return canonical_bytes({**subject(NOTHING), "digest": "sha256:" + digit * 64})
+
+
+def _with_tail(tail: bytes) -> bytes:
+    return canonical_bytes(sealed(subject(NOTHING))).rstrip() + tail
+
+
 def _entries() -> Iterator[tuple[str, Path_, Any, str]]:
     yield from _texts()
+    yield from wrong_sorts()
     yield from _numbers()
     yield from _polynomials()
     yield from _eliminations()
@@ -73,6 +116,13 @@ def _entries() -> Iterator[tuple[str, Path_, Any, str]]:
 
 
 def _texts() -> Iterator[tuple[str, Path_, Any, str]]:
+    yield WITNESSES, ("robot", "name"), "\u00e9\ud800", "accepted"
+    for name in (NOTHING, TOLERANT):
+        for path, key in (((), "robot"), (("robot",), "kind"), (("configuration",), "name")):
+            for other in (f"A{key}", f"z{key}"):
+                yield name, path, partial(_renamed, key, other), "malformed"
+            if path or name == NOTHING:
+                yield name, path, partial(_reversed), "malformed"
     for path in (("robot", "name"), ("robot", "unit"), ("robot", "source"), ("configuration", "name"), ("notes", 0)):
         yield WITNESSES, path, "x" * 10_000, "accepted"
         yield WITNESSES, path, "x" * 10_001, "too-large"
@@ -115,7 +165,7 @@ def _numbers() -> Iterator[tuple[str, Path_, Any, str]]:
     for digits, status in ((10_000, "rejected"), (10_001, "too-large")):
         yield DOUBLE, end, "1" * digits, status
         yield DOUBLE, ("poses", 0, "parameter", 1), "2/" + "1" * (digits - 2), status
-    for text in ("0/1", "2/4", "-2/2", "1/1"):
+    for text in ("0/1", "2/4", "12/4", "-2/2", "1/1"):
         yield DOUBLE, end, text, "rejected"
         yield DOUBLE, joint, text, "malformed"
     for text in ("-0", "01", "1/0", "1/02", "1/-2", "+1", "1/", "/1", "", "1/2/3", "--1"):

@@ -1,16 +1,21 @@
 """Wrong versions of the checkers are made as they should, and found out by certificates that show the difference."""
 
 import ast
+from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
+from random import Random
 from zipfile import ZipFile
 
 import checker_mutations
 import pytest
 from certificate_subjects import subject
 from certificate_tools import golden_bytes
+from checker_mutants import equivalents
 from checker_mutations import CERTIFY, SOURCES, Mutant, mutants
-from mutant_runs import Reach, examples_in, measured, outcome
+from forgeries import on_circle
+from limit_cases import cases
+from mutant_runs import Reach, answered, examples_in, measured, outcome
 
 from pkm_exact.certify.build import canonical_bytes, sealed
 
@@ -147,3 +152,51 @@ def test_an_endless_loop_is_found_out(reaches: dict[str, Reach], monkeypatch: py
 
 
 ENDLESS = "def real_roots(h0):\n    while True:\n        pass"
+
+
+# A sample of those that read certificates: the limits of the format are certificates enough for them
+
+READERS = {
+    "first": ("document.py", "spelling.py", "tolerance_document.py"),
+    "plain": ("pure.py a", "pure.py one_of", "pure.py parsed", "pure.py read", "pure.py some_bounds"),
+}
+SAMPLE_SIZE = 12
+
+
+def readers(checker: str) -> list[Mutant]:
+    """The mutants of functions that read certificates of version 1, but for those that no certificate shows."""
+    listed, _ = equivalents(mutants(checker))
+    chosen = [m for m in mutants(checker) if any(name in m.place for name in READERS[checker]) and m.function]
+    costly = ("mechanism", "MAX_BYTES")
+    return [m for m in chosen if m.key not in listed and not any(word in str(m) for word in costly)]
+
+
+@pytest.fixture(scope="module")
+def limits(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A ZIP file of certificates at the limits of the format, and of whole ones of all kinds."""
+    path = tmp_path_factory.mktemp("limits") / "corpus.zip"
+    names = ("planar, representation", "planar, multiple solutions", "planar, boxes", "tolerance, planar, complete")
+    whole = [*names, "tolerance-open, planar", "not proven complete", "moving beside isolated poses", "nothing known"]
+    whole += ["unproved multiplicities", "tolerance, spatial, complete"]
+    data = [canonical_bytes(sealed(subject(name))) for name in whole]
+    data.append(canonical_bytes(sealed(on_circle([(Fraction(3), Fraction(4))], (0, 1, 0)))))
+    data += [make() for _, make, _ in cases()]
+    data += [
+        b"[]",
+        b"{",
+        b'{"digest": 5}',
+        b'{"digest": "", "digest": ""}',
+        data[0][:-1],
+        data[0].replace(b"5", b"6", 1),
+    ]
+    with ZipFile(path, "w") as archive:
+        for number, entry in enumerate(data):
+            archive.writestr(f"{number}", entry)
+    return path
+
+
+@pytest.mark.parametrize("checker", READERS)
+def test_a_sample_of_mutants_is_told_apart(checker: str, limits: Path) -> None:
+    reach = answered(checker, examples_in(limits))
+    sample = Random(7).sample(readers(checker), SAMPLE_SIZE)
+    assert [str(mutant) for mutant in sample if outcome(mutant, reach).survives] == []
