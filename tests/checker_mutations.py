@@ -27,8 +27,8 @@ SOURCES = {
 
 REFUSERS = ("require", "well_formed", "affordable")
 """Functions that refuse a certificate unless their first argument holds; the second is the reason, in words."""
-ESTIMATES = ("charge",)
-"""Functions that are told how much work is about to be done: estimates, from which nothing follows."""
+ESTIMATES = re.compile(r"charge\w*|spend\w*|\w*cost|limbs")
+"""Functions that estimate how much work is about to be done, or are told it: ``test_checker_work`` is about them."""
 COMMANDS = ("main", "check_file")
 """What reads files and prints: no certificate reaches it, the tests of command lines do."""
 
@@ -116,7 +116,7 @@ def _of_file(checker: str, path: Path) -> Iterator[Mutant]:
     for statement in module.body:
         if isinstance(statement, ast.FunctionDef | ast.ClassDef):
             for name, function in _functions(statement, ""):
-                if name not in COMMANDS:
+                if name not in COMMANDS and not ESTIMATES.fullmatch(name.rpartition(".")[2]):
                     for site in _sites(function):
                         yield _mutant(checker, path, name, statement, site)
         elif isinstance(statement, ast.Assign | ast.AnnAssign) and statement.value is not None:
@@ -211,7 +211,9 @@ def _below(
     parent: ast.AST, field: str, index: int | None, node: ast.AST, header: ast.AST, bound: ast.AST | None
 ) -> Iterator[_Site]:
     """The changes of a node and of what is below it, but for messages, annotations and default values."""
-    is_estimate = isinstance(node, ast.Expr) and isinstance(node.value, ast.Call) and _called(node.value) in ESTIMATES
+    is_estimate = (
+        isinstance(node, ast.Expr) and isinstance(node.value, ast.Call) and ESTIMATES.fullmatch(_called(node.value))
+    )
     if is_estimate or isinstance(node, ast.Raise | ast.JoinedStr | ast.arg | ast.Import | ast.ImportFrom):
         return
     if isinstance(node, ast.stmt):
