@@ -107,7 +107,8 @@ def _proof(problem: ForwardProblem, count: int, policy: Policy, stages: Stages) 
     """A proof that so many simple solutions are all, or None."""
     if count == problem.solution_bound:
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, count)
-    if not goes_shortly(problem, policy):
+    # That there is no pose at all is for the exact engine to prove: it has a claim for it.
+    if not count or not goes_shortly(problem, policy):
         return None
     stages.enter("completeness")
     proof = short_proof(Conditions.of(problem), count, count, policy)

@@ -17,7 +17,7 @@ from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 from samples import MODELS, boxed, random_placed, random_vector, shipped, solved
 
-from pkm_exact.claim import CompletenessRoute
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
@@ -317,3 +317,10 @@ def test_random_robots_have_the_poses_of_the_exact_engine(seed: int) -> None:
 def test_many_random_robots_have_the_poses_of_the_exact_engine(seed: int) -> None:
     problem = random_robot(seed)
     assert_same_answer(solve_krawczyk(problem), solve(problem))
+
+
+def test_lengths_that_contradict_each_other_are_inconsistent_and_no_empty_list() -> None:
+    first, _, *others = shipped("mssm").distances
+    contradicting = replace(first, length_squared=first.length_squared + 1)
+    found = solve_krawczyk(replace(shipped("mssm"), constraints=(first, contradicting, *others)))
+    assert (found.claim, found.complex_solutions) == (Claim.INCONSISTENT, 0)
