@@ -8,6 +8,7 @@ together, the section being finite (``finite_section``, ``infinity``).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.claim import CompletenessRoute
@@ -20,6 +21,9 @@ from pkm_exact.completeness.pose_bound import form_rank, pose_bound
 from pkm_exact.failures.contradiction import require
 from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.policy import Policy
+
+LIFTING_BITS: Final = 1 << 15
+"""Of points at infinity at most: with longer numbers the way is no short one."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +67,8 @@ def short_proof(conditions: Conditions, distinct: int, total: int, policy: Polic
     # "No" may be the fault of primes: it is asked twice.
     if not any(is_finite(conditions, next(primes), is_quick=is_quick) for is_quick in (True, False)):
         return None
-    tried = (points_at_infinity(conditions, primes, policy.lifting_bits) for _ in range(2))
+    bits = min(policy.lifting_bits, LIFTING_BITS)
+    tried = (points_at_infinity(conditions, primes, bits) for _ in range(2))
     found = next(filter(None, tried), None)
     if found is None:
         return None

@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from pkm_exact.poses.pose_representation import PoseRepresentation
     from pkm_exact.stages import Watch
 
+LIFTING_BITS: Final = 1 << 15
+"""Of the representation of a slice at most: others are tried."""
 PARTS: Final = 16
 """Constants are multiples of the robot's size over this number."""
 EMPTY: Final = 3
@@ -198,7 +200,8 @@ class _Cut:
         """The slice in a list, which is empty if it has no poses; None if it has infinitely many."""
         problem = _with_forms(self.problem, (_shifted(self.form, constant),))
         try:
-            start, representation = PoseSearch(problem, formulation_codes()[0], self.policy, Stages()).found()
+            policy = replace(self.policy, lifting_bits=min(self.policy.lifting_bits, LIFTING_BITS))
+            start, representation = PoseSearch(problem, formulation_codes()[0], policy, Stages()).found()
         except (OutOfReachError, ReconstructionError):
             return []
         if start.count is None:
