@@ -29,6 +29,9 @@ from pkm_exact.certify import check, pure, pure_mechanism
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.build_constraints import constraint_entry
 from pkm_exact.certify.check import check_bytes
+from pkm_exact.certify.checker import mechanism_section
+from pkm_exact.certify.checker.mechanism_document import read_mechanism_document
+from pkm_exact.certify.checker.solutions import PRIMES
 from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.carries import Carries
@@ -316,6 +319,18 @@ def test_a_section_of_many_dimensions_is_too_large() -> None:
         verdict, work = checker.check_counted(data)
         assert verdict.status == "too-large"
         assert work.spent > 0
+
+
+def test_no_robot_is_built_on_the_primes_of_either_checker() -> None:
+    found: set[int] = set()
+    for name in ("3-RPS", "3-PSS+C, general", "cylinders"):
+        content = mechanism_content(name)
+        del content["digest"]
+        first = mechanism_section._primes(read_mechanism_document(content).mechanism)
+        second = pure_mechanism.primes_of(pure_mechanism.read(content).robot)
+        assert len({*first, *second}) == 6
+        assert not found & {*first, *second, *PRIMES, *pure.PRIMES}
+        found |= {*first, *second}
 
 
 def test_points_at_infinity_are_counted_for_spatial_motions_and_six_conditions_only() -> None:

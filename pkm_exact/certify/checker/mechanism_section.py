@@ -18,14 +18,14 @@ from math import lcm
 from random import Random
 from typing import Final
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, nmod_mat
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_poly, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.elimination import Polynomial, echelon
 from pkm_exact.certify.checker.elimination import integers as over_integers
-from pkm_exact.certify.checker.mechanism_forms import SIZE, Form, Mechanism, matrix
+from pkm_exact.certify.checker.mechanism_forms import SIZE, Form, Mechanism, cleared, matrix
 from pkm_exact.certify.checker.section import ORDER, Terms, motion_quadrics
-from pkm_exact.certify.checker.solutions import PRIMES
+from pkm_exact.certify.checker.solutions import primes_for
 from pkm_exact.certify.checker.study_motion import Metric
 
 _TO_ORDER: Final = (1, 2, 3, 4, 5, 6, 0, *range(7, 17))
@@ -123,12 +123,18 @@ def solutions_at_most(mechanism: Mechanism) -> int | None:
         return 0
     if not section.size:
         return 1
-    for p in PRIMES[:_ATTEMPTS]:
+    for p in _primes(mechanism):
         tops = [{m: c % p for m, c in element.items() if sum(m) == 2} for element in section.elements]
         sizes = list(_parts([_pairs(top) for top in tops], section.size, p, _HIGHEST + 1))
         if sizes[-1] == 0:
             return sum(sizes)
     return None
+
+
+def _primes(mechanism: Mechanism) -> list[int]:
+    """Primes on which no robot is built: they follow from it."""
+    forms = [*mechanism.linear, *(form for quadric in mechanism.quadrics for form in (quadric.whole, quadric.root))]
+    return list(primes_for(fmpz_poly([number for form in forms for number in cleared(form)])))[-_ATTEMPTS:]
 
 
 def _pairs(terms: Mapping[tuple[int, ...], int]) -> dict[tuple[int, int], int]:
@@ -146,7 +152,7 @@ def is_finite(mechanism: Mechanism) -> bool:
     With a further form, chosen at random, they then meet nowhere: modulo a prime the quadrics contain all monomials of
     some degree.
     """
-    for attempt, p in enumerate(PRIMES[:_ATTEMPTS]):
+    for attempt, p in enumerate(_primes(mechanism)):
         quadrics, size = _cut(mechanism, p, attempt)
         if size == 0 or list(_parts(quadrics, size, p, _HIGHEST + len(mechanism.quadrics)))[-1] == 0:
             return True
