@@ -95,7 +95,7 @@ class Subject:
 
 SUBJECTS = {
     "general 6-6, representation": Subject(partial(golden, "mourrain-l"), complete=1500),
-    "general 6-6, boxes": Subject(partial(boxed_certificate, "mourrain-l"), 2, 200),
+    "general 6-6, boxes": Subject(partial(boxed_certificate, "mourrain-l"), 0, 200),
     "general 6-6 of Rolland, representation": Subject(partial(golden, "rolland-6-6"), 0, 60),
     "general 6-6 of Rolland, boxes": Subject(partial(boxed_certificate, "rolland-6-6"), 0, 60),
     "special robot, exact elimination": Subject(partial(golden, "similar-planar-s"), complete=1500),

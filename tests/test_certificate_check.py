@@ -522,7 +522,7 @@ def test_any_bytes_get_a_verdict(data: bytes) -> None:
     assert check_bytes(data).status in (Status.MALFORMED, Status.REJECTED)
 
 
-@budget(40)
+@budget(20)
 @given(st.data())
 def test_any_json_in_place_of_an_entry_gets_a_verdict(data: st.DataObject) -> None:
     values = st.recursive(

@@ -10,7 +10,11 @@ from pkm_exact.certify import check, pure
 
 ROOT = Path(__file__).parents[1]
 CASES = Path(__file__).parent / "cases"
-GOLDENS = [pytest.param(path, id=path.stem) for path in sorted((ROOT / "certs").glob("*.json"))]
+LARGE = ("6-6p", "6-6pp", "dietmaier", "hexa", "linapod-n", "rolland-6-6", "ssm-rounded")
+GOLDENS = [
+    pytest.param(path, id=path.stem, marks=pytest.mark.slow if path.stem in LARGE else ())
+    for path in sorted((ROOT / "certs").glob("*.json"))
+]
 
 
 @pytest.mark.parametrize("path", GOLDENS)
