@@ -291,7 +291,7 @@ NO_DESIGN = [
         [*_options("6-UPS"), "--platform-sides", "4,2", "-o", "-"],
         "proved: the robot moves with locked legs (positive-dimensional-proved)",
     ),
-    ([*_options("6-UPS"), "--platform-sides", "200,400", "-o", "-"], "(positive-dimensional-detected); change"),
+    ([*_options("6-UPS"), "--platform-sides", "200,400", "-o", "-"], "(positive-dimensional-proved); change"),
     ([*_options("6-UPS"), "-o", ""], "the path '' is empty"),
     ([*_options("6-UPS"), "-o", "nowhere/robot.toml"], "the folder nowhere does not exist"),
 ]

@@ -1282,6 +1282,13 @@ def legs_are_equal(certificate: Certificate, representation: pure.Representation
     return len(certificate.legs) == 1 or pure.legs_are_one_vector(certificate, representation)
 
 
+def path_is_real(certificate: Certificate) -> bool:
+    """Whether the sphere or circle of equal legs has more than one real point: in the plane legs may stand upright."""
+    leg, robot = certificate.legs[0], certificate.robot
+    upright = robot.metric[2] * (leg.base[2] - leg.platform[2]) ** 2 if robot.kind.name == "planar" else 0
+    return bool(leg.length_squared > upright)
+
+
 def checked(representation: pure.Representation, robot: Robot, where: str = "") -> Iterator[str]:
     """Checks 1 to 5."""
     try:
@@ -1348,7 +1355,7 @@ def check_cause(
     equal = legs_are_equal(certificate, representation)
     pure.require(equal, "self-motion: the legs are not the same vector at every pose")
     yield "self-motion: all legs are the same vector, their poses form a sphere or circle"
-    return real
+    return real and path_is_real(certificate)
 
 
 # ---------------------------------------------------------------------------------------------------------------------

@@ -60,7 +60,10 @@ def listed_poses(content: Mapping[str, Any]) -> ListedPoses:
         boxes, mechanism = found.isolated, found.mechanism
         equations = None if boxes is None else MechanismEquations(mechanism, boxes.chart)
         return ListedPoses(found.representation, boxes, equations, mechanism.metric, found.poses)
-    document = read_document(body)
+    # A robot with legs as version 1 has it, of a certificate of either version.
+    proofs = ("infinity", "self_motion")
+    view = {key: value for key, value in body.items() if key not in proofs}
+    document = read_document({**view, "version": 1, "completeness_route": None})
     isolated = document.isolated
     legs = None if isolated is None else Equations(document.legs, document.metric, isolated.chart)
     return ListedPoses(document.representation, isolated, legs, document.metric, document.poses)

@@ -120,10 +120,11 @@ class Quadric:
 
 @dataclass(frozen=True)
 class Leg:
-    """Base joint and platform joint of a constraint of the type distance."""
+    """Base joint, platform joint and squared length of a constraint of the type distance."""
 
     base: Point
     platform: Point
+    length_squared: Fraction
 
 
 @dataclass(frozen=True)
@@ -257,7 +258,7 @@ def distance(metric: Metric, base: Point, platform: Point, square: Fraction) -> 
     constant = product(metric, base, base) + product(metric, platform, platform) - square
     turned, position = _scaled(metric, platform, 2), _scaled(metric, base, -2)
     form = _joined(1, turned, position, _outer(metric, base, platform, -2), constant)
-    return Constraint((form,), leg=Leg(base, platform))
+    return Constraint((form,), leg=Leg(base, platform, square))
 
 
 def _in_plane(metric: Metric, normal: Sequence[Fraction], offset: Fraction, platform: Point) -> Form:

@@ -148,7 +148,9 @@ def _equal_legs(mechanism: Mechanism, representation: Representation) -> bool:
             scalars = cleared((*shift, -coordinate))
             if not vanishes(combination(scalars, [*row, placed.norm]), h0):
                 raise rejected("self-motion: the legs are not the same vector")
-    return has_real_root(representation)
+    # In the plane the legs may be tilted, as joints may lie off it: the path is a circle if they are not upright.
+    tilt = mechanism.metric[2] * (first.base[2] - first.platform[2]) ** 2 if mechanism.group.dimension == 3 else 0
+    return has_real_root(representation) and first.length_squared > tilt
 
 
 def _by_slices(claimed: SelfMotion, mechanism: Mechanism) -> Generator[str, None, bool]:
