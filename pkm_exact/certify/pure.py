@@ -160,9 +160,9 @@ def division_cost(quotient: int, divisor: int) -> int:
     return 300 + (quotient + 30) * (divisor + 30) // 750
 
 
-def fraction_cost(bits: int) -> int:
-    """Operations for a sum or a product of fractions, with numerators and denominators of so many bits."""
-    return 4000 + 8 * bits + bits * bits // 400
+def fraction_cost(a: int, b: int) -> int:
+    """Operations for a sum or a product of fractions, with numerators and denominators of a and b bits."""
+    return 4000 + 8 * (a + b) + a * b // 350
 
 
 def most_bits(values: Iterable[int]) -> int:
@@ -696,8 +696,13 @@ def leg_form(leg: Leg, g: Metric) -> list[int]:
 
 def cleared(values: Sequence[Fraction]) -> list[int]:
     """The values times their least common denominator."""
-    denominator = lcm(*(value.denominator for value in values))
-    return [int(value * denominator) for value in values]
+    denominator = 1
+    for value in values:
+        spend(2 * division_cost(denominator.bit_length(), value.denominator.bit_length()))
+        denominator = lcm(denominator, value.denominator)
+    bits = denominator.bit_length()
+    spend(sum(200 + product_cost(bits, value.numerator.bit_length()) for value in values) + len(values) * bits // 2)
+    return [value.numerator * (denominator // value.denominator) for value in values]
 
 
 def combination(scalars: Iterable[int], values: Iterable[Any]) -> Any:
@@ -1579,8 +1584,6 @@ def section(legs: Sequence[Leg], g: Metric) -> tuple[tuple[int, ...], list[Terms
 
 def cleared_terms(polynomial: Affine) -> Terms:
     """An integer multiple."""
-    bits = max((bits_of_fraction(value) for value in polynomial.values()), default=0)
-    spend(len(polynomial) * (2000 + 4 * division_cost(len(polynomial) * bits, bits)))
     return dict(zip(polynomial, cleared(list(polynomial.values())), strict=True))
 
 
@@ -1588,7 +1591,7 @@ def added(*terms: tuple[Fraction | int, Affine]) -> Affine:
     """The combination of polynomials."""
     total: Affine = {}
     bits = max((bits_of_fraction(value) for _, each in terms for value in each.values()), default=0)
-    spend(sum(len(each) for _, each in terms) * 2 * fraction_cost(bits))
+    spend(sum(len(each) for _, each in terms) * 2 * fraction_cost(bits, bits))
     for scalar, polynomial in terms:
         for monomial, value in polynomial.items():
             total[monomial] = total.get(monomial, Fraction(0)) + scalar * value
@@ -1604,7 +1607,7 @@ def multiplied(a: Affine, b: Affine) -> Affine:
     """The product."""
     total: Affine = {}
     bits = max(map(bits_of_fraction, [*a.values(), *b.values(), Fraction(0)]))
-    spend(len(a) * len(b) * (3000 + 2 * fraction_cost(2 * bits)))
+    spend(len(a) * len(b) * (3000 + 2 * fraction_cost(2 * bits, bits)))
     for one, x in a.items():
         for other, y in b.items():
             monomial = tuple(map(sum, zip(one, other, strict=True)))
@@ -1991,7 +1994,7 @@ class Algebra:
             products[monomial] = [self.times_unknown(row, axis) for row in products[smaller]]
         tables = [products[monomial] for monomial in self.basis]
         bits = max(row.denominator.bit_length() + most_bits(row.numerators) for table in tables for row in table)
-        spend(2 * size**2 * fraction_cost(bits))
+        spend(2 * size**2 * fraction_cost(bits, bits))
         diagonals = [[Fraction(row.numerators[i], row.denominator) for i, row in enumerate(rows)] for rows in tables]
         return tables, [sum(diagonal, Fraction(0)) for diagonal in diagonals]
 
@@ -2090,7 +2093,7 @@ def multiplicity_polynomial(
 def inner(vector: Vector, values: Sequence[int], scale: int) -> Fraction:
     """The value of a linear form, given with a common denominator, at a vector."""
     bits, by = most_bits(vector.numerators), most_bits(values)
-    spend(len(values) * (200 + product_cost(bits, by)) + fraction_cost(bits + by))
+    spend(len(values) * (200 + product_cost(bits, by)) + fraction_cost(bits, by))
     return Fraction(sum(x * y for x, y in zip(vector.numerators, values, strict=True)), vector.denominator * scale)
 
 
@@ -2392,8 +2395,8 @@ class System:
 
     def slopes(self, x: Sequence[Gaussian]) -> list[list[Gaussian]]:
         """F'(x)."""
-        bits = bits_of(x) + max((most_bits(row) for form in self.forms for row in form), default=0)
-        spend(4 * len(x) ** 3 * fraction_cost(bits))
+        bits = max((most_bits(row) for form in self.forms for row in form), default=0)
+        spend(4 * len(x) ** 3 * fraction_cost(bits_of(x) + bits, bits))
         rows = [[dot(row, x) for row in form] for form in self.forms]
         return [*rows, [weight * UNIT for weight in self.chart]]
 
@@ -2407,7 +2410,7 @@ class System:
 
     def values(self, x: Sequence[Gaussian], slopes: Sequence[Sequence[Gaussian]]) -> list[Gaussian]:
         """F(x), as quadratic forms are half of x^T (2 Q) x."""
-        spend(8 * len(x) ** 2 * fraction_cost(bits_of(x) + max(map(bits_of, slopes))))
+        spend(8 * len(x) ** 2 * fraction_cost(bits_of(x), max(map(bits_of, slopes))))
         products = [total(a * b for a, b in zip(row, x, strict=True)) for row in slopes]
         return [*(Fraction(1, 2) * value for value in products[:-1]), products[-1] - UNIT]
 
@@ -2493,8 +2496,7 @@ def has_one_solution(system: System, box: Box, p: int) -> bool:
     y = near_inverse(slopes, p)
     if y is None:
         return False
-    bits = max(map(bits_of, y)) + max(map(bits_of, slopes)) + bits_of(box.centre)
-    spend(16 * len(y) ** 3 * fraction_cost(bits))
+    spend(16 * len(y) ** 3 * fraction_cost(max(map(bits_of, y)), max(map(bits_of, slopes)) + bits_of(box.centre)))
     reach = [(1 if box.real else 2) * r for r in box.radius]
     bends = system.bends(box.centre, reach)
     values = system.values(box.centre, slopes)
@@ -2567,7 +2569,7 @@ def narrowed(system: System, box: Box, p: int) -> Box | None:
         if y is None:
             return None
         values = system.values(x, slopes)
-        spend(10 * len(y) ** 2 * fraction_cost(max(map(bits_of, y)) + bits_of(values)))
+        spend(10 * len(y) ** 2 * fraction_cost(max(map(bits_of, y)), bits_of(values)))
         steps = [total(a * b for a, b in zip(row, values, strict=True)) for row in y]
         x = tuple((a - step).rounded(min(precision, p + 4)) for a, step in zip(x, steps, strict=True))
     finer = Box(x, (Fraction(1, 1 << p),) * len(x), p, real=box.real)
@@ -2622,7 +2624,7 @@ def check_boxes(system: System, boxes: Boxes) -> Iterator[str]:
         require(nearest, f"boxes: the centre of {name} is not the grid point nearest to the solution")
     yield f"boxes: each of {len(named)} holds exactly one solution, simple, and N(e) is not 0 there"
     most = max((box.bits + box.radius[0].denominator.bit_length() for _, box in named), default=0)
-    spend(40 * len(named) ** 2 * fraction_cost(most))
+    spend(40 * len(named) ** 2 * fraction_cost(most, most))
     check_pairs(boxes.others)
     for (name, one), (other_name, other) in combinations(named, 2):
         apart = one.is_disjoint(other) and one.is_disjoint(other.conjugate())

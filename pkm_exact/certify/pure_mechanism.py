@@ -1021,6 +1021,8 @@ def check_infinity(infinity: PointsAtInfinity, robot: Robot, weight: int) -> Ite
 def check_points(infinity: PointsAtInfinity) -> None:
     """The points are distinct: eliminant, chart and separating form."""
     h, degree = infinity.h, len(infinity.h) - 1
+    numbers = [*h, *(coefficient for numerator in infinity.numerators for coefficient in numerator)]
+    pure.spend(2 * len(numbers) * pure.division_cost(pure.most_bits(numbers), pure.most_bits(h)))
     content = gcd(*h, *(coefficient for numerator in infinity.numerators for coefficient in numerator))
     pure.require(h[-1] > 0 and content == 1, "infinity: not in lowest terms with positive leading coefficient")
     h0 = pure.primitive_part(h)
@@ -1046,6 +1048,8 @@ def check_points_on_motions(infinity: PointsAtInfinity, g: pure.Metric) -> None:
     scale = max(pure.size(list(quadric.values())) for quadric in quadrics)
     multiples = pure.Multiples(pure.primitive_part(infinity.h), scale * largest**2)
     z = [pure.at_power(numerator, multiples.k) for numerator in infinity.numerators]
+    terms, bits = sum(map(len, quadrics)), pure.most_bits(z)
+    pure.spend(terms * (pure.product_cost(bits, bits) + pure.product_cost(scale.bit_length(), 2 * bits)))
     for quadric in quadrics:
         inside = multiples.include(sum(value * z[i] * z[j] for (i, j), value in quadric.items()))
         pure.require(inside, "infinity: a point is not a limit of rigid motions")
@@ -1073,6 +1077,7 @@ def exact_product(a: pure.Polynomial, b: pure.Polynomial) -> pure.Polynomial:
     if not a or not b:
         return []
     k = (pure.size(a) * pure.size(b)).bit_length() + 2
+    pure.spend(pure.product_cost(k * len(a), k * len(b)))
     return pure.digits(pure.at_power(a, k) * pure.at_power(b, k), k)
 
 
@@ -1114,6 +1119,8 @@ class Expanded(NamedTuple):
 
 def expanded(matrix: Matrix, x: Sequence[pure.Gaussian], reach: Sequence[Fraction]) -> Expanded:
     """With q(m + h) - q(m) = (M m).h + h.(M h) / 2 and q'(m + h) - q'(m) = M h."""
+    bits = max(map(pure.most_bits, matrix))
+    pure.spend(6 * len(x) ** 2 * pure.fraction_cost(pure.bits_of(x) + bits, pure.bits_of(x) + bits))
     slope = [pure.dot(row, x) for row in matrix]
     bend = [sum((abs(v) * h for v, h in zip(row, reach, strict=True)), ZERO) for row in matrix]
     change = sum((s.size() * h + b * h / 2 for s, b, h in zip(slope, bend, reach, strict=True)), ZERO)

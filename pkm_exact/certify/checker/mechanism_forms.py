@@ -22,6 +22,7 @@ from typing import Any, Final, TypeAlias
 
 from flint import fmpq, fmpq_mat
 
+from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.study_motion import Metric, Motion, Point, combination
 
 Form: TypeAlias = tuple[Fraction, ...]
@@ -208,7 +209,10 @@ def _rank(forms: Sequence[Form]) -> int:
 
 
 def matrix(forms: Sequence[Form]) -> fmpq_mat:
-    """The coefficients, a form in a row."""
+    """The coefficients, a form in a row, of which the rank or the echelon form is asked."""
+    rows, columns = len(forms), len(forms[0])
+    words = columns * limbs(max(max(x.numerator.bit_length(), x.denominator.bit_length()) for f in forms for x in f))
+    charge(rows * columns * (2000 + min(rows, columns) * (500 + words * words // 2)))
     return fmpq_mat([[fmpq(x.numerator, x.denominator) for x in form] for form in forms])
 
 
