@@ -1141,7 +1141,7 @@ class Quartic:
     def parts(self, x: Sequence[pure.Gaussian], reach: Sequence[Fraction]) -> list[Expanded]:
         """N, F and H near a point."""
         bits = pure.bits_of(x) + max(pure.most_bits(row) for matrix in (self.norm, self.f, self.h) for row in matrix)
-        pure.spend(12 * len(x) ** 2 * pure.fraction_cost(bits))
+        pure.spend(12 * len(x) ** 2 * pure.fraction_cost(bits, bits))
         return [expanded(matrix, x, reach) for matrix in (self.norm, self.f, self.h)]
 
     def value(self, x: Sequence[pure.Gaussian]) -> pure.Gaussian:
