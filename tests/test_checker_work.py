@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
+from random import Random
 
 import pytest
+from certificate_tools import canonical_bytes, golden, sealed
 
 from pkm_exact.certify import check, pure
 
@@ -37,3 +40,24 @@ def test_a_step_that_would_take_minutes_is_not_begun() -> None:
     answer, work = pure.check_counted(data)
     assert answer.status == "too-large"
     assert work.spent < work.allowed // 4
+
+
+@pytest.mark.slow
+def test_numbers_that_would_take_minutes_are_not_worked_with() -> None:
+    """Joints of 150 digits: the polynomials of the section have numbers of 77,000 bits, their echelon form more."""
+    content = golden("3-rpr-six")
+    content["robot"] |= {"kind": "6-UPS", "base": _long(6), "platform": _long(6)}
+    content["configuration"]["lengths_squared"] = [joint[0] for joint in _long(6)]
+    content |= {"representation": None, "poses": [], "real_poses": 0, "complex_solutions": 0, "distinct_solutions": 0}
+    content |= {"claim": "inconsistent", "box_exponent": 0}
+    verdict, budget = check.check_counted(canonical_bytes(sealed(content)))
+    assert verdict.status is check.Status.TOO_LARGE
+    assert verdict.lines[-1].startswith("work: "), verdict
+    assert budget.spent > budget.limit
+
+
+def _long(number: int) -> list[list[str]]:
+    random = Random(number)
+    return [
+        [str(Fraction(random.getrandbits(500) + 1, random.getrandbits(500) + 2)) for _ in "xyz"] for _ in range(number)
+    ]

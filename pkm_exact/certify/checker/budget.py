@@ -2,7 +2,7 @@
 
 Nothing is timed, so that a verdict never depends on how busy a machine is. Work is estimated from sizes: bits,
 dimensions, degrees, numbers of terms. One operation stands for about a nanosecond; ``docs/certificates.md`` has the
-table of what costs how many, and ``benchmarks/checker_work.py`` measures it.
+table of what costs how many.
 """
 
 from __future__ import annotations
