@@ -424,7 +424,7 @@ def test_a_double_solution_is_certified_as_double() -> None:
     assert sorted(pose["multiplicity"] for pose in content["poses"]) == [1, 1, 2]
     answer = check_resealed(content)
     assert answer.status is Status.ACCEPTED
-    assert "complex solutions: 39 distinct, 40 with multiplicity" in answer.lines
+    assert any("39 distinct, 40 with multiplicity" in line for line in answer.lines)
     _assert_rejected(content | {"complex_solutions": 39}, "complex solutions")
     for pose in content["poses"]:
         pose["multiplicity"] = 1

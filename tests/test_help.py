@@ -21,7 +21,7 @@ REFERENCE = ROOT / "docs" / "cli.md"
 Capture = pytest.CaptureFixture[str]
 
 PATH = "l1,l2,l3,l4,l5,l6\n1250,1250,1250,1250,1250,1250\n1250.5,1250,1250,1250,1250,1250\n"
-SLOW = ("", "check", "compare", "formulations", "new", "plot", "sweep")
+SLOW = ("", "check", "compare", "formulations", "plot", "sweep")
 NOT_HERE = ("tcp://",)  # needs a cluster
 
 
