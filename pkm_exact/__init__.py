@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from pkm_exact.interactive.questions import solve as solve
     from pkm_exact.interactive.questions import solve_krawczyk as solve_krawczyk
     from pkm_exact.interactive.questions import tolerance_boxes as tolerance_boxes
+    from pkm_exact.interactive.robots import Mechanism as Mechanism
     from pkm_exact.interactive.robots import Robot as Robot
     from pkm_exact.interactive.robots import read_robot as read_robot
     from pkm_exact.numeric.trajectory import track_branch as track_branch
@@ -57,6 +58,7 @@ _HOME: Final = {
     "Interval": "poses.pose",
     "Distance": "constraints.distance",
     "ManySolutions": "batch.many",
+    "Mechanism": "interactive.robots",
     "PkmExactError": "errors",
     "Policy": "policy",
     "Pose": "poses.pose",

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pkm_exact import check
+from pkm_exact import InputError, Mechanism, Robot, check, read_robot
 from pkm_exact.cli.main import main
 
 MODEL = str(Path(__file__).parent / "cases" / "3-rps.toml")
@@ -68,3 +68,11 @@ def test_a_mechanism_without_actuators_has_nothing_to_sweep(tmp_path: Path, caps
     rows.write_text("1\n")
     assert main(["sweep", str(model), str(rows), "-o", str(tmp_path / "out")]) == 2
     assert "it has no actuated constraints; solve its configurations one by one" in capsys.readouterr().err
+
+
+def test_files_are_loaded_by_the_class_of_their_kind() -> None:
+    mechanism = Mechanism.load(MODEL)
+    assert mechanism == read_robot(MODEL)
+    assert str(mechanism.solve()) == "16 complex solutions, 8 real poses; complete"
+    with pytest.raises(InputError, match=r"is not one of Robot; load it with Mechanism\.load or read_robot"):
+        Robot.load(MODEL)

@@ -7,13 +7,15 @@ from collections.abc import Callable, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import pkm_exact.geometry.mechanism as mechanisms
 import pkm_exact.geometry.reader as reader
 import pkm_exact.geometry.robot as robots
+from pkm_exact.errors import InputError
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.interactive.facade import Question, options, posed
+from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.mechanism import LockedValues
@@ -31,20 +33,28 @@ class Asked(Machine):
         return robot_html(self)
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str]) -> Robot | Mechanism:
-        """The robot in a model file; the same as ``read_robot``.
+    def load(cls, path: str | os.PathLike[str]) -> Self:
+        """The robot in a model file, of this class; ``read_robot`` takes files of every kind.
 
         Raises
         ------
         InputError
-            If the file cannot be read or is not a model; the message says where and what to do.
+            If the file cannot be read, is not a model, or is one of another class; the message says what to do.
 
         Examples
         --------
         >>> print(Robot.load("models/3-rpr-merlet-p.toml"))
         Merlet 3-RPR (3-RPR, lengths in 1), configurations: home
+        >>> print(Mechanism.load("models/delta.toml"))
+        Delta (constraints, lengths in 1), configurations: home
         """
-        return read_robot(path)
+        found = read_robot(path)
+        if isinstance(found, cls):
+            return found
+        raise InputError(
+            f"{printable(os.fspath(path))}: kind: {found.kind} is not one of {cls.__name__}; load it with "
+            f"{type(found).__name__}.load or read_robot"
+        )
 
     def solve(
         self,
