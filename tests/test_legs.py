@@ -2,6 +2,7 @@
 
 import json
 from fractions import Fraction
+from math import cos, radians, sin
 from pathlib import Path
 
 import pytest
@@ -18,7 +19,9 @@ from pkm_exact.geometry.surds import Surd, quadratic_roots
 from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, SlideMode, working_modes
 
 MODELS = Path(__file__).parent.parent / "models"
-ROLLAND, HEXA, GLIDE = (str(MODELS / f"{name}.toml") for name in ("rolland-6-6", "hexa", "hexaglide"))
+ROLLAND, HEXA, GLIDE, PLANAR = (
+    str(MODELS / f"{name}.toml") for name in ("rolland-6-6", "hexa", "hexaglide", "3-rpr-merlet-p")
+)
 Capture = pytest.CaptureFixture[str]
 
 small = st.fractions(min_value=-4, max_value=4, max_denominator=6)
@@ -234,15 +237,49 @@ def test_rational_joint_values_can_be_copied(tmp_path: Path, capsys: Capture) ->
     assert line == "slides = [0, 0, 0, 0, 0, 0]"
 
 
+@pytest.mark.parametrize("model", [ROLLAND, HEXA])
+def test_roll_pitch_and_yaw_are_turns_about_the_fixed_axes_in_this_order(model: str, capsys: Capture) -> None:
+    answer = _answer([model, "--position", "0,0,650", "--rpy", "10,-20,30.5"], capsys)
+    cx, sx, cy, sy, cz, sz = (f(radians(a)) for a in (10, -20, 30.5) for f in (cos, sin))
+    wanted = [
+        [cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx],
+        [sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx],
+        [-sy, cy * sx, cy * cx],
+    ]
+    found = [[_value(entry) for entry in row] for row in answer["pose"]["rotation"]]
+    assert [x for row in found for x in row] == pytest.approx([x for row in wanted for x in row], abs=1e-11)
+    assert answer["nearest"] == "1/1000000000000"
+
+
+def test_right_angles_are_exact(capsys: Capture) -> None:
+    answer = _answer([ROLLAND, "--position", "0,0,650", "--rpy", "180,-90,270"], capsys)
+    assert answer["nearest"] is None
+    assert {entry for row in answer["pose"]["rotation"] for entry in row} == {"0", "1", "-1"}
+    planar = _answer([PLANAR, "--position", "1,2", "--degrees", "90"], capsys)
+    assert planar["pose"]["planar"] == {"x": "1", "y": "2", "cos": "0", "sin": "1"}
+
+
+def test_a_recorded_matrix_becomes_the_rotation_next_to_it(capsys: Capture) -> None:
+    words = [ROLLAND, "--position", "0,0,650", "--matrix", "0.866,-0.5,0,0.5,0.866,0,0,0,1", "--nearest", "1e-3"]
+    rows = [[Fraction(entry) for entry in row] for row in _answer(words, capsys)["pose"]["rotation"]]
+    products = [[sum(x * y for x, y in zip(a, b, strict=True)) for b in rows] for a in rows]
+    assert products == [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    assert abs(rows[0][0] - Fraction("0.866")) < Fraction(1, 1000)
+
+
 BAD = [
     (["--quaternion", "1,0,0,0"], "missing option '--position'"),
-    (["--position", "0,0,1"], "give exactly one of --quaternion, --cayley and --matrix"),
+    (["--position", "0,0,1"], "give exactly one of --quaternion, --cayley, --matrix and --rpy"),
     (["--position", "0,0,1", "--cayley", "0,0,0", "--quaternion", "1,0,0,0"], "give exactly one of"),
     (["--position", "0,0", "--cayley", "0,0,0"], "--position: 2 numbers given, 3 are needed"),
     (["--position", "0,0,x", "--cayley", "0,0,0"], "--position, number 3: x is not a number"),
     (["--position", "0,0,1", "--quaternion", "0,0,0,0"], "--quaternion: all four numbers are 0"),
     (["--position", "0,0,1", "--matrix", "1,0,0,0,1,0,0,0,2"], "columns 3 and 3 have the product 4 instead of 1"),
     (["--position", "0,0,1", "--matrix", "1,0,0,0,1,0,0,0,-1"], "its determinant is -1, a reflection"),
+    (["--position", "0,0,1", "--rpy", "0,0,1e7"], "--rpy: 10000000 is out of range; give degrees"),
+    (["--position", "0,0,1", "--rpy", "0,0,1", "--in-metric"], "--in-metric and --rpy exclude each other"),
+    (["--position", "0,0,1", "--matrix", "9,0,0,0,9,0,0,0,9", "--nearest", "1e-3"], "is not even nearly a rotation"),
+    (["--position", "0,0,1", "--matrix", "0.6,-0.8,0,0.8,0.6,0,0,0,0.99", "--nearest", "1e-3"], "differs by 0.01 "),
     (["--position", "0,0,1", "--cayley", "0,0,0", "--width", "0"], "--width: 0 is not positive"),
 ]
 

@@ -120,6 +120,14 @@ BAD = {
     "metric 1/2": (MODEL.replace("[1, 3, 1]", '["1/2", 1, 1]'), "metric[1]: 1/2 is not a positive integer"),
     "metric 2": (MODEL.replace("[1, 3, 1]", "[1, 3]"), "metric: a list of 2"),
     "quaternion 0": (MODEL.replace("[2, 0, 0, 0]", "[0, 0, 0, 0]"), "pose.quaternion: all four numbers are 0"),
+    "degrees in a metric": (
+        MODEL.replace("quaternion = [2, 0, 0, 0]", "rpy_degrees = [0, 0, 30]"),
+        "pose.rpy_degrees: angles in degrees are not rational in the metric [1, 3, 1]",
+    ),
+    "quaternion and degrees": (
+        MODEL.replace("[2, 0, 0, 0]", "[1, 0, 0, 0], rpy_degrees = [0, 0, 0]"),
+        "quaternion and rpy_degrees given",
+    ),
     "quaternion 3": (MODEL.replace("[2, 0, 0, 0]", "[1, 0, 0]"), "pose.quaternion: 3 numbers; give 4"),
     "pose": (
         MODEL.replace("{ position = [0, 0, 1], quaternion = [2, 0, 0, 0] }", "1"),
@@ -148,6 +156,24 @@ def test_a_defect_gives_one_sentence(name: str, tmp_path: Path) -> None:
     assert message.isprintable()
     assert len(message) < len(str(path)) + 400
     assert caught.value.__suppress_context__
+
+
+@pytest.mark.parametrize("yaw", [90, 30])
+def test_a_pose_in_degrees_has_the_lengths_of_the_rotation_next_to_it(yaw: int) -> None:
+    text = MODEL.replace("metric = [1, 3, 1]\n", "")
+    degrees = text.replace("quaternion = [2, 0, 0, 0]", f"rpy_degrees = [0, 0, {yaw}]")
+    found = robot_from_toml(degrees).configuration("posed").lengths_squared
+    exact = rotation_of((Fraction(1), Fraction(0), Fraction(0), Fraction(1)))
+    robot = robot_from_toml(text)
+    joints = zip(robot.base_joints, robot.platform_joints, strict=True)
+    place = (Fraction(0), Fraction(0), Fraction(1))
+    if yaw == 90:
+        assert found == tuple(distance_squared(a, b, place, exact) for a, b in joints)
+        return
+    c, s = 3**0.5 / 2, 0.5
+    for square, (a, b) in zip(found, joints, strict=True):
+        at = c * b[0] - s * b[1], s * b[0] + c * b[1], b[2] + 1
+        assert float(square) == pytest.approx(sum((float(x) - y) ** 2 for x, y in zip(a, at, strict=True)), abs=1e-10)
 
 
 def test_a_posed_leg_of_length_zero_is_refused() -> None:

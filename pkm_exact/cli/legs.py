@@ -12,14 +12,16 @@ import click
 from pkm_exact.cli import arguments
 from pkm_exact.cli.main import ExitCode
 from pkm_exact.errors import InputError, InternalContradictionError
+from pkm_exact.geometry.degrees import NEAREST_TURN
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
     from pkm_exact.constraints.form import Vector
-    from pkm_exact.geometry.inverse import Matrix, Metric
+    from pkm_exact.geometry.inverse import Matrix, Metric, Quaternion
     from pkm_exact.geometry.machine import Machine
 
-_PLANAR: Final = ("--half-tangent", "--cos-sin")
+_PLANAR: Final = ("--half-tangent", "--cos-sin", "--degrees")
+_IN_DEGREES: Final = ("--rpy", "--degrees")
 
 
 @click.command(short_help="Leg lengths and joint values at a given pose.")
@@ -30,13 +32,18 @@ _PLANAR: Final = ("--half-tangent", "--cos-sin")
 @click.option("--quaternion", metavar="E0,E1,E2,E3", help="Its rotation, scalar first, of any norm.")
 @click.option("--cayley", metavar="A,B,C", help="Its rotation as a Cayley vector: the quaternion 1,A,B,C.")
 @click.option("--matrix", metavar="R11,..,R33", help="Its rotation matrix row by row, checked exactly.")
+@click.option(
+    "--rpy", metavar="R,P,Y", help="Its rotation by roll, pitch and yaw in degrees: R = Rz(yaw) Ry(pitch) Rx(roll)."
+)
 @click.option("--half-tangent", metavar="T", help="A planar robot's rotation: the tangent of half its angle.")
 @click.option("--cos-sin", metavar="C,S", help="Or cosine and sine of its angle, checked exactly.")
+@click.option("--degrees", metavar="A", help="Or the angle itself.")
 @click.option(
     "--nearest",
     callback=arguments.nearest,
     metavar="W",
-    help="Where the model's metric has no such pose exactly: take one that differs by at most W in any coordinate.",
+    help="Where there is no such pose exactly (angles in degrees, a rounded matrix, a metric): take one that differs "
+    "by at most W in any coordinate.  [default for angles in degrees: 1e-12]",
 )
 @click.option("--in-metric", is_flag=True, help="The pose is in the coordinates of the file, as a pose in it is.")
 @click.option(
@@ -61,8 +68,10 @@ def legs(
     quaternion: str | None,
     cayley: str | None,
     matrix: str | None,
+    rpy: str | None,
     half_tangent: str | None,
     cos_sin: str | None,
+    degrees: str | None,
     nearest: Fraction | None,
     in_metric: bool,
     width: Fraction,
@@ -79,22 +88,28 @@ def legs(
     Examples:
       certify-poses legs models/rolland-6-6.toml --position 0,0,650 --quaternion 9,1,0,-1
       certify-poses legs models/hexa.toml --position 0,0,650 --cayley 0,1/9,0 --format json
+      certify-poses legs models/rolland-6-6.toml --position 0,0,650 --rpy 0,10,-2.5
       certify-poses legs models/3-rpr-merlet-p.toml --position 5,9/2 --half-tangent 1/3
     """
     words = {
         "--quaternion": (quaternion, 4),
         "--cayley": (cayley, 3),
         "--matrix": (matrix, 9),
+        "--rpy": (rpy, 3),
         "--half-tangent": (half_tangent, 1),
         "--cos-sin": (cos_sin, 2),
+        "--degrees": (degrees, 1),
     }
     given = [(name, text, count) for name, (text, count) in words.items() if text is not None]
     if len(given) != 1:
         raise click.UsageError(
-            "give exactly one of --quaternion, --cayley and --matrix; of --half-tangent and --cos-sin if it is planar."
+            "give exactly one of --quaternion, --cayley, --matrix and --rpy; of --half-tangent, --cos-sin and "
+            "--degrees if it is planar."
         )
     if in_metric and nearest is not None:
         raise click.UsageError("--in-metric and --nearest exclude each other: a pose of the file is exact.")
+    if in_metric and given[0][0] in _IN_DEGREES:
+        raise click.UsageError(f"--in-metric and {given[0][0]} exclude each other: angles are ordinary ones.")
     # Before the file is read: what is wrong with the words is said first.
     option, text, count = given[0]
     origin = _numbers(position, "--position", 2 if option in _PLANAR else 3)
@@ -128,23 +143,48 @@ def _in_model(
 ) -> tuple[Vector, Matrix, Fraction | None]:
     """An ordinary pose in the coordinates of the model, and by how much it may be off; None if it is exact."""
     from pkm_exact.geometry.inverse import rotation_of
-    from pkm_exact.geometry.ordinary_pose import model_position, model_quaternion, quaternion_of
+    from pkm_exact.geometry.ordinary_pose import model_position, model_quaternion
 
-    ordinary = quaternion_of(_rotation(option, values, (1, 1, 1)))
+    ordinary, off = _ordinary_quaternion(option, values, nearest)
+    if off:
+        nearest = nearest or NEAREST_TURN
+    room = None if nearest is None else nearest - off
     place, quaternion = model_position(position, metric), model_quaternion(ordinary, metric)
-    used = None if place is not None and quaternion is not None else nearest
+    used = None if place is not None and quaternion is not None and not off else nearest
     for found, where in ((place, "--position"), (quaternion, option)):
-        if found is None and nearest is None:
+        if found is None and room is None:
             raise InputError(
                 f"{where}: in the model's metric [{', '.join(map(str, metric))}] these numbers are not rational, so "
                 "that no pose of it is exactly there; give --nearest 1e-9 to take one that near, or --in-metric with a "
                 "pose in the coordinates of the file"
             )
-    place = place or model_position(position, metric, nearest)
-    quaternion = quaternion or model_quaternion(ordinary, metric, nearest)
+    place = place or model_position(position, metric, room)
+    quaternion = quaternion or model_quaternion(ordinary, metric, room)
     if place is None or quaternion is None:
         raise InternalContradictionError("a pose near the given one was not found")
     return place, rotation_of(quaternion, metric), used
+
+
+def _ordinary_quaternion(option: str, values: list[Fraction], nearest: Fraction | None) -> tuple[Quaternion, Fraction]:
+    """An ordinary quaternion of the rotation, and by how much its matrix may be off: half of what is allowed."""
+    from pkm_exact.geometry.degrees import checked_degrees, is_exact_turn, quaternion_of_angles
+    from pkm_exact.geometry.nearest_rotation import nearest_rotation
+    from pkm_exact.geometry.ordinary_pose import quaternion_of
+
+    if option in _IN_DEGREES:
+        angles = [checked_degrees(angle, option) for angle in values]
+        roll, pitch, yaw = angles if option == "--rpy" else (Fraction(0), Fraction(0), angles[0])
+        off = Fraction(0) if all(map(is_exact_turn, angles)) else (nearest or NEAREST_TURN) / 2
+        return quaternion_of_angles(roll, pitch, yaw, off or NEAREST_TURN), off
+    if option == "--matrix" and nearest is not None:
+        quaternion, off = nearest_rotation((values[:3], values[3:6], values[6:]), option)
+        if off > nearest / 2:
+            raise InputError(
+                f"{option}: the rotation next to this matrix differs by {float(off):.1g} from it in some entry, more "
+                f"than half of what --nearest allows; give --nearest {float(2.1 * float(off)):.1g} or more digits"
+            )
+        return quaternion, off
+    return quaternion_of(_rotation(option, values, (1, 1, 1))), Fraction(0)
 
 
 def _numbers(text: str, option: str, count: int) -> list[Fraction]:
@@ -173,12 +213,12 @@ def _require_kind(option: str, robot: Machine, model: str) -> None:
     if planar and option not in _PLANAR:
         raise InputError(
             f"{model}: {option} is for spatial robots, but a {robot.kind} robot is planar; "
-            "give --position X,Y and --half-tangent or --cos-sin"
+            "give --position X,Y and --half-tangent, --cos-sin or --degrees"
         )
     if not planar and option in _PLANAR:
         raise InputError(
             f"{model}: {option} is for planar robots, but a {robot.kind} robot is spatial; "
-            "give --position X,Y,Z and --quaternion, --cayley or --matrix"
+            "give --position X,Y,Z and --quaternion, --cayley, --matrix or --rpy"
         )
 
 
@@ -213,7 +253,8 @@ def _require_rotation(matrix: Matrix, metric: Metric) -> None:
             if product != wanted:
                 raise InputError(
                     f"--matrix: not a rotation{_in(metric)}: columns {j + 1} and {i + 1} have the product "
-                    f"{shown(product)} instead of {wanted}; give an exact rotation matrix"
+                    f"{shown(product)} instead of {wanted}; give an exact rotation matrix, or --nearest W to take the "
+                    "rotation next to it"
                 )
     (a, b, c), (d, e, f), (x, y, z) = matrix
     if a * (e * z - f * y) - b * (d * z - f * x) + c * (d * y - e * x) != 1:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
-from math import prod
+from math import ceil, floor, prod
 from typing import Any, Final
 
 from pkm_exact.cli.report import robot_object
@@ -28,6 +28,8 @@ from pkm_exact.geometry.working_modes import (
 from pkm_exact.poses.pose import Interval
 
 _LONGEST_EXACT: Final = 50
+_LONGEST_NEAR: Final = 12
+_LARGEST_DENOMINATOR: Final = 10**9
 
 
 def lengths_squared(robot: Robot, position: Vector, rotation: Matrix) -> list[Fraction]:
@@ -92,18 +94,27 @@ def exact_and_bounds(value: Surd, width: Fraction) -> dict[str, Any]:
 
 
 def pose_lines(robot: Machine, position: Vector, rotation: Matrix, nearest: Fraction | None = None) -> list[str]:
-    """The same as lines of a text."""
+    """The same as lines of a text; decimals where the pose is only near the one that was asked for."""
     ordinary, entries = ordinary_position(position, robot.metric), ordinary_rotation(rotation, robot.metric)
+
+    def listed(values: Iterable[Surd]) -> str:
+        return ", ".join(_brief(value, nearest) for value in values)
+
     if robot.motion.is_planar:
         x, y, c, s = _planar(ordinary, entries)
-        place = f"position ({x}, {y}), cosine and sine ({c}, {s})"
+        place = f"position ({listed((x, y))}), cosine and sine ({listed((c, s))})"
     else:
-        rows = "; ".join(", ".join(map(str, row)) for row in entries)
-        place = f"position ({', '.join(map(str, ordinary))}), rotation matrix ({rows})"
+        place = f"position ({listed(ordinary)}), rotation matrix ({'; '.join(map(listed, entries))})"
     lines = [f"{robot.name} ({robot.kind}), {place}"]
     if nearest is not None:
-        lines.append(f"the pose is off by at most {nearest} from the one given, which the metric does not have exactly")
+        lines.append(f"the pose is off by at most {nearest} from the one given, which is not rational here")
     return lines
+
+
+def _brief(value: Surd, nearest: Fraction | None) -> str:
+    """The number exactly; in decimals if it is long and only near another one."""
+    exact = str(value)
+    return exact if nearest is None or len(exact) <= _LONGEST_NEAR else surd_decimal(value, nearest)
 
 
 def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None) -> str:
@@ -113,7 +124,7 @@ def as_text(robot: Robot, position: Vector, rotation: Matrix, width: Fraction, n
         lines += _chain_lines(robot, joint_modes(robot, position, rotation), width)
     else:
         squares = lengths_squared(robot, position, rotation)
-        lines += [_assignment("lengths_squared", squares), ""]
+        lines += ["" if nearest else f"{_assignment('lengths_squared', squares)}\n"]
         lengths = [Surd.root_of(square) for square in squares]
         table = [(f"{i}", surd_decimal(x, width), short(str(x))) for i, x in enumerate(lengths, 1)]
         lines += aligned([("leg", f"length [{robot.unit}]", "exact"), *table])
@@ -187,8 +198,15 @@ def _quoted(value: Fraction) -> str:
 
 
 def surd_decimal(value: Surd, width: Fraction) -> str:
-    """Decimals that are right to one unit of the last."""
-    return decimal(Interval(*value.enclosure(width)))
+    """Decimals that are right to one unit of the last: all of them, if they end, else as many as the width asks for.
+
+    >>> surd_decimal(Surd(Fraction(0), Fraction(1, 10**20), 2 * 10**40), Fraction(1, 1000))
+    '1.414'
+    """
+    low, high = value.enclosure(width)
+    if (high - low) * 1000 < width and (value.n or value.p.denominator > _LARGEST_DENOMINATOR):
+        low, high = floor(low / width) * width, ceil(high / width) * width
+    return decimal(Interval(low, high))
 
 
 def short(text: str) -> str:

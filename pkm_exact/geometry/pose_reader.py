@@ -1,4 +1,7 @@
-"""Poses in model files: a position, and a rotation by a quaternion or, in the plane, by an angle. All exact."""
+"""Poses in model files: a position, and a rotation by a quaternion or by angles. All exact.
+
+Angles in degrees stand for the rational rotation next to them (``degrees``): the pose is that one.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ from typing import Any, Final
 
 from pkm_exact.constraints.form import Vector, value_at
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.degrees import checked_degrees, quaternion_of_angles
 from pkm_exact.geometry.fields import known_keys, list_field, required
 from pkm_exact.geometry.inverse import Matrix, Metric, rotation_of
 from pkm_exact.geometry.planar_rotation import parse_half_tangent, parse_turn
@@ -14,7 +18,8 @@ from pkm_exact.geometry.rational import parse_rational, parse_vector
 from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import shown
 
-_TURNS: Final = ("half_tangent", "cos_sin")
+_PLANAR_TURNS: Final = ("half_tangent", "cos_sin", "degrees")
+_SPATIAL_TURNS: Final = ("quaternion", "rpy_degrees")
 _ORIGIN: Final = (Fraction(0), Fraction(0), Fraction(0))
 _UNTURNED: Final = (Fraction(1), *_ORIGIN)
 
@@ -37,7 +42,7 @@ def read_pose(pose: object, where: str, motion: Motion, metric: Metric) -> tuple
     >>> [str(x) for x in (*position, *rotation[0])]
     ['1', '1/2', '3', '1', '0', '0']
     """
-    turns = _TURNS if motion.is_planar else ("quaternion",)
+    turns = _PLANAR_TURNS if motion.is_planar else _SPATIAL_TURNS
     if not isinstance(pose, dict):
         rotation = "half_tangent = ..." if motion.is_planar else "quaternion = [...]"
         raise InputError(f"{where}: {shown(pose)} is not a table; write {{ position = [...], {rotation} }}")
@@ -49,13 +54,18 @@ def read_pose(pose: object, where: str, motion: Motion, metric: Metric) -> tuple
         position = parse_vector(required(pose, "position", f"{where}."), f"{where}.position", dimension)
     if motion.is_planar:
         return position, _planar_rotation(pose, where, metric)
-    turned = _rotation(pose, where, metric) if turning or "quaternion" in pose else rotation_of(_UNTURNED, metric)
+    given = any(key in pose for key in _SPATIAL_TURNS)
+    turned = _rotation(pose, where, metric) if turning or given else rotation_of(_UNTURNED, metric)
     if any(value_at(form, position, turned, metric) for form in motion.forms):
         raise InputError(f"{where}: is not among the {motion.title} that the mechanism is capable of; give one that is")
     return position, turned
 
 
 def _rotation(pose: dict[str, Any], where: str, metric: Metric) -> Matrix:
+    if "rpy_degrees" in pose:
+        _given_once(pose, _SPATIAL_TURNS, where)
+        roll, pitch, yaw = _angles(pose["rpy_degrees"], f"{where}.rpy_degrees", 3, metric)
+        return rotation_of(quaternion_of_angles(roll, pitch, yaw), metric)
     row = list_field(required(pose, "quaternion", f"{where}."), f"{where}.quaternion", 4)
     if len(row) != 4:
         raise InputError(f"{where}.quaternion: {len(row)} numbers; give 4, scalar first")
@@ -66,8 +76,28 @@ def _rotation(pose: dict[str, Any], where: str, metric: Metric) -> Matrix:
 
 
 def _planar_rotation(pose: dict[str, Any], where: str, metric: Metric) -> Matrix:
-    given = [key for key in _TURNS if key in pose]
+    key = _given_once(pose, _PLANAR_TURNS, where)
+    if key == "degrees":
+        (angle,) = _angles([pose[key]], f"{where}.{key}", 1, metric)
+        return rotation_of(quaternion_of_angles(_ORIGIN[0], _ORIGIN[0], angle), metric)
+    parse = parse_half_tangent if key == "half_tangent" else parse_turn
+    return parse(pose[key], f"{where}.{key}", metric)
+
+
+def _given_once(pose: dict[str, Any], keys: tuple[str, ...], where: str) -> str:
+    given = [key for key in keys if key in pose]
     if len(given) != 1:
-        raise InputError(f"{where}: {' and '.join(given) or 'no angle'} given; give one of {', '.join(_TURNS)}")
-    parse = parse_half_tangent if given[0] == "half_tangent" else parse_turn
-    return parse(pose[given[0]], f"{where}.{given[0]}", metric)
+        raise InputError(f"{where}: {' and '.join(given) or 'no angle'} given; give one of {', '.join(keys)}")
+    return given[0]
+
+
+def _angles(values: object, where: str, count: int, metric: Metric) -> list[Fraction]:
+    if any(g != 1 for g in metric):
+        raise InputError(
+            f"{where}: angles in degrees are not rational in the metric [{', '.join(map(str, metric))}]; give numbers "
+            "of the metric, or a model in ordinary coordinates"
+        )
+    row = list_field(values, where, count)
+    if len(row) != count:
+        raise InputError(f"{where}: {len(row)} numbers; give {count}: roll, pitch, yaw")
+    return [checked_degrees(parse_rational(angle, f"{where}[{i}]"), where) for i, angle in enumerate(row, 1)]
