@@ -20,6 +20,7 @@ from pkm_exact.certify.checker.certificate_kinds import KINDS, CertificateKind
 
 POSES, TOLERANCES = "certificate-1.schema.json", "tolerance-certificate-1.schema.json"
 SECOND = "certificate-2.schema.json"
+SYSTEMS = "system-certificate-1.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
 
@@ -36,7 +37,7 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(_schema(name))
 
 
-@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES])
+@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS])
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
 
@@ -149,6 +150,16 @@ def test_the_page_of_version_2_defines_every_key_in_its_order() -> None:
     assert data == {keys["type"]["const"]: list(keys)[2:-1] for keys in choices}
     words = definitions["selfMotion"]["properties"]["cause"]["enum"] + root["properties"]["completeness_route"]["enum"]
     assert all(f'"{word}"' in page for word in words if word)
+
+
+def test_the_page_of_systems_defines_every_key_in_its_order() -> None:
+    root = _schema(SYSTEMS)
+    parts = [root["$defs"][key] for key in ("representation", "infinity", "witness", "solution")]
+    assert _tables("Format", "### Polynomials", "certificates-systems.md") == [_keys(root), *map(_keys, parts)]
+    page = (CERTS.parent / "docs" / "certificates-systems.md").read_text()
+    words = [root["properties"][key]["enum"] for key in ("claim", "completeness_route")]
+    words.append(root["$defs"]["witness"]["properties"]["cause"]["enum"])
+    assert all(f'"{word}"' in page for word in chain.from_iterable(words) if word)
 
 
 def test_words_and_limits_are_the_same_everywhere() -> None:
