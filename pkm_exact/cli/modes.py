@@ -34,17 +34,17 @@ def assembly_modes(poses: Sequence[Pose]) -> dict[str, list[int]]:
     return found
 
 
-def summary(modes: dict[str, list[int]]) -> str:
-    """How many poses each group has and which, numbered from 1; groups without poses are left out.
+def summary(modes: dict[str, list[int]], numbers: Sequence[int]) -> str:
+    """How many poses each group has and which, by their numbers; groups without poses are left out.
 
     Examples
     --------
-    >>> summary({"positive": [0, 2], "negative": [], "singular": [1], "undecided": []})
+    >>> summary({"positive": [0, 2], "negative": [], "singular": [1], "undecided": []}, (1, 2, 3))
     '2 poses with det J > 0 (1, 3), 1 with det J = 0 (2)'
     """
     parts: list[str] = []
     for group, places in modes.items():
         if places:
             noun = "" if parts else " pose" if len(places) == 1 else " poses"
-            parts.append(f"{len(places)}{noun} {_WORDS[group]} ({', '.join(str(place + 1) for place in places)})")
+            parts.append(f"{len(places)}{noun} {_WORDS[group]} ({', '.join(str(numbers[place]) for place in places)})")
     return ", ".join(parts)

@@ -68,7 +68,10 @@ def _size(context: click.Context, _option: click.Parameter, value: str | None) -
 @click.option("--overlay", is_flag=True, help="One picture of all poses at once; with --pose that one stands out.")
 @click.option("--roots", is_flag=True, help="The roots of the eliminant and their isolating intervals instead.")
 @click.option(
-    "--model", type=arguments.FilePath(), metavar="MODEL.toml", help="The robot's model: draws cranks or slides too."
+    "--model",
+    type=arguments.FilePath(),
+    metavar="MODEL.toml",
+    help="The robot's model: draws cranks or slides too, and says which limits each pose keeps.",
 )
 @click.option(
     "--view",
@@ -146,7 +149,7 @@ def _figure(
     size: tuple[float, float] | None,
 ) -> tuple[Figure, str]:
     """The figure, and what it shows in one line."""
-    from pkm_exact.cli.model_reading import announced_robot
+    from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.pictures import captions
     from pkm_exact.pictures.camera import DEFAULT_VIEW, View
     from pkm_exact.pictures.roots import roots_figure
@@ -155,7 +158,7 @@ def _figure(
 
     if roots:
         return roots_figure(document, size=size), "the roots of the eliminant"
-    scene = scene_of(document, None if model is None else announced_robot(model, "--model"))
+    scene = scene_of(document, None if model is None else announced_model(model))
     seen = DEFAULT_VIEW if view is None else View(*view)
     if pose is not None:
         return pose_figure(scene, pose, view=seen, size=size, ghosts=overlay), f"pose {pose} of {len(scene.poses)}"

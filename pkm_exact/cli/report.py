@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from pkm_exact.cli.feasible_poses import ShownPoses
 from pkm_exact.cli.modes import assembly_modes
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.indices.index import Output
@@ -25,20 +26,32 @@ if TYPE_CHECKING:
     from pkm_exact.solution import Solution
 
 
-def report(robot: Machine, configuration: str | None, solution: Solution, layout: str, *, verbose: bool) -> None:
-    """Print a solution to stdout as ``table``, ``json`` or ``csv``."""
+def report(
+    robot: Machine,
+    configuration: str | None,
+    solution: Solution,
+    layout: str,
+    *,
+    verbose: bool,
+    feasible_only: bool = False,
+) -> None:
+    """Print a solution to stdout as ``table``, ``json`` or ``csv``; all of its poses, or those proved feasible."""
+    shown = ShownPoses.of(robot, configuration, solution, feasible_only=feasible_only)
     if layout == "json":
-        sys.stdout.write(json.dumps(as_object(robot, configuration, solution), indent=1) + "\n")
+        sys.stdout.write(json.dumps(as_object(robot, configuration, solution, shown), indent=1) + "\n")
     elif layout == "csv":
-        csv.writer(sys.stdout, lineterminator="\n").writerows(as_rows(solution))
+        csv.writer(sys.stdout, lineterminator="\n").writerows(as_rows(solution, shown))
     else:
         from pkm_exact.cli.table import print_table
 
-        print_table(robot, configuration, solution, headline(solution), verbose=verbose)
+        print_table(robot, configuration, solution, headline(solution), shown, verbose=verbose)
 
 
-def as_object(robot: Machine, configuration: str | None, solution: Solution) -> dict[str, Any]:
+def as_object(
+    robot: Machine, configuration: str | None, solution: Solution, shown: ShownPoses | None = None
+) -> dict[str, Any]:
     """The solution as a JSON object: bounds are exact rationals as strings, assembly modes indices of poses."""
+    shown = shown or ShownPoses.of(robot, configuration, solution)
     return {
         "robot": robot_object(robot),
         "configuration": configuration_object(robot, configuration, solution.problem),
@@ -50,9 +63,9 @@ def as_object(robot: Machine, configuration: str | None, solution: Solution) -> 
         "complex_solutions": solution.complex_solutions,
         "distinct_solutions": solution.distinct_solutions,
         "real_poses": len(solution.poses),
-        "poses": [_pose(pose, solution.problem.motion) for pose in solution.poses],
-        "assembly_modes": assembly_modes(solution.poses),
-        "notes": list(answer_notes(robot, configuration, solution)),
+        "poses": [_pose(pose, solution.problem.motion) | shown.entry(place) for place, pose in enumerate(shown.poses)],
+        "assembly_modes": assembly_modes(shown.poses),
+        "notes": [*answer_notes(robot, configuration, solution), *shown.notes],
     }
 
 
@@ -99,17 +112,25 @@ def _jacobian(pose: Pose) -> dict[str, Any] | None:
     return {index.name: index.exact(pose) for index in shown_in(Output.JSON)} | {"length": str(pose.jacobian.length)}
 
 
-def as_rows(solution: Solution) -> Iterator[list[str]]:
+def as_rows(solution: Solution, shown: ShownPoses) -> Iterator[list[str]]:
     """A header and one row per pose: its number, the claim about the whole list, multiplicity, exact bounds."""
     names = ["t", "x", "y", "z"]
     names += [f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
     names += [f"q{k}" for k in range(4)]
     indices = shown_in(Output.CSV)
     further = [column for index in indices for column in index.columns]
-    yield ["pose", "claim", "multiplicity", *(f"{name}_{end}" for name in names for end in ("lo", "hi")), *further]
-    for number, pose in enumerate(solution.poses, 1):
+    yield [
+        "pose",
+        "claim",
+        "multiplicity",
+        *(f"{name}_{end}" for name in names for end in ("lo", "hi")),
+        *further,
+        *shown.columns,
+    ]
+    for place, pose in enumerate(shown.poses):
         parameter = ["", ""] if pose.parameter is None else ends(pose.parameter)
         entries = [*pose.position, *(entry for row in pose.rotation for entry in row), *pose.quaternion]
         bounds = [end for entry in entries for end in ends(entry)]
         measured = [field for index in indices for field in index.fields(pose)]
-        yield [str(number), str(solution.claim), str(pose.multiplicity), *parameter, *bounds, *measured]
+        first = [str(shown.numbers[place]), str(solution.claim), str(pose.multiplicity), *parameter]
+        yield [*first, *bounds, *measured, *shown.fields(place)]

@@ -18,7 +18,12 @@ from pkm_exact.wording import printable
 @click.option(
     "-o", "--output", type=arguments.FilePath(), metavar="FILE.html", required=True, help="Write the page here."
 )
-@click.option("--model", type=arguments.FilePath(), metavar="MODEL", help="Its model file, to draw cranks and slides.")
+@click.option(
+    "--model",
+    type=arguments.FilePath(),
+    metavar="MODEL",
+    help="Its model file, to draw cranks and slides, and to say which limits each pose keeps.",
+)
 def report(certificate: str, output: str, model: str | None) -> int:
     """Write one web page that shows what the certificate CERT.json proves, and every pose to turn and copy.
 
@@ -55,10 +60,10 @@ def report(certificate: str, output: str, model: str | None) -> int:
 
 
 def _page(document: dict[str, object], lines: tuple[str, ...], certificate: str, model: str | None) -> str:
-    from pkm_exact.cli.model_reading import announced_robot
+    from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.report_page.page import report_page
 
-    robot = None if model is None else announced_robot(model, "--model")
+    robot = None if model is None else announced_model(model)
     try:
         return report_page(document, lines, Path(certificate).name, robot)
     except InputError as error:

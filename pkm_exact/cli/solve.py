@@ -66,6 +66,7 @@ from pkm_exact.formulations.registry import formulation_codes
     show_default=True,
     help="What to print: decimals, or exact bounds as json or csv.",
 )
+@click.option("--feasible", is_flag=True, help="List only the poses that are proved to keep all limits of the model.")
 @click.option("-v", "--verbose", is_flag=True, help="Say more: method, box widths, stages on a terminal.")
 def solve(
     model: str,
@@ -79,6 +80,7 @@ def solve(
     tolerance: Fraction | str | None,
     output: str | None,
     layout: str,
+    feasible: bool,
     verbose: bool,
 ) -> int:
     """Find all real poses of the robot in the file MODEL for one configuration, or for given leg lengths.
@@ -101,6 +103,9 @@ def solve(
     from pkm_exact.geometry.robot import jointed
 
     robot = announced_model(model)
+    if feasible and (robot.limits is None or tolerance is not None or method == "newton"):
+        what = "the model has no limits; add a table [limits]" if robot.limits is None else "it is for certified poses"
+        raise InputError(f"{model}: --feasible: {what}, or leave the option out")
     chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     name = chosen.name if chosen else None
     tolerances = (
@@ -141,5 +146,5 @@ def solve(
 
     from pkm_exact.cli.report import report
 
-    report(robot, name, solution, layout, verbose=verbose)
+    report(robot, name, solution, layout, verbose=verbose, feasible_only=feasible)
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM

@@ -12,29 +12,42 @@ from pkm_exact.interactive.display import pose_cells, pose_header
 from pkm_exact.roots.interval import decimal as decimal
 
 if TYPE_CHECKING:
+    from pkm_exact.cli.feasible_poses import ShownPoses
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.solution import Solution
 
 
-def print_table(robot: Machine, configuration: str | None, solution: Solution, headline: str, *, verbose: bool) -> None:
+def print_table(
+    robot: Machine,
+    configuration: str | None,
+    solution: Solution,
+    headline: str,
+    shown: ShownPoses,
+    *,
+    verbose: bool,
+) -> None:
     """Print robot, headline, poses and notes to stdout."""
     actuators = f"configuration {configuration}" if configuration else "given leg lengths"
     lines = [f"{robot.name} ({robot.kind}), {actuators}, formulation {solution.formulation}", headline]
     if verbose:
         lines += list(_details(robot, solution))
-    lines += [f"note: {note}" for note in answer_notes(robot, configuration, solution)]
+    lines += [f"note: {note}" for note in (*answer_notes(robot, configuration, solution), *shown.notes)]
     sys.stdout.write("\n".join(lines) + "\n")
-    if not solution.poses:
+    if not shown.poses:
         return
     planar = solution.problem.motion.is_planar
-    rows = [pose_cells(number, pose, solution.problem.motion) for number, pose in enumerate(solution.poses, 1)]
+    rows = [
+        pose_cells(number, pose, solution.problem.motion) + shown.cells(place)
+        for place, (number, pose) in enumerate(zip(shown.numbers, shown.poses, strict=True))
+    ]
     rotation = "angle [degrees]" if planar else "unit quaternion (scalar first)"
     # A redundant mechanism has no determinant: its Jacobian has more rows than columns.
     has_signs = solution.problem.equation_count == solution.problem.motion.dimension
-    sys.stdout.write(f"\nassembly modes: {summary(assembly_modes(solution.poses))}\n" if has_signs else "\n")
+    modes = summary(assembly_modes(shown.poses), shown.numbers)
+    sys.stdout.write(f"\nassembly modes: {modes}\n" if has_signs else "\n")
     sys.stdout.write(f"position [{robot.unit}], {rotation}, right to one unit of the last digit\n")
-    print_rows(rows, pose_header(solution.problem.motion))
+    print_rows(rows, (*pose_header(solution.problem.motion), *shown.headings))
 
 
 def _details(robot: Machine, solution: Solution) -> list[str]:

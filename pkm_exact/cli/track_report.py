@@ -103,20 +103,37 @@ def written(
         "start_pose": number,
         "start_proved": records[0]["start_proved"],
         "rows": len(joints.rows),
-        "samples": [_sample(joints, record) for record in records],
+        "samples": [_sample(robot, joints, record) for record in records],
         "stopped": stopped,
     }
     write_whole(target, (json.dumps(content, indent=1) + "\n").encode("ascii"))
 
 
-def _sample(joints: JointPath, record: Record) -> Record:
+def _sample(robot: Machine, joints: JointPath, record: Record) -> Record:
     place = record["row"] - 1
     content: Record = {"row": record["row"]}
     if joints.times is not None:
         content[TIME] = str(joints.times[place])
     content["joints"] = [str(value) for value in joints.rows[place]]
     content |= {key: record[key] for key in ("position", "rotation", "quaternion")}
-    return {**content, "det_sign": record["point"]["det_sign"], "steps": record["steps"]}
+    content |= {"det_sign": record["point"]["det_sign"], "steps": record["steps"]}
+    if robot.limits is not None:
+        feasible, *verdicts = _limit_fields(robot, joints, record)
+        content |= {"feasible": feasible, "limits": dict(zip(robot.limits.names, verdicts, strict=True))}
+    return content
+
+
+def _limit_fields(robot: Machine, joints: JointPath, record: Record) -> list[str]:
+    """Whether the sample keeps all limits of the robot, and each of them; nothing of a robot without limits."""
+    if robot.limits is None:
+        return []
+    from pkm_exact.numeric.path_forms import locked_at, problem_at
+    from pkm_exact.poses.limit_checks import limit_verdicts, together
+    from pkm_exact.poses.pose_spelling import pose_of
+
+    row = joints.rows[record["row"] - 1]
+    (verdicts,) = limit_verdicts(robot, locked_at(robot, row), problem_at(robot, row), [pose_of(record)])
+    return [str(together(verdicts.values())), *(str(verdicts[name]) for name in robot.limits.names)]
 
 
 def _rows(robot: Machine, joints: JointPath, records: Sequence[Record]) -> Iterator[list[str]]:
@@ -124,7 +141,8 @@ def _rows(robot: Machine, joints: JointPath, records: Sequence[Record]) -> Itera
     names = ["x", "y", "z", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), *(f"q{k}" for k in range(4))]
     time = [] if joints.times is None else [TIME]
     bounds = [f"{name}_{end}" for name in names for end in ("lo", "hi")]
-    yield ["row", *time, *(f"joint_{name}" for name in joint_names(robot)), *bounds, "det_sign", "steps"]
+    limits = () if robot.limits is None else ("feasible", *(f"limit_{name}" for name in robot.limits.names))
+    yield ["row", *time, *(f"joint_{name}" for name in joint_names(robot)), *bounds, "det_sign", "steps", *limits]
     for record in records:
         place = record["row"] - 1
         when: list[Fraction] = [] if joints.times is None else [joints.times[place]]
@@ -135,6 +153,7 @@ def _rows(robot: Machine, joints: JointPath, records: Sequence[Record]) -> Itera
             *(end for entry in entries for end in entry),
             str(record["point"]["det_sign"]),
             str(record["steps"]),
+            *_limit_fields(robot, joints, record),
         ]
 
 

@@ -10,6 +10,7 @@ from typing import Any, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
+from pkm_exact.geometry.limits import Limits
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import printable, shown
@@ -31,6 +32,8 @@ class Machine(ABC):
         Gram diagonal: the ordinary coordinate is sqrt(metric[i]) times the rational one.
     configurations : tuple
         Locked actuators under names; the first one is the default.
+    limits : Limits or None
+        How far actuators, passive joints, legs and platform may go.
     """
 
     name: str
@@ -39,6 +42,7 @@ class Machine(ABC):
     source: str
     metric: Metric
     configurations: tuple[Any, ...]
+    limits: Limits | None
 
     @property
     @abstractmethod

@@ -15,6 +15,7 @@ from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.form import Form, Vector, value_at
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import UNIT_METRIC, Matrix, Metric
+from pkm_exact.geometry.limits import Limits
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_rational
@@ -63,6 +64,8 @@ class Mechanism(Machine):
         Gram diagonal: all coordinates are rational ones, all products those of the metric.
     configurations : tuple of LockedValues
         The first one is the default.
+    limits : Limits or None
+        Of actuators, legs and position, if there are any.
 
     Examples
     --------
@@ -88,6 +91,7 @@ class Mechanism(Machine):
     metric: Metric = UNIT_METRIC
     configurations: tuple[LockedValues, ...] = ()
     kind: str = CONSTRAINTS_KIND
+    limits: Limits | None = None
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.constraints) <= MOST_CONSTRAINTS:

@@ -18,6 +18,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.geometry.fields import known_keys, label, list_field, required, table_field
 from pkm_exact.geometry.inverse import UNIT_METRIC
 from pkm_exact.geometry.joints import parse_metric
+from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
 from pkm_exact.geometry.mechanism import MOST_CONSTRAINTS, LockedValues, Mechanism
 from pkm_exact.geometry.pose_reader import read_pose
 from pkm_exact.geometry.rational import parse_positive, parse_rational, parse_vector
@@ -25,7 +26,9 @@ from pkm_exact.motions.motion import Motion
 from pkm_exact.motions.motion_groups import MOTIONS, SPATIAL
 from pkm_exact.wording import shown
 
-_KEYS: Final = (*["schema", "name", "kind", "motion", "unit", "source", "metric", "constraints", "configurations"],)
+_KEYS: Final = (
+    *["schema", "name", "kind", "motion", "unit", "source", "metric", "constraints", "limits", "configurations"],
+)
 _SQUARED: Final = "_squared"
 
 
@@ -50,9 +53,21 @@ def read_mechanism(table: dict[str, Any], head: Mapping[str, str]) -> Mechanism:
     constraints = tuple(constraint for constraint, _ in found)
     who = head["name"], head["unit"], head["source"]
     mechanism = Mechanism(*who, constraints, actuated, motion, metric)
+    if "limits" in table:
+        mechanism = replace(mechanism, limits=read_limits(table["limits"], _parts(mechanism)))
     rows = _tables(table, "configurations", required=False)
     locked = tuple(_configuration(row, f"configurations[{i}]", mechanism) for i, row in enumerate(rows, 1))
     return replace(mechanism, configurations=locked) if locked else mechanism
+
+
+def _parts(mechanism: Mechanism) -> LimitedParts:
+    """Lengths and offsets that are actuated, and the legs, which stand on the base."""
+    types = {found.name: found for found in mechanism.constraints}
+    fields = [types[name].value_field for name in mechanism.actuated]
+    legs = sum(found.type == "distance" for found in mechanism.constraints)
+    lengths = sum(mechanism.are_lengths)
+    dimension = 2 if mechanism.motion.is_planar else 3
+    return LimitedParts(lengths, fields.count("offset"), 0, legs, standing=True, dimension=dimension)
 
 
 def read_motion(table: dict[str, Any]) -> Motion:

@@ -20,6 +20,7 @@ from pkm_exact.geometry.fields import known_keys, label, required
 from pkm_exact.geometry.inverse import UNIT_METRIC
 from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
 from pkm_exact.geometry.mechanism import CONSTRAINTS_KIND, Mechanism
 from pkm_exact.geometry.mechanism_reader import read_mechanism
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
@@ -48,6 +49,7 @@ _TOP: Final = (
     "platform",
     *CHAIN_TABLES,
     "tolerances",
+    "limits",
     "configurations",
 )
 
@@ -107,6 +109,7 @@ def robot_from_toml(text: str) -> Robot | Mechanism:
         "platform_joints": read_joints(table, "platform", kind, metric),
         "chains": read_chains(table, kind_name, kind, metric),
         "tolerances": read_tolerances(table["tolerances"]) if "tolerances" in table else None,
+        "limits": read_limits(table["limits"], LimitedParts.of_kind(kind)) if "limits" in table else None,
         "written_digit": finest_digit(*(table.get(part) for part in ("base", "platform", "cranks", "slides", "rods"))),
     }
     rows = table.get("configurations", [])

@@ -11,6 +11,7 @@ from pkm_exact.geometry.chains import Chain, Crank, JointValue, parse_cosine_and
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.joints import in_plane, parse_joints, parse_metric, refuse_equal_legs
 from pkm_exact.geometry.kinds import KINDS, Joints, gough_legs, knees
+from pkm_exact.geometry.limits import Limits
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational
@@ -75,6 +76,8 @@ class Robot(Machine):
         The actuated chains, one per leg; empty for a kind whose legs themselves are actuated.
     tolerances : Tolerances or None
         Of its data, if they are known.
+    limits : Limits or None
+        Of actuators, passive joints, legs and position, if there are any.
     written_digit : Fraction or None
         Unit of the last decimal of joints, cranks, slides and rods in the model file; None without decimals.
 
@@ -96,6 +99,7 @@ class Robot(Machine):
     configurations: tuple[Configuration, ...] = ()
     chains: tuple[Chain, ...] = ()
     tolerances: Tolerances | None = None
+    limits: Limits | None = None
     written_digit: Fraction | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -210,6 +214,7 @@ class Robot(Machine):
             source=f"{self.source}; {note}",
             base_joints=self.knees(locked),
             chains=(),
+            limits=None,
             configurations=(reduced,),
         )
 

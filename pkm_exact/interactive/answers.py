@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from pkm_exact.certify.certificate import Certificate
     from pkm_exact.certify.checker.verdict import Verdict
+    from pkm_exact.poses.limit_checks import LimitVerdict
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -92,6 +93,26 @@ class Answer:
 @dataclass(frozen=True, repr=False)
 class Solution(Answer, solutions.Solution):
     __doc__ = solutions.Solution.__doc__
+
+    def limits(self) -> list[dict[str, LimitVerdict]]:
+        """For each pose, what is proved of every limit of the robot: yes, no, or undecided within the box.
+
+        Raises
+        ------
+        PkmExactError
+            If the solution does not know its robot.
+
+        Examples
+        --------
+        >>> from pkm_exact import Robot
+        >>> Robot.load("models/3-rpr-merlet-p.toml").solve().limits()
+        [{}, {}]
+        """
+        from pkm_exact.poses.limit_checks import limit_verdicts
+
+        robot = self._known_robot("limits")
+        locked = None if self.configuration is None else robot.configuration(self.configuration)
+        return limit_verdicts(robot, locked, self.problem, self.poses)
 
     def plot(self) -> Figure:
         """A picture of all real poses side by side, a matplotlib figure.

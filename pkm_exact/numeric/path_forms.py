@@ -29,7 +29,7 @@ from pkm_exact.geometry.chains import Crank, JointValue, cosine_and_sine
 from pkm_exact.geometry.kinds import gough_legs, knees
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.motions.motion import Motion
 from pkm_exact.numeric.centred import CentredFrames, centred_form, centred_leg, form_size, study_row
 
@@ -68,7 +68,16 @@ def problem_at(robot: Machine, values: JointRow) -> ForwardProblem:
             if value <= 0:
                 raise InputError(f"length of leg {leg}: {value} is not positive; give a length greater than 0")
         return robot.problem([value * value for value in values])
-    return robot.problem(robot.lock("row", [cosine_and_sine(v) if has_cranks(robot) else v for v in values]))
+    return robot.problem(_locked(robot, values))
+
+
+def locked_at(robot: Machine, values: JointRow) -> Configuration | None:
+    """The configuration in which cranks or slides have the values of a row; None of a robot without any."""
+    return _locked(robot, values) if isinstance(robot, Robot) and robot.chains else None
+
+
+def _locked(robot: Robot, values: JointRow) -> Configuration:
+    return robot.lock("row", [cosine_and_sine(v) if has_cranks(robot) else v for v in values])
 
 
 def path_forms(robot: Machine, frames: CentredFrames, first: JointRow, last: JointRow) -> PathForms:

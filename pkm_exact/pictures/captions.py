@@ -66,16 +66,17 @@ def title(pose: PoseView, *, of: int | None = None) -> str:
     Examples
     --------
     >>> from types import SimpleNamespace
-    >>> title(SimpleNamespace(number=3, multiplicity=1, det_sign=-1, condition=12345.6))
+    >>> title(SimpleNamespace(number=3, multiplicity=1, det_sign=-1, condition=12345.6, limits=None))
     '3: det J < 0, cond 12300'
-    >>> title(SimpleNamespace(number=1, multiplicity=2, det_sign=0, condition=None))
-    '1 (double): det J = 0'
+    >>> title(SimpleNamespace(number=1, multiplicity=2, det_sign=0, condition=None, limits="yes"))
+    '1 (double): det J = 0, limits: yes'
     """
     number = str(pose.number) if of is None else f"pose {pose.number} of {of}"
     names = {1: "", 2: " (double)", 3: " (triple)", None: " (multiplicity not proved)"}
     multiple = names.get(pose.multiplicity, f" ({pose.multiplicity}-fold)")
     condition = "" if pose.condition is None else f", cond {rounded(pose.condition)}"
-    return f"{number}{multiple}: {_SIGNS[pose.det_sign]}{condition}"
+    kept = "" if pose.limits is None else f", limits: {pose.limits}"
+    return f"{number}{multiple}: {_SIGNS[pose.det_sign]}{condition}{kept}"
 
 
 def rounded(value: float) -> str:

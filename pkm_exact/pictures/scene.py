@@ -8,20 +8,22 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.motions.motion import Motion
 from pkm_exact.pictures.shapes import Shape
 from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
-    from pkm_exact.geometry.robot import Configuration, Robot
+    from pkm_exact.geometry.robot import Configuration
     from pkm_exact.pictures.coordinates import Placed
     from pkm_exact.poses.jacobian import LegJacobian
     from pkm_exact.solution import Solution
@@ -62,6 +64,8 @@ class PoseView:
         None where it is not proved.
     knees : tuple of points
         Where cranks or slides hold the lower ends of the rods, one per leg; empty if the legs themselves are actuated.
+    limits : str or None
+        Whether the pose keeps the limits of the model, in words; None if it has none or no model was given.
     """
 
     number: int
@@ -74,6 +78,7 @@ class PoseView:
     jacobian: LegJacobian | None
     multiplicity: int | None
     knees: tuple[Point, ...] = ()
+    limits: str | None = None
 
     @property
     def condition(self) -> float | None:
@@ -172,15 +177,15 @@ def accepted_with_lines(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
     raise InputError(f"{reason}; {remedy}")
 
 
-def scene_of(document: Mapping[str, Any], robot: Robot | None = None) -> Scene:
+def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene:
     """The scene of an accepted pose certificate.
 
     Parameters
     ----------
     document : mapping
         From ``accepted_document``, or made by ``certify.build.certificate``.
-    robot : Robot, optional
-        Its model. A certificate knows legs only; the model adds the cranks or slides below the rods.
+    robot : Machine, optional
+        Its model. A certificate knows legs only; the model adds the cranks or slides below the rods, and its limits.
 
     Raises
     ------
@@ -193,7 +198,7 @@ def scene_of(document: Mapping[str, Any], robot: Robot | None = None) -> Scene:
             "which certify-poses solve writes without --tolerance"
         )
     try:
-        scene = _scene(document, robot)
+        scene = _limited(_scene(document, robot), document, robot)
     except OverflowError:
         raise InputError(_OUT_OF_RANGE) from None
     points = [*scene.base, *scene.platform, *(joint for pose in scene.poses for joint in pose.platform)]
@@ -202,16 +207,19 @@ def scene_of(document: Mapping[str, Any], robot: Robot | None = None) -> Scene:
     return scene
 
 
-def _scene(document: Mapping[str, Any], robot: Robot | None) -> Scene:
+def _scene(document: Mapping[str, Any], machine: Machine | None) -> Scene:
     from pkm_exact.certify.certified_machine import certified_configuration, certified_problem, is_of_legs
     from pkm_exact.pictures.coordinates import listed_poses, placed_poses
     from pkm_exact.pictures.mechanism_scene import mechanism_scene
 
     problem = certified_problem(document)
     if not is_of_legs(document):
-        if robot is not None:
-            raise InputError("model: cranks and slides are those of robots with legs; leave it out")
+        if isinstance(machine, Robot):
+            raise InputError(f"robot: the certificate is not one of a {machine.kind} robot; give its model, or none")
+        if machine is not None:
+            _require_problem(machine, problem)
         return mechanism_scene(document, problem)
+    robot = None if machine is None else jointed(machine, "a certificate of legs")
     legs = problem.distances
     axes = _axes(problem.metric)
     locked = None if robot is None else configuration_of(document, robot)
@@ -239,6 +247,36 @@ def _scene(document: Mapping[str, Any], robot: Robot | None) -> Scene:
             for number, (listed, place) in enumerate(zip(document["poses"], places, strict=True), 1)
         ),
     )
+
+
+def _require_problem(machine: Machine, problem: ForwardProblem) -> None:
+    """Refuse a model that a certificate is not one of."""
+    found = {constraint.name: constraint for constraint in problem.constraints}
+    try:
+        values = [getattr(found[name], found[name].value_field or "") for name in machine.actuated]
+        same = machine.problem_at(values, squared=True) == problem
+    except (KeyError, AttributeError):
+        same = False
+    if not same:
+        raise InputError(
+            f"robot: the certificate is not one of the model {shown(machine.name)}, constraints, metric or values "
+            "differ; give the model that it was made from, or none"
+        )
+
+
+def _limited(scene: Scene, document: Mapping[str, Any], robot: Machine | None) -> Scene:
+    """The scene with what is proved of the limits of a model at every pose."""
+    if robot is None or robot.limits is None:
+        return scene
+    from pkm_exact.certify.certified_machine import certified_problem
+    from pkm_exact.poses.limit_checks import in_words, limit_verdicts
+    from pkm_exact.poses.pose_spelling import pose_of
+
+    locked = configuration_of(document, robot) if isinstance(robot, Robot) else None
+    poses = [pose_of(entry) for entry in document["poses"]]
+    verdicts = limit_verdicts(robot, locked, certified_problem(document), poses)
+    views = (replace(view, limits=in_words(found)) for view, found in zip(scene.poses, verdicts, strict=True))
+    return replace(scene, poses=tuple(views))
 
 
 def scene_of_solution(robot: Robot, configuration_name: str | None, solution: Solution) -> Scene:

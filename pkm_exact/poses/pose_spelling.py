@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 from pkm_exact.poses.pose import Pose
@@ -29,6 +31,18 @@ def pose_entry(pose: Pose) -> dict[str, Any]:
         "quaternion": [ends(value) for value in pose.quaternion],
         "multiplicity": pose.multiplicity,
     }
+
+
+def pose_of(entry: Mapping[str, Any]) -> Pose:
+    """The box of a pose from its entry, without what else is known of it."""
+    x, y, z = map(_interval, entry["position"])
+    q0, q1, q2, q3 = map(_interval, entry["quaternion"])
+    rotation = tuple(tuple(map(_interval, row)) for row in entry["rotation"])
+    return Pose(None, (x, y, z), rotation, (q0, q1, q2, q3))
+
+
+def _interval(texts: Sequence[str]) -> Interval:
+    return Interval(Fraction(texts[0]), Fraction(texts[1]))
 
 
 def pose_decimals(pose: Pose) -> dict[str, list[str]]:

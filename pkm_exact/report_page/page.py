@@ -21,6 +21,7 @@ from pkm_exact.certify.legs_view import legs_view
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.mechanism import Mechanism
+from pkm_exact.geometry.robot import Robot
 from pkm_exact.pictures.scene import configuration_of, scene_of
 from pkm_exact.report_page.markup import Markup, element, embedded_json, joined
 from pkm_exact.report_page.numerals import exact, unit_words, with_unit
@@ -40,14 +41,14 @@ from pkm_exact.report_page.tolerance_page import tolerance_rows, tolerance_scene
 from pkm_exact.report_page.words import Meaning, is_of_tolerances, limits_of, meaning_of
 
 if TYPE_CHECKING:
-    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.pictures.scene import Scene
 
 SCRIPTS: Final = ("view.js", "controls.js", "table.js", "report.js")
 _PRESETS: Final = {"reset": "Reset", "top": "Top", "front": "Front", "side": "Side"}
 
 
-def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, robot: Robot | None = None) -> str:
+def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, robot: Machine | None = None) -> str:
     """The page on an accepted certificate, of poses or of tolerances.
 
     Parameters
@@ -58,8 +59,8 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
         What the checker said of it, line by line.
     file : str
         Name of the certificate's file, without folders.
-    robot : Robot, optional
-        The model; with it, cranks and slides are drawn.
+    robot : Machine, optional
+        The model; with it, cranks and slides are drawn, and it is said which of its limits each pose keeps.
 
     Raises
     ------
@@ -94,12 +95,12 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
     return _assembled(scene, meaning, poses, sections)
 
 
-def _certified(document: Mapping[str, Any], robot: Robot | None) -> tuple[Scene, PoseRows]:
+def _certified(document: Mapping[str, Any], robot: Machine | None) -> tuple[Scene, PoseRows]:
     scene = scene_of(document, robot)
     return scene, certified_rows(document, scene)
 
 
-def _within_tolerance(document: Mapping[str, Any], robot: Robot | None) -> tuple[Scene, PoseRows]:
+def _within_tolerance(document: Mapping[str, Any], robot: Machine | None) -> tuple[Scene, PoseRows]:
     if robot is not None:
         raise InputError("model: cranks and slides are drawn for certificates of poses only; leave it out")
     try:
@@ -140,8 +141,8 @@ def _tolerance_facts(document: Mapping[str, Any]) -> dict[str, str]:
     return {name: with_unit(exact(Fraction(document["tolerances"][key])), unit) for key, name in names.items()}
 
 
-def _actuators(document: Mapping[str, Any], scene: Scene, robot: Robot | None) -> dict[str, str]:
-    locked = None if robot is None else configuration_of(document, robot)
+def _actuators(document: Mapping[str, Any], scene: Scene, robot: Machine | None) -> dict[str, str]:
+    locked = configuration_of(document, robot) if isinstance(robot, Robot) else None
     if robot is None or locked is None or not scene.chain:
         return {}
     texts = (f"({', '.join(map(str, v))})" if isinstance(v, tuple) else str(v) for v in locked.joint_values)

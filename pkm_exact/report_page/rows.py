@@ -237,4 +237,5 @@ def _lines(view: PoseView, scene: Scene, box: Box, place: Sequence[str]) -> tupl
         ("half widths of the box", widths),
         *((index.heading, index.in_words(view)) for index in shown_in(Output.PAGE)),
         ("multiplicity", "not proved" if view.multiplicity is None else str(view.multiplicity)),
+        *(() if view.limits is None else (("limits of the model kept", view.limits),)),
     )

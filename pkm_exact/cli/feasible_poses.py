@@ -1,0 +1,106 @@
+"""The poses that ``solve`` lists, with what is proved of the limits of the robot at each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.machine import Machine
+    from pkm_exact.poses.limit_checks import LimitVerdict
+    from pkm_exact.poses.pose import Pose
+    from pkm_exact.solution import Solution
+
+
+@dataclass(frozen=True)
+class ShownPoses:
+    """All poses of a solution, or those that are proved feasible, with their numbers in the whole list.
+
+    Attributes
+    ----------
+    poses : tuple of Pose
+    numbers : tuple of int
+        From 1, those of the whole list.
+    verdicts : tuple of mappings
+        For each pose the verdict on every limit of the robot; empty ones if it has none.
+    names : tuple of str
+        The limits of the robot.
+    notes : tuple of str
+        How many poses are not listed, and why.
+    """
+
+    poses: tuple[Pose, ...]
+    numbers: tuple[int, ...]
+    verdicts: tuple[Mapping[str, LimitVerdict], ...]
+    names: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+
+    @staticmethod
+    def of(robot: Machine, configuration: str | None, solution: Solution, *, feasible_only: bool = False) -> ShownPoses:
+        """The poses to list."""
+        numbers = tuple(range(1, len(solution.poses) + 1))
+        if robot.limits is None:
+            return ShownPoses(solution.poses, numbers, tuple({} for _ in numbers), ())
+        from pkm_exact.poses.limit_checks import LimitVerdict, limit_verdicts, together
+
+        locked = None if configuration is None else robot.configuration(configuration)
+        verdicts = limit_verdicts(robot, locked, solution.problem, solution.poses)
+        names = robot.limits.names
+        if not feasible_only:
+            return ShownPoses(solution.poses, numbers, tuple(verdicts), names)
+        found = [together(verdict.values()) for verdict in verdicts]
+        kept = [place for place, verdict in enumerate(found) if verdict is LimitVerdict.YES]
+        return ShownPoses(
+            tuple(solution.poses[place] for place in kept),
+            tuple(numbers[place] for place in kept),
+            tuple(verdicts[place] for place in kept),
+            names,
+            (_left_out(found.count(LimitVerdict.NO), found.count(LimitVerdict.UNDECIDED)),),
+        )
+
+    @property
+    def headings(self) -> tuple[str, ...]:
+        """Of the table's columns after those of the poses."""
+        return ("limits",) if self.names else ()
+
+    def cells(self, place: int) -> tuple[str, ...]:
+        """What stands in them."""
+        if not self.names:
+            return ()
+        from pkm_exact.poses.limit_checks import in_words
+
+        return (in_words(self.verdicts[place]),)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Of the CSV file after those of the poses."""
+        return ("feasible", *(f"limit_{name}" for name in self.names)) if self.names else ()
+
+    def fields(self, place: int) -> list[str]:
+        """What stands in them."""
+        if not self.names:
+            return []
+        from pkm_exact.poses.limit_checks import together
+
+        verdicts = self.verdicts[place]
+        return [str(together(verdicts.values())), *(str(verdicts[name]) for name in self.names)]
+
+    def entry(self, place: int) -> dict[str, Any]:
+        """What JSON has of them: nothing for a robot without limits."""
+        if not self.names:
+            return {}
+        feasible, *others = self.fields(place)
+        limits = dict(zip(self.names, others, strict=True))
+        return {"number": self.numbers[place], "feasible": feasible, "limits": limits}
+
+
+def _left_out(broken: int, undecided: int) -> str:
+    """How many poses are not listed.
+
+    >>> _left_out(3, 1)
+    'not listed: 3 poses that break a limit, and 1 on or too near a limit to be decided'
+    """
+    poses = "pose that breaks" if broken == 1 else "poses that break"
+    rest = f", and {undecided} on or too near a limit to be decided" if undecided else ""
+    return f"not listed: {broken} {poses} a limit{rest}"
