@@ -21,10 +21,11 @@ from pkm_exact.cli import new as new_module
 from pkm_exact.cli.main import main
 from pkm_exact.cli.new import new
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.chains import Crank
 from pkm_exact.geometry.inverse import dot
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.reader import read_robot, robot_from_toml
-from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.solution import Solution
 from pkm_exact.templates.design import Design, Draft, drawn, has_cranks
 from pkm_exact.templates.layout import rounded_root, sides_on_circle
@@ -32,6 +33,8 @@ from pkm_exact.templates.model_text import model_text, toml_number
 
 Capture = pytest.CaptureFixture[str]
 SPATIAL = ["--base-sides", "400,200", "--platform-sides", "100,300", "--height", "500"]
+CIRCLES = ["--kind", "6-6", "--base-circle", "150,20", "--platform-circle", "100,24", "--height", "220"]
+CIRCLES += ["--platform-shift", "60"]
 PLANAR = ["--base-sides", "600,500,500", "--platform-sides", "160,100,100", "--height", "300"]
 SIDES = st.integers(0, 12).map(lambda k: Fraction(50 * k))
 
@@ -258,6 +261,50 @@ def test_sides_on_a_circle(radius: Fraction, degrees: Fraction) -> None:
         assert abs(side - 2 * radius * math.sin(math.radians(angle) / 2)) <= 1e-5 * radius
 
 
+@pytest.mark.parametrize("azimuth", [None, "0", "17.5"])
+def test_pairs_of_joints_stand_where_radius_and_angles_put_them(azimuth: str | None, capsys: Capture) -> None:
+    assert main(["new", *CIRCLES, *(["--base-azimuth", azimuth] if azimuth else []), "-o", "-"]) == 0
+    robot = jointed(robot_from_toml(capsys.readouterr().out), "this test")
+    first = -90 if azimuth is None else float(azimuth)
+    for joints, radius, pair, middle in (
+        (robot.base_joints, 150, 20, first),
+        (robot.platform_joints, 100, 24, first + 60),
+    ):
+        wanted = sorted((middle + k * 120 + s * pair / 2) % 360 for k in range(3) for s in (-1, 1))
+        found = sorted(math.degrees(math.atan2(y, x)) % 360 for x, y, _ in joints)
+        assert found == pytest.approx(wanted, abs=1e-4)
+        assert [math.hypot(x, y) for x, y, _ in joints] == pytest.approx([radius] * 6, abs=1e-5)
+    for (x, y, _), (u, v, _) in zip(robot.base_joints, robot.platform_joints, strict=True):
+        assert math.degrees(math.acos((x * u + y * v) / 15000)) == pytest.approx(38, abs=1e-3)
+
+
+def test_the_line_source_draws_the_same_robot_again(capsys: Capture) -> None:
+    assert main(["new", *CIRCLES, "--base-azimuth", "7", "-o", "-"]) == 0
+    text = capsys.readouterr().out
+    words = tomllib.loads(text)["source"].partition("new ")[2].split()
+    assert main(["new", *words, "-o", "-"]) == 0
+    assert capsys.readouterr().out == text
+
+
+def test_a_robot_whose_pairs_face_each_other_is_not_drawn_in_silence(capsys: Capture) -> None:
+    alike = [*CIRCLES[:4], "--platform-circle", "100,20", *CIRCLES[6:8]]
+    assert main(["new", *alike, "-o", "-"]) == 0
+    assert "--platform-shift 60" in capsys.readouterr().err
+    assert main(["new", *alike, "--platform-shift", "60", "-o", "-"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_cranks_on_a_circle_are_tangent_and_turn_upwards(capsys: Capture) -> None:
+    words = ["--kind", "6-RUS", *CIRCLES[2:], "--crank", "40", "-o", "-"]
+    assert main(["new", *words]) == 0
+    robot = jointed(robot_from_toml(capsys.readouterr().out), "this test")
+    for i, (crank, (x, y, _)) in enumerate(zip(robot.chains, robot.base_joints, strict=True)):
+        assert isinstance(crank, Crank)
+        outward = crank.at_0[0] * -y + crank.at_0[1] * x
+        assert (outward > 0) == (i % 2 == 1)
+        assert sum(float(c) ** 2 for c in crank.at_0) == pytest.approx(1600)
+
+
 @given(st.fractions())
 def test_numbers_are_written_exactly(number: Fraction) -> None:
     value = tomllib.loads(f"x = {toml_number(number)}", parse_float=str)["x"]
@@ -270,6 +317,10 @@ NO_DESIGN = [
     (["--kind", "7-UPS"], "'7-UPS' is not one of '6-UPS'"),
     ([*_options("6-UPS"), "--base-circle", "1,2", "-o", "-"], "--base-sides and --base-circle exclude each other"),
     ([*_options("6-UPS"), "--height", "0", "-o", "-"], "--height: '0' is not a length"),
+    ([*_options("6-UPS"), "--platform-shift", "60", "-o", "-"], "goes with --base-circle and --platform-circle"),
+    ([*_options("6-UPS"), "--base-azimuth", "60", "-o", "-"], "--base-azimuth: needs --platform-shift too"),
+    ([*CIRCLES, "--base-azimuth", "1,2", "-o", "-"], "--base-azimuth: '1,2' is no angle"),
+    ([*CIRCLES, "--exact", "-o", "-"], "--exact: joints at any azimuth are exact in no metric"),
     ([*_options("6-UPS"), "--height", "nan", "-o", "-"], "--height: nan is not a finite number"),
     ([*_options("6-UPS"), "--height", "9" * 31, "-o", "-"], "is too long; use at most 30 digits"),
     ([*_options("6-UPS"), "--base-sides", "1,-2", "-o", "-"], "--base-sides: -2 is not positive"),

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from pkm_exact.cli import arguments
+from pkm_exact.cli.circle_options import PARTS, circles, numbers, on_circle
 from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.kinds import KINDS
@@ -20,13 +21,12 @@ from pkm_exact.templates import DEFAULT_DECIMALS, MOST_DECIMALS
 from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
+    from pkm_exact.solution import Solution
     from pkm_exact.templates.design import Design, Draft
 
 STDOUT: Final = "-"
-MOST_DIGITS: Final = 30
-"""Of a number given here: more is no length of a machine."""
 _ALIASES: Final = {"6-6": "6-UPS"}
-_PARTS: Final = ("base", "platform")
+_BAD_CONDITION: Final = 1000
 _SIDES: Final = {False: ("400,200", "100,300"), True: ("600,500,500", "160,100,100")}
 _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table == "cranks")
 
@@ -52,6 +52,18 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
     "sides are rounded to six digits.",
 )
 @click.option("--platform-circle", metavar="R,DEGREES", help="The same of the platform.")
+@click.option(
+    "--platform-shift",
+    metavar="DEGREES",
+    help="With circles: turn of the platform's pairs of joints against the base's; 60 is the common hexapod. The "
+    "DEGREES of both circles are then those between the two joints of a pair, and joint i of the platform is the "
+    "nearest to joint i of the base.",
+)
+@click.option(
+    "--base-azimuth",
+    metavar="DEGREES",
+    help="With it: where the first pair of the base is, from the x-axis.  [default: -90]",
+)
 @click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
 @click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
 @click.option(
@@ -125,7 +137,8 @@ def _design(given: dict[str, Any], *, interview: bool) -> Design:
     planar = KINDS[kind].motion.is_planar
     if interview:
         click.echo(_EXPLANATION[planar], err=True)
-    sides = [_sides(given, kind, part, default) for part, default in zip(_PARTS, _SIDES[planar], strict=True)]
+    pairs = circles(given, kind)
+    sides = [_sides(given, kind, part, default) for part, default in zip(PARTS, _SIDES[planar], strict=True)]
     height = _length(given["height"], "--height", _HEIGHT[planar], "300" if planar else "500")
     crank = None
     if has_cranks(kind):
@@ -138,8 +151,8 @@ def _design(given: dict[str, Any], *, interview: bool) -> Design:
     elif digits is None and interview:
         digits = _ask("Decimals to round the joints to, or exact", str(DEFAULT_DECIMALS), _digits)
     elif digits is None:
-        digits = default_decimals((sides[0], sides[1]))
-    return Design(kind, sides[0], sides[1], height, crank, digits)
+        digits = DEFAULT_DECIMALS if pairs else default_decimals((sides[0], sides[1]))
+    return Design(kind, sides[0], sides[1], height, crank, digits, pairs)
 
 
 def _digits(text: str) -> int | None:
@@ -164,15 +177,17 @@ def _sides(given: dict[str, Any], kind: str, part: str, default: str) -> tuple[F
     from pkm_exact.templates.design import require_sides
 
     by_sides, circle = given[f"{part}_sides"], given[f"{part}_circle"]
+    if given["platform_shift"] is not None:
+        return ()
     if by_sides is not None and circle is not None:
         raise click.UsageError(f"--{part}-sides and --{part}-circle exclude each other.")
     if circle is not None:
-        return _on_circle(circle, kind, f"--{part}-circle")
+        return on_circle(circle, kind, f"--{part}-circle")
 
     def sides(text: str) -> tuple[Fraction, ...]:
-        numbers = tuple(_numbers(text, f"--{part}-sides"))
-        require_sides(KINDS[kind], numbers, f"--{part}-sides")
-        return numbers
+        given_sides = tuple(numbers(text, f"--{part}-sides"))
+        require_sides(KINDS[kind], given_sides, f"--{part}-sides")
+        return given_sides
 
     if by_sides is not None:
         return sides(by_sides)
@@ -181,41 +196,14 @@ def _sides(given: dict[str, Any], kind: str, part: str, default: str) -> tuple[F
     return answer
 
 
-def _on_circle(text: str, kind: str, option: str) -> tuple[Fraction, ...]:
-    from pkm_exact.templates.layout import sides_on_circle
-
-    if KINDS[kind].motion.is_planar:
-        raise click.UsageError(f"{option}: a {kind} robot is planar; give the sides of its triangles instead.")
-    numbers = _numbers(text, option)
-    if len(numbers) != 2:
-        raise click.UsageError(f"{option}: {len(numbers)} numbers given; give radius and angle, with a comma between.")
-    radius, degrees = numbers
-    if radius <= 0 or not 0 <= degrees <= 120:
-        raise click.UsageError(f"{option}: {shown(text)} is out of range; give a radius, and an angle from 0 to 120.")
-    return sides_on_circle(radius, degrees)
-
-
 def _length(text: str | None, option: str, question: str, default: str) -> Fraction:
     def length(text: str) -> Fraction:
-        number = _numbers(text, option)
+        number = numbers(text, option)
         if len(number) != 1 or number[0] <= 0:
             raise click.UsageError(f"{option}: {shown(text)} is not a length; give one number greater than 0.")
         return number[0]
 
     return length(text) if text is not None else _ask(question, default, length)
-
-
-def _numbers(text: str, option: str) -> list[Fraction]:
-    from pkm_exact.geometry.rational import NumberText, bounded, parse_rational
-
-    words = [word.strip() for word in text.split(",")]
-    try:
-        return [
-            bounded(parse_rational(word if "/" in word else NumberText(word), option), word, option, MOST_DIGITS)
-            for word in words
-        ]
-    except InputError as error:
-        raise click.UsageError(str(error)) from None
 
 
 def _can_ask() -> bool:
@@ -237,7 +225,7 @@ def _ask(question: str, default: str, parse: Callable[[str], Any]) -> Any:
 def _missing(given: dict[str, Any], output: str | None) -> list[str]:
     """The options without which nothing can be drawn: nobody is to guess them."""
     names = [] if given["kind"] else ["--kind"]
-    names += [f"--{part}-sides" for part in _PARTS if given[f"{part}_sides"] is None is given[f"{part}_circle"]]
+    names += [f"--{part}-sides" for part in PARTS if given[f"{part}_sides"] is None is given[f"{part}_circle"]]
     names += [] if given["height"] else ["--height"]
     if given["kind"] in _CRANKED and given["crank"] is None:
         names.append("--crank")
@@ -285,6 +273,19 @@ def _proved_at_home(draft: Draft, text: str) -> str:
             f"--base-sides, --platform-sides: with these no list of poses of the {draft.design.kind} robot is proved "
             f"complete at home; {headline(solution)} ({solution.claim}); change the ratio of one pair of sides"
         )
+    _say_if_nearly_singular(solution)
     if any(pose.multiplicity != 1 for pose in solution.poses):
         click.echo("note: one of the poses is singular; `solve` says which", err=True)
     return f"{len(solution.poses)} real poses of {solution.complex_solutions} complex ones, proved complete"
+
+
+def _say_if_nearly_singular(solution: Solution) -> None:
+    """A note if at every pose the legs hold the platform badly: most often base and platform have their pairs alike."""
+    conditions = [pose.jacobian.condition for pose in solution.poses if pose.jacobian is not None]
+    if conditions and all(condition is not None and condition.lo > _BAD_CONDITION for condition in conditions):
+        click.echo(
+            f"note: at every pose the condition number is above {_BAD_CONDITION}: the legs hardly hold the platform; "
+            "if the two joints of each pair are joined to the two of one pair, give --platform-shift 60 with circles, "
+            "or exchange the sides of the platform",
+            err=True,
+        )

@@ -15,6 +15,7 @@ from pkm_exact.geometry.kinds import KINDS, Joints, Kind, knees
 from pkm_exact.geometry.planar_rotation import quarter_turn, turn_of, weight
 from pkm_exact.templates import MOST_DECIMALS
 from pkm_exact.templates.layout import joints_and_metric
+from pkm_exact.templates.rings import Ring, facing, motor_directions, ring_joints
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
@@ -36,12 +37,15 @@ class Design:
         Key in ``KINDS``.
     base, platform : tuple of Fraction
         Sides of the base and of the platform: two of a semi-regular hexagon, or three of a triangle if it is planar.
+        Empty if they are on circles.
     height : Fraction
         Where the platform is in its home pose: its distance from the base's plane; y of its frame if it is planar.
     crank : Fraction or None
         Length of the cranks, for a kind that has them.
     digits : int or None
         None for exact joints; else the number of decimals to which they are rounded.
+    circles : tuple of 2 Ring, or None
+        Instead of sides: where the pairs of joints of base and platform are.
     """
 
     kind: str
@@ -50,12 +54,16 @@ class Design:
     height: Fraction
     crank: Fraction | None = None
     digits: int | None = None
+    circles: tuple[Ring, Ring] | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise InputError(f"--kind: {shown(self.kind)} is unknown; use one of: {', '.join(KINDS)}")
-        for option, sides in (("--base-sides", self.base), ("--platform-sides", self.platform)):
-            require_sides(KINDS[self.kind], sides, option)
+        if self.circles is None:
+            for option, sides in (("--base-sides", self.base), ("--platform-sides", self.platform)):
+                require_sides(KINDS[self.kind], sides, option)
+        elif self.digits is None:
+            raise InputError("--exact: joints at any azimuth are exact in no metric; leave it out")
         if self.height <= 0:
             raise InputError(f"--height: {shown(self.height)} is not positive; give a length")
         if has_cranks(self.kind) != (self.crank is not None):
@@ -130,7 +138,7 @@ def drawn(design: Design) -> Draft:
     ((1, 3, 1), '82/3')
     """
     planar = KINDS[design.kind].motion.is_planar
-    (base, platform), metric = joints_and_metric((design.base, design.platform), design.digits)
+    (base, platform), metric = _joints(design)
     zero = Fraction(0)
     if planar:
         position = ((design.base[0] - design.platform[0]) / 2, design.height, zero)
@@ -144,6 +152,15 @@ def drawn(design: Design) -> Draft:
     feet = knees(base, chains, (at_home,) * len(chains)) if chains else base
     squares = _squares(feet, platform, position, rotation, metric)
     return Draft(design, base, platform, metric, position, half_tangent, chains, squares)
+
+
+def _joints(design: Design) -> tuple[list[Joints], Metric]:
+    if design.circles is None or design.digits is None:
+        return joints_and_metric((design.base, design.platform), design.digits)
+    base, platform = design.circles
+    azimuths = (base.azimuths, facing(base, platform))
+    rows = zip(design.circles, azimuths, strict=True)
+    return [ring_joints(ring, places, design.digits) for ring, places in rows], UNIT_METRIC
 
 
 def _squares(
@@ -174,6 +191,10 @@ def _chains(design: Design, metric: Metric) -> tuple[Chain, ...]:
                 "joints with --digits 3, or choose sides such as 13,14,15"
             ) from None
     up, half = (zero, zero, design.crank), design.crank / 2
+    if design.circles is not None:
+        length = design.crank
+        outward = motor_directions(design.circles[0])
+        return tuple(Crank((x * length, y * length, z * length), up, one) for x, y, z in outward)
     if metric != UNIT_METRIC:
         return tuple(Crank((x * half, y * half, zero), up, one) for x, y in _CRANKS)
     cosine, sine = (value * design.crank for value in _SIXTY_DEGREES)

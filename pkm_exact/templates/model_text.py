@@ -11,8 +11,9 @@ from pkm_exact.geometry.chains import Crank
 from pkm_exact.geometry.inverse import UNIT_METRIC
 from pkm_exact.geometry.kinds import KINDS, Joints
 from pkm_exact.geometry.rational import finite_decimal
-from pkm_exact.templates.design import Draft
+from pkm_exact.templates.design import Design, Draft
 from pkm_exact.templates.layout import rounded_root
+from pkm_exact.templates.rings import BOTTOM
 
 _COLUMN: Final = 42  # where comments begin behind short lines
 _DIGITS: Final = 6
@@ -102,7 +103,7 @@ def _chains(draft: Draft) -> Iterator[str]:
         yield "[cranks]"
         yield "# From each base joint to the end of its crank, at the angle 0 ..."
         if draft.metric == UNIT_METRIC and len(draft.chains) == 6:
-            yield "# (near the directions of the sides: their lengths must be exactly those of at_90, and rational)"
+            yield f"# (near {_crank_directions(draft)}: their lengths must be exactly those of at_90, and rational)"
         yield from _vectors("at_0", draft, [chain.at_0 for chain in draft.chains if isinstance(chain, Crank)])
         yield "# ... and at 90 degrees: perpendicular to the first, and as long."
         yield from _vectors("at_90", draft, [chain.at_90 for chain in draft.chains if isinstance(chain, Crank)])
@@ -168,7 +169,8 @@ def _options(draft: Draft) -> str:
     design = draft.design
     words = [f"--kind {design.kind}"]
     for option, sides in (("--base-sides", design.base), ("--platform-sides", design.platform)):
-        words.append(f"{option} {','.join(map(_plain, sides))}")
+        words += [f"{option} {','.join(map(_plain, sides))}"] if sides else []
+    words += _circles(design)
     words.append(f"--height {_plain(design.height)}")
     if design.crank is not None:
         words.append(f"--crank {_plain(design.crank)}")
@@ -177,6 +179,22 @@ def _options(draft: Draft) -> str:
     elif draft.metric != UNIT_METRIC:
         words.append("--exact")
     return " ".join(words)
+
+
+def _crank_directions(draft: Draft) -> str:
+    return "the directions of the sides" if draft.design.circles is None else "the tangents of the circle"
+
+
+def _circles(design: Design) -> list[str]:
+    if design.circles is None:
+        return []
+    base, platform = design.circles
+    words = [
+        f"--{part}-circle {_plain(ring.radius)},{_plain(ring.degrees)}"
+        for part, ring in (("base", base), ("platform", platform))
+    ]
+    azimuth = [] if base.azimuth == BOTTOM else [f"--base-azimuth {_plain(base.azimuth)}"]
+    return [*words, *azimuth, f"--platform-shift {_plain(platform.azimuth - base.azimuth)}"]
 
 
 def _turn(draft: Draft) -> str:
