@@ -1,35 +1,77 @@
 """The words for a claim: table, JSON, notebook, page, picture and message all take them from here.
 
-``docs/guarantees.md`` defines each claim and quotes its sentence; the tests hold one against the other. A robot is said
-to move only where a real motion is proved (``RealMotion``): that the complex poses form a curve does not say that a
-real one lies on it. The checkers share nothing with this package: their sentences stand in ``docs/certificates.md``.
+``docs/guarantees.md`` defines each claim and quotes its sentence; the tests hold one against the other. What a claim is
+about, legs with lengths or constraints of several types, is a ``Subject``, for whose words the sentences have places. A
+robot is said to move only where a real motion is proved (``RealMotion``): that the complex poses form a curve does not
+say that a real one lies on it. The checkers share nothing with this package: their sentences stand in
+``docs/certificates.md``.
 """
 
 from __future__ import annotations
 
+from dataclasses import asdict, dataclass
 from typing import Final
 
 from pkm_exact.claim import Claim, RealMotion
 
 INFINITE: Final = (Claim.POSITIVE_DIMENSIONAL_DETECTED, Claim.POSITIVE_DIMENSIONAL_PROVED)
 
+
+@dataclass(frozen=True)
+class Subject:
+    """What the sentences call a robot, what is locked, what its equations are of, and what a pose does with them.
+
+    Attributes
+    ----------
+    robot, locked, equation : str
+        A noun each, the second in the plural.
+    meets : str
+        What a pose does.
+    given : str
+        Adverbial: with what the question was asked.
+    """
+
+    robot: str
+    locked: str
+    equation: str
+    meets: str
+    given: str
+
+    def says(self, sentence: str) -> str:
+        """A sentence about it."""
+        return sentence.format(**asdict(self))
+
+
+LEGS: Final = Subject("robot", "legs", "leg", "has these leg lengths", "with these leg lengths")
+"""Of a robot all of whose constraints are legs of known length."""
+CONSTRAINTS: Final = Subject(
+    "mechanism", "actuators", "constraint", "meets all these constraints", "under these constraints"
+)
+"""Of any other."""
+
+
+def subject(*, of_legs: bool) -> Subject:
+    """What is spoken of: whether all constraints are legs of known length says it."""
+    return LEGS if of_legs else CONSTRAINTS
+
+
 _OF_LISTS: Final = {
     Claim.COMPLETE: "complete: it is proved that there is no other",
     Claim.NOT_PROVEN_COMPLETE: "not proven complete: each pose is certified, but others are not excluded",
     Claim.POSITIVE_DIMENSIONAL_DETECTED: (
-        "infinitely many solutions detected, not proved; whether the robot can move with locked legs is not known"
+        "infinitely many solutions detected, not proved; whether the {robot} can move with locked {locked} is not known"
     ),
-    Claim.INCONSISTENT: "inconsistent: no pose has these leg lengths, not even a complex one",
+    Claim.INCONSISTENT: "inconsistent: no pose {meets}, not even a complex one",
 }
 _OF_MOTIONS: Final = {
-    RealMotion.PROVED: "infinitely many real poses, proved: the robot moves with locked legs",
+    RealMotion.PROVED: "infinitely many real poses, proved: the {robot} moves with locked {locked}",
     RealMotion.OPEN: "infinitely many complex poses, proved; a real motion is neither proved nor excluded",
     RealMotion.NO_REAL_POSE: "infinitely many complex poses, proved; that none of them is real is proved as well",
 }
 REAL_MOTION: Final = {
-    RealMotion.PROVED: "real ones among them are proved, along which the robot moves with its legs locked",
-    RealMotion.OPEN: "that one of them is real, and that the robot moves, is neither proved nor excluded",
-    RealMotion.NO_REAL_POSE: "no real pose has these leg lengths, which is proved too",
+    RealMotion.PROVED: "real ones among them are proved, along which the {robot} moves with its {locked} locked",
+    RealMotion.OPEN: "that one of them is real, and that the {robot} moves, is neither proved nor excluded",
+    RealMotion.NO_REAL_POSE: "no real pose {meets}, which is proved too",
 }
 """What is known of real motions on a set of complex poses, after its cause and its dimension."""
 
@@ -40,12 +82,12 @@ PARALLEL: Final = (
 """The motion that every certificate of it proves to be real."""
 OF_CERTIFICATE: Final = "Infinitely many complex poses, proved."
 OF_CERTIFICATE_MEANING: Final = (
-    "The equations of the legs have curves or surfaces of solutions. Whether real poses are among them, so that the "
-    "robot moves with its legs locked, is proved by this certificate only if the last line of what was checked, below, "
-    "says so."
+    "The equations of the {equation}s have curves or surfaces of solutions. Whether real poses are among them, so that "
+    "the {robot} moves with its {locked} locked, is proved by this certificate only if the last line of what was "
+    "checked, below, says so."
 )
 """What a certificate says of a set of positive dimension: its proof is one of complex poses."""
-OF_EVIDENCE: Final = "Infinitely many solutions were detected, not proved; whether the robot can move is not known."
+OF_EVIDENCE: Final = "Infinitely many solutions were detected, not proved; whether the {robot} can move is not known."
 OF_EVIDENCE_MEANING: Final = (
     "Modulo two primes the solutions are infinitely many. This is evidence, not a proof, and does not tell real "
     "solutions from others."
@@ -54,9 +96,7 @@ DETECTED_NOTE: Final = (
     "the solutions form a set of positive dimension at two primes, which is evidence and no proof: there is a curve of "
     "poses, real or complex, or solutions run together at infinity"
 )
-INCONSISTENT_NOTE: Final = "no pose, real or complex, has these leg lengths"
-INCONSISTENT_CONSTRAINTS_NOTE: Final = "no pose, real or complex, meets all these constraints"
-"""The same where some constraint is no leg."""
+INCONSISTENT_NOTE: Final = "no pose, real or complex, {meets}"
 NO_SOLUTION_NOTE: Final = (
     "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
 )
@@ -74,7 +114,7 @@ NEARBY_SINGULAR: Final = (
 NEARBY_MOVES: Final = ", and it moves with its legs locked"
 
 
-def meaning(claim: Claim, motion: RealMotion | None) -> str:
+def meaning(claim: Claim, motion: RealMotion | None, of: Subject = LEGS) -> str:
     """The sentence for a claim; of a set of positive dimension that is proved, with what is known of real motions.
 
     Examples
@@ -83,10 +123,12 @@ def meaning(claim: Claim, motion: RealMotion | None) -> str:
     'complete: it is proved that there is no other'
     >>> meaning(Claim.POSITIVE_DIMENSIONAL_PROVED, RealMotion.OPEN)
     'infinitely many complex poses, proved; a real motion is neither proved nor excluded'
+    >>> meaning(Claim.INCONSISTENT, None, CONSTRAINTS)
+    'inconsistent: no pose meets all these constraints, not even a complex one'
     """
     if claim is Claim.POSITIVE_DIMENSIONAL_PROVED:
-        return _OF_MOTIONS[motion or RealMotion.OPEN]
-    return _OF_LISTS[claim]
+        return of.says(_OF_MOTIONS[motion or RealMotion.OPEN])
+    return of.says(_OF_LISTS[claim])
 
 
 def without_a_list(claim: Claim) -> str:

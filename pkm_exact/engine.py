@@ -55,30 +55,7 @@ def solve(
     policy: Policy | None = None,
     progress: Progress | None = None,
 ) -> Solution:
-    """All real poses of a robot whose actuators are locked, each in a box, and what is proved about the list.
-
-    Parameters
-    ----------
-    problem : ForwardProblem
-        Exact constraints, the motions and the metric.
-    formulation : str
-        Code of the formulation whose Groebner basis is used.
-    width : Fraction
-        Largest width of a box, in every coordinate (unit of length, or 1 for rotations).
-    policy : Policy, optional
-        Limits and random choices.
-    progress : callable, optional
-        Gets one line when a stage starts; its method ``amount``, if it has one, how much of it is done (``stages``).
-
-    Raises
-    ------
-    InputError
-        If the formulation is unknown or does not apply to the robot.
-    OutOfReachError, ReconstructionError
-        If a limit of the policy is met.
-    InternalContradictionError
-        If a step contradicts another; no answer is given.
-    """
+    """The answer to ``pkm_exact.solve``, which says what is asked and what is raised, as data only."""
     run = _Run(problem, formulation, policy or Policy(), Stages(progress))
     with attached(problem, run.stages, method="exact", formulation=formulation, width=width, policy=run.policy):
         return consistent(run.solution(width))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pkm_exact.claim_wording import INCONSISTENT_CONSTRAINTS_NOTE, INCONSISTENT_NOTE, PARALLEL, REAL_MOTION
+from pkm_exact.claim_wording import INCONSISTENT_NOTE, PARALLEL, REAL_MOTION, Subject, subject
 from pkm_exact.completeness.slices import MorePoses
 from pkm_exact.formulations.turned import Turn
 from pkm_exact.geometry.problem import ForwardProblem
@@ -42,27 +42,27 @@ _CAUSES = {
 
 def motion_note(motion: SelfMotion | TranslationalMotion | MorePoses, problem: ForwardProblem) -> str:
     """Says why the poses form a set of positive dimension, and what is known of real ones."""
+    if isinstance(motion, TranslationalMotion):
+        return PARALLEL.format(path="a circle" if problem.motion.is_planar else "a sphere")
+    words = _subject(problem)
+    real = words.says(REAL_MOTION[motion.real])
     if isinstance(motion, MorePoses):
         return (
             f"{motion.count} distinct complex poses are certified, more than the {motion.bound} that can be isolated; "
-            f"so the complex poses form a set of dimension 1 at least; {REAL_MOTION[motion.real]}"
+            f"so the complex poses form a set of dimension 1 at least; {real}"
         )
-    if isinstance(motion, TranslationalMotion):
-        return PARALLEL.format(path="a circle" if problem.motion.is_planar else "a sphere")
     bound = motion.mobility
-    leg = "leg" if problem.has_only_distances else "constraint"
-    causes = "; ".join(_CAUSES[cause].format(rank=bound.rank, leg=leg) for cause in bound.causes)
-    return f"{causes}; the complex poses form a set of dimension {bound.dimension} at least; {REAL_MOTION[motion.real]}"
+    causes = "; ".join(_CAUSES[cause].format(rank=bound.rank, leg=words.equation) for cause in bound.causes)
+    return f"{causes}; the complex poses form a set of dimension {bound.dimension} at least; {real}"
 
 
 def inconsistent_note(problem: ForwardProblem) -> str:
     """Says that there is no pose."""
-    return INCONSISTENT_NOTE if problem.has_only_distances else INCONSISTENT_CONSTRAINTS_NOTE
+    return _subject(problem).says(INCONSISTENT_NOTE)
 
 
-def leg_word(problem: ForwardProblem) -> str:
-    """What the constraints are called: legs, if all of them are."""
-    return "legs" if problem.has_only_distances else "constraints"
+def _subject(problem: ForwardProblem) -> Subject:
+    return subject(of_legs=problem.has_only_distances)
 
 
 def singular_notes(found: Sequence[Singularity | None], problem: ForwardProblem) -> tuple[str, ...]:
@@ -79,7 +79,7 @@ def singular_notes(found: Sequence[Singularity | None], problem: ForwardProblem)
     >>> singular_notes([None, Singularity(4)], ForwardProblem(()))
     ('pose 2 is singular, rank 4 of 6: the legs lose control of 2 degrees of freedom, which the platform gains',)
     """
-    full = problem.motion.dimension
+    full, constraints = problem.motion.dimension, f"{_subject(problem).equation}s"
     places: dict[Singularity, list[int]] = {}
     for place, singularity in enumerate(found, 1):
         if singularity is not None and singularity.rank < full:
@@ -91,8 +91,8 @@ def singular_notes(found: Sequence[Singularity | None], problem: ForwardProblem)
         freedom = "1 degree of freedom" if gained == 1 else f"{gained} degrees of freedom"
         reasons = "".join(f"; {special}" for special in singularity.special)
         notes.append(
-            f"{poses} singular, rank {singularity.rank} of {full}: the {leg_word(problem)} lose control of {freedom}, "
-            f"which the platform gains{reasons}"
+            f"{poses} singular, rank {singularity.rank} of {full}: the {constraints} lose control of {freedom}, which "
+            f"the platform gains{reasons}"
         )
     return tuple(notes)
 

@@ -45,32 +45,7 @@ def solve_krawczyk(
     progress: Callable[[str], None] | None = None,
     start: StartSection | None = None,
 ) -> Solution:
-    """All real poses of a robot by certified numerics; by the exact engine where these do not suffice.
-
-    Parameters
-    ----------
-    problem : ForwardProblem
-        Exact geometry and squared leg lengths.
-    width : Fraction
-        Largest width of a box, in every coordinate (unit of length, or 1 for rotations).
-    policy : Policy, optional
-        Limits and random choices.
-    progress : callable, optional
-        Gets one line when a stage starts.
-    start : StartSection, optional
-        A section whose solutions are known, close to the robot's (``nearby.nearby_start``), to be tried before the
-        generic one.
-
-    Returns
-    -------
-    Solution
-        With method "krawczyk" and the claim "complete"; or what the exact engine found, with a note.
-
-    Raises
-    ------
-    PkmExactError
-        As ``engine.solve``, if that has to be called.
-    """
+    """The answer to ``pkm_exact.solve_krawczyk``, which says what is asked and what is raised, as data only."""
     policy, stages = policy or Policy(), Stages(progress)
     exponent_for_width(width)  # refuses what is no width before the work
     with attached(problem, stages, method="krawczyk", width=width, policy=policy):
@@ -127,7 +102,7 @@ def solve_exactly_instead(
     Raises
     ------
     PkmExactError
-        As ``engine.solve``.
+        As ``pkm_exact.solve``.
     """
     exact = solve(problem, width=width, policy=policy, progress=progress)
     # How many solutions were certified depends on rounding, and so on the machine: it is not for a certificate.

@@ -16,12 +16,13 @@ from certificate_subjects import SUBJECTS, subject
 from certificate_tools import both
 from samples import placed
 
-from pkm_exact import claim_wording, read_robot
+from pkm_exact import Mechanism, claim_wording, read_robot
 from pkm_exact.certify.build import canonical_bytes, certificate, sealed
 from pkm_exact.claim import Claim, RealMotion
-from pkm_exact.claim_wording import REAL_MOTION, meaning
+from pkm_exact.claim_wording import CONSTRAINTS, LEGS, REAL_MOTION, Subject, meaning
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.in_plane import InPlane
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
@@ -38,7 +39,7 @@ from pkm_exact.solution import Solution
 ROOT = Path(__file__).parent.parent
 CASES = Path(__file__).parent / "cases"
 GUARANTEES = " ".join((ROOT / "docs" / "guarantees.md").read_text(encoding="utf-8").split())
-MOVING = re.compile(r"\b(?:robot|platform|it) (?:moves?|turns?|can move|can turn|screws?)\b")
+MOVING = re.compile(r"\b(?:robot|mechanism|\{robot\}|platform|it) (?:moves?|turns?|can move|can turn|screws?)\b")
 """Words by which a robot is said to move."""
 
 UNREAL = CASES / "posdim_noreal.toml"
@@ -53,14 +54,42 @@ def section(claim: Claim) -> str:
     return GUARANTEES[start : GUARANTEES.index("### `", start + 4)]
 
 
+@pytest.mark.parametrize("of", [LEGS, CONSTRAINTS], ids=lambda of: of.robot)
 @pytest.mark.parametrize("claim", Claim)
-def test_the_docs_define_each_claim_in_these_words(claim: Claim) -> None:
+def test_the_docs_define_each_claim_in_these_words(claim: Claim, of: Subject) -> None:
     motions = RealMotion if claim is Claim.POSITIVE_DIMENSIONAL_PROVED else (None,)
     for motion in motions:
-        sentence = meaning(claim, motion)
-        assert sentence in section(claim)
-        if motion is not None:
-            assert f"| `{motion}` | {sentence} |" in section(claim)
+        sentence = meaning(claim, motion, of)
+        _, _, last = sentence.rpartition(": ") if of is CONSTRAINTS else ("", "", sentence)
+        assert last in section(claim)
+        if motion is not None and of is LEGS:
+            assert re.search(rf"\| `{motion}` \| {re.escape(sentence)}(?: \([^|]*\))? \|", section(claim))
+
+
+def test_what_has_no_legs_is_not_said_to_have_any() -> None:
+    """Of a robot with legs and of a mechanism, each in its own words, and no place of a sentence left open."""
+    texts = (claim_wording.OF_CERTIFICATE_MEANING, claim_wording.OF_EVIDENCE, claim_wording.INCONSISTENT_NOTE)
+    for text in (*texts, *REAL_MOTION.values()):
+        assert "leg" not in CONSTRAINTS.says(text)
+        assert "{" not in LEGS.says(text) + CONSTRAINTS.says(text)
+    for claim in Claim:
+        for motion in RealMotion:
+            assert "leg" not in meaning(claim, motion, CONSTRAINTS)
+            assert "{" not in meaning(claim, motion) + meaning(claim, motion, CONSTRAINTS)
+
+
+def test_a_mechanism_that_moves_is_called_one() -> None:
+    """Three planes through one line: the platform turns about it, and slides."""
+    zero, one = Fraction(0), Fraction(1)
+    planes = tuple(InPlane((one, Fraction(k), zero), zero, (zero, zero, Fraction(k)), f"plane {k}") for k in range(3))
+    mechanism = Mechanism("planes", "m", "made up", planes)
+    solution = mechanism.solve()
+    assert (solution.claim, solution.real_motion) == (Claim.POSITIVE_DIMENSIONAL_PROVED, RealMotion.PROVED)
+    said = " ".join((headline(solution), *solution.notes, meaning_of(certificate(mechanism, "home", solution)).meaning))
+    assert "the mechanism moves with locked actuators" in said
+    assert "along which the mechanism moves with its actuators locked" in said
+    assert "robot" not in said
+    assert "legs" not in said
 
 
 def test_only_a_proved_motion_is_said_to_be_one() -> None:
@@ -69,7 +98,7 @@ def test_only_a_proved_motion_is_said_to_be_one() -> None:
     doubted = meaning(Claim.POSITIVE_DIMENSIONAL_DETECTED, RealMotion.OPEN)
     assert "not proved" in doubted
     assert doubted.endswith("whether the robot can move with locked legs is not known")
-    assert REAL_MOTION[RealMotion.OPEN].endswith("that the robot moves, is neither proved nor excluded")
+    assert LEGS.says(REAL_MOTION[RealMotion.OPEN]).endswith("that the robot moves, is neither proved nor excluded")
     assert not MOVING.search(REAL_MOTION[RealMotion.NO_REAL_POSE])
 
 
@@ -82,7 +111,7 @@ def test_no_other_module_says_that_a_robot_moves() -> None:
         texts = (n.value for n in ast.walk(tree) if isinstance(n, ast.Constant) and id(n) not in docs)
         if any(isinstance(text, str) and MOVING.search(text) for text in texts):
             found[path.relative_to(ROOT / "pkm_exact").as_posix()] = path
-    checkers = {name for name in found if name.startswith("certify/checker/") or name == "certify/pure.py"}
+    checkers = {name for name in found if name.startswith(("certify/checker/", "certify/pure"))}
     assert set(found) - checkers == {"claim_wording.py"}
     assert checkers
 
@@ -113,15 +142,18 @@ def test_every_output_says_what_is_proved(motion: RealMotion, tmp_path: Path) ->
     sentence = meaning(solution.claim, motion)
     assert headline(solution) == sentence
     assert sentence in solution_html(solution, robot, None)
-    assert REAL_MOTION[motion] in solution.notes[0]
+    assert LEGS.says(REAL_MOTION[motion]) in solution.notes[0]
     document = certificate(robot, None, solution)
     page = meaning_of(document)
-    assert (page.headline, page.meaning) == (claim_wording.OF_CERTIFICATE, claim_wording.OF_CERTIFICATE_MEANING)
+    assert (page.headline, page.meaning) == (
+        claim_wording.OF_CERTIFICATE,
+        LEGS.says(claim_wording.OF_CERTIFICATE_MEANING),
+    )
     scene = SimpleNamespace(poses=(), claim=document["claim"], complex_solutions=0)
     assert not MOVING.search(statement(cast("Any", scene)))
     if motion is not RealMotion.PROVED:
         said = " ".join((headline(solution), *solution.notes))
-        assert not MOVING.search(said.replace(REAL_MOTION[RealMotion.OPEN], ""))
+        assert not MOVING.search(said.replace(LEGS.says(REAL_MOTION[RealMotion.OPEN]), ""))
 
 
 def test_a_robot_without_a_real_pose_is_not_said_to_move(capsys: pytest.CaptureFixture[str]) -> None:

@@ -294,7 +294,7 @@ def test_a_robot_without_poses_is_drawn_with_what_is_proved() -> None:
     shown = scene_of(inconsistent())
     drawn = render(poses_figure(shown))
     texts = [text for text, _ in drawn.texts]
-    assert "proved: no pose, real or complex, has these lengths" in texts
+    assert "proved: no pose, real or complex, has these leg lengths" in texts
     assert drawn.texts_inside()
     assert render(overlay_figure(shown)).edge_is_white()
     with pytest.raises(InputError, match="there is no pose 1"):

@@ -1,7 +1,9 @@
 """One row adds an index to every output; every row says what it is in each."""
 
 import json
+import sys
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -117,3 +119,16 @@ def test_names_are_unique() -> None:
         names = [index.name for index in shown_in(output)]
         assert len(set(names)) == len(names)
     assert np.unique([index.heading for index in INDICES]).size == len(INDICES)
+
+
+@pytest.mark.parametrize("index", [index for index in INDICES if not index.is_integer], ids=lambda index: index.name)
+def test_an_index_beyond_all_doubles_is_a_number_and_not_infinite(index: Index, solution: Solution) -> None:
+    beyond = Interval(Fraction(10**400), Fraction(10**400 + 1))
+    assert solution.poses[0].jacobian is not None
+    huge = replace(solution.poses[0].jacobian, sigma_min=beyond, condition=beyond)
+    pose = replace(solution.poses[0], jacobian=huge)
+    assert index.number(pose) == sys.float_info.max
+    assert float(Interval(-beyond.hi, -beyond.lo)) == -sys.float_info.max
+    assert "e+400" in index.text(pose) or index.text(pose).startswith("1000")
+    with pytest.raises(OverflowError):
+        beyond.ball()

@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING
 
 from pkm_exact.cli.table import print_rows
 from pkm_exact.comparison.numeric_distance import Landing
+from pkm_exact.geometry.machine import Machine, locked_at
+from pkm_exact.indices.index import Output
+from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.interactive.display import headline
 from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordinates
 
 if TYPE_CHECKING:
     from pkm_exact.comparison.numeric import EngineResult, NumericComparison
-    from pkm_exact.geometry.machine import Machine
     from pkm_exact.poses.pose import Interval, Pose
     from pkm_exact.solution import Solution
 
@@ -52,14 +54,15 @@ def print_comparison(robot: Machine, configuration: str | None, comparison: Nume
         names = tuple(result.engine for result in comparison.results)
         rows = [_mode(mode, pose, comparison) for mode, pose in enumerate(comparison.solution.poses, 1)]
         third = "theta" if comparison.solution.problem.motion.is_planar else "z"
-        print_rows(rows, ("", "x", "y", third, "det J", "cond J", *names))
+        headings = (index.heading for index in shown_in(Output.TABLE))
+        print_rows(rows, ("", "x", "y", third, *headings, *names))
     for result in comparison.results:
         sys.stdout.write(_sentence(result, comparison))
 
 
 def print_certified(robot: Machine, configuration: str | None, solution: Solution, starts: str = "") -> None:
     """Print what the methods are held against, to stdout."""
-    actuators = f"configuration {configuration}" if configuration else "given leg lengths"
+    actuators = locked_at(robot.kind, configuration)
     sys.stdout.write(f"{robot.name} ({robot.kind}), {actuators}{starts}\ncertified: {headline(solution)}\n")
     sys.stdout.write("".join(f"note: {note}\n" for note in answer_notes(robot, configuration, solution)))
 
@@ -83,15 +86,9 @@ def _mode(mode: int, pose: Pose, comparison: NumericComparison) -> tuple[str, ..
     number = f"{mode}" if pose.multiplicity == 1 else f"{mode} (x{pose.multiplicity or '?'})"
     x, y, z = pose.position
     third = _angle(pose) if comparison.solution.problem.motion.is_planar else z
-    position = ("?" if value is None else f"{float(value.midpoint) + 0.0:.6g}" for value in (x, y, third))
+    position = ("?" if value is None else f"{float(value) + 0.0:.6g}" for value in (x, y, third))
     hits = (str(result.hits.get(mode, 0)) for result in comparison.results)
-    jacobian = pose.jacobian
-    if jacobian is None:
-        quality = ("?", "?")
-    elif jacobian.condition is None:
-        quality = ("0", "singular")
-    else:
-        quality = ({1: "+", -1: "-"}.get(jacobian.det_sign or 0, ""), f"{float(jacobian.condition.midpoint):.4g}")
+    quality = (index.text(pose) for index in shown_in(Output.TABLE))
     return number, *position, *quality, *hits
 
 

@@ -10,11 +10,11 @@ from math import atan2, degrees
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.report import configuration_object, robot_object
-from pkm_exact.cli.table import print_rows
+from pkm_exact.cli.table import locked_values, print_rows
+from pkm_exact.geometry.machine import Machine, locked_at
 from pkm_exact.motions.motion import Motion
 
 if TYPE_CHECKING:
-    from pkm_exact.geometry.robot import Robot
     from pkm_exact.numeric.uncertified import NumericPose, UncertifiedSolution
 
 _HEADER = ("", "x", "y", "z", "q0", "q1", "q2", "q3", "residual", "iterations")
@@ -22,7 +22,7 @@ _PLANAR_HEADER = ("", "x", "y", "theta", "residual", "iterations")
 
 
 def report(
-    robot: Robot, configuration: str | None, solution: UncertifiedSolution, layout: str, *, verbose: bool
+    robot: Machine, configuration: str | None, solution: UncertifiedSolution, layout: str, *, verbose: bool
 ) -> None:
     """Print an uncertified solution to stdout as ``table``, ``json`` or ``csv``."""
     if layout == "json":
@@ -33,16 +33,15 @@ def report(
         _print_table(robot, configuration, solution, verbose=verbose)
 
 
-def _print_table(robot: Robot, configuration: str | None, solution: UncertifiedSolution, *, verbose: bool) -> None:
-    actuators = f"configuration {configuration}" if configuration else "given leg lengths"
+def _print_table(robot: Machine, configuration: str | None, solution: UncertifiedSolution, *, verbose: bool) -> None:
+    actuators = locked_at(robot.kind, configuration)
     count = f"{len(solution.poses)} pose{'' if len(solution.poses) == 1 else 's'}"
     lines = [
         f"{robot.name} ({robot.kind}), {actuators}, method {solution.method}",
         f"{count} found; {solution.claim}: nothing is proved about what is listed, nor that there is no other",
     ]
     if verbose:
-        lengths = ", ".join(str(leg.length_squared) for leg in solution.problem.distances)
-        lines += [f"source: {robot.source}", f"squared leg lengths: {lengths}"]
+        lines += [f"source: {robot.source}", locked_values(solution.problem)]
     lines += [f"note: {note}" for note in solution.notes]
     sys.stdout.write("\n".join(lines) + "\n")
     if not solution.poses:
@@ -63,7 +62,7 @@ def _angle(pose: NumericPose) -> float:
     return degrees(atan2(pose.rotation[1][0], pose.rotation[0][0]))
 
 
-def as_object(robot: Robot, configuration: str | None, solution: UncertifiedSolution) -> dict[str, Any]:
+def as_object(robot: Machine, configuration: str | None, solution: UncertifiedSolution) -> dict[str, Any]:
     """The solution as a JSON object; unlike bounds of certified poses, coordinates are numbers and not strings."""
     return {
         "robot": robot_object(robot),

@@ -7,13 +7,13 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from pkm_exact.cli.modes import assembly_modes, summary
+from pkm_exact.geometry.machine import Machine, locked_at
 from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.interactive.display import pose_cells, pose_header
 from pkm_exact.roots.interval import decimal as decimal
 
 if TYPE_CHECKING:
     from pkm_exact.cli.feasible_poses import ShownPoses
-    from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.solution import Solution
 
@@ -28,7 +28,7 @@ def print_table(
     verbose: bool,
 ) -> None:
     """Print robot, headline, poses and notes to stdout."""
-    actuators = f"configuration {configuration}" if configuration else "given leg lengths"
+    actuators = locked_at(robot.kind, configuration)
     lines = [f"{robot.name} ({robot.kind}), {actuators}, formulation {solution.formulation}", headline]
     if verbose:
         lines += list(_details(robot, solution))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
@@ -97,12 +98,12 @@ class Constraint(Protocol):
         ...
 
 
-class Linear:
+class Linear(ABC):
     """What constraints that are linear forms share."""
 
+    @abstractmethod
     def forms(self, metric: tuple[int, int, int]) -> tuple[Form, ...]:
         """The forms; every type has its own."""
-        raise NotImplementedError
 
     def squares(self, metric: tuple[int, int, int]) -> tuple[SquareForm, ...]:  # noqa: ARG002 - those of others use it
         """None: the constraint is linear."""

@@ -15,8 +15,23 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import printable, shown
 
+CONSTRAINTS_KIND: Final = "constraints"
+"""The kind of mechanisms that are declared by their constraints."""
 LISTED: Final = 20
 """Configurations named in a message; of more there is said that there are more."""
+
+
+def locked_at(kind: str, configuration: str | None) -> str:
+    """How outputs say what a robot's actuators are locked at.
+
+    Examples
+    --------
+    >>> locked_at("6-UPS", None), locked_at("constraints", "home")
+    ('given leg lengths', 'configuration home')
+    """
+    if configuration:
+        return f"configuration {configuration}"
+    return "given values" if kind == CONSTRAINTS_KIND else "given leg lengths"
 
 
 class Machine(ABC):

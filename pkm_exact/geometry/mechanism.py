@@ -16,14 +16,13 @@ from pkm_exact.constraints.form import Form, Vector, value_at
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import UNIT_METRIC, Matrix, Metric
 from pkm_exact.geometry.limits import Limits
-from pkm_exact.geometry.machine import Machine
+from pkm_exact.geometry.machine import CONSTRAINTS_KIND, Machine
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_rational
 from pkm_exact.motions.motion import Motion
 from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.wording import shown
 
-CONSTRAINTS_KIND: Final = "constraints"
 MOST_CONSTRAINTS: Final = 64
 """Bounds what a model file asks of the solver and a certificate of its checkers."""
 FREE: Final = "home"

@@ -21,7 +21,8 @@ from pkm_exact.geometry.inverse import UNIT_METRIC
 from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
-from pkm_exact.geometry.mechanism import CONSTRAINTS_KIND, Mechanism
+from pkm_exact.geometry.machine import CONSTRAINTS_KIND
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.mechanism_reader import read_mechanism
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
 from pkm_exact.geometry.robot import Robot, jointed

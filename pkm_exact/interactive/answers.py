@@ -7,6 +7,7 @@ meet the robot that was asked about, and get the same methods, whatever the ques
 from __future__ import annotations
 
 import os
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Self
 
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Answer:
+class Answer(ABC):
     """What every answer knows and can do beside its own data.
 
     Attributes
@@ -77,9 +78,9 @@ class Answer:
         """
         self.certificate().save(path)
 
+    @abstractmethod
     def _content(self, robot: Machine) -> dict[str, Any]:
         """The certificate as a JSON object."""
-        raise NotImplementedError
 
     def _known_robot(self, what: str) -> Machine:
         if self.robot is None:

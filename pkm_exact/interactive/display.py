@@ -14,7 +14,8 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, Final
 
 from pkm_exact.claim import Claim
-from pkm_exact.claim_wording import meaning
+from pkm_exact.claim_wording import meaning, subject
+from pkm_exact.geometry.machine import Machine, locked_at
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.geometry.robot import Robot, jointed
@@ -28,7 +29,6 @@ from pkm_exact.wording import counted, printable
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from pkm_exact.geometry.machine import Machine
     from pkm_exact.numeric.tolerance_result import ToleranceBox, ToleranceResult
     from pkm_exact.poses.pose import Pose
     from pkm_exact.solution import Solution
@@ -45,7 +45,7 @@ _LONGEST_TEXT: Final = 30
 
 def headline(solution: Solution) -> str:
     """One sentence that says how many solutions were found and what is claimed of them."""
-    words = meaning(solution.claim, solution.real_motion)
+    words = meaning(solution.claim, solution.real_motion, subject(of_legs=solution.problem.has_only_distances))
     if solution.claim not in _COUNTED:
         return words
     distinct, total = solution.distinct_solutions, solution.complex_solutions
@@ -88,7 +88,7 @@ def solution_html(solution: Solution, robot: Machine | None, configuration: str 
     planar = solution.problem.motion.is_planar
     parts = [_paragraph(headline(solution))]
     if robot is not None:
-        locked = "given leg lengths" if configuration is None else f"configuration {configuration}"
+        locked = locked_at(robot.kind, configuration)
         parts.insert(0, f"<p><b>{_text(robot.name)}</b> ({_text(robot.kind)}), {_text(locked)}</p>")
     if solution.poses:
         rotation = "angle theta [degrees]" if planar else "unit quaternion, scalar first"

@@ -30,12 +30,12 @@ def solve(
     policy: Policy | None = None,
     progress: Progress | None = None,
 ) -> Solution:
-    """All real poses of a robot whose leg lengths are given, each in a box, and what is proved about the list.
+    """All real poses of a robot whose actuators are locked, each in a box, and what is proved about the list.
 
     Parameters
     ----------
     problem : ForwardProblem
-        Exact geometry and squared leg lengths.
+        Exact constraints, the motions and the metric.
     formulation : str
         Code of the formulation whose Groebner basis is used.
     width : Fraction
@@ -53,6 +53,13 @@ def solve(
         If a limit of the policy is met.
     InternalContradictionError
         If a step contradicts another; no answer is given.
+
+    Examples
+    --------
+    >>> from pkm_exact import Robot
+    >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
+    >>> print(solve(robot.problem(robot.configuration())))
+    6 complex solutions, 2 real poses; complete
     """
     return Solution.of(exact.solve(problem, formulation=formulation, width=width, policy=policy, progress=progress))
 
@@ -69,9 +76,7 @@ def solve_krawczyk(
 
     Parameters
     ----------
-    problem : ForwardProblem
-        Exact geometry and squared leg lengths.
-    width, policy, progress
+    problem, width, policy, progress
         As for ``solve``.
     start : StartSection, optional
         A section whose solutions are known, close to the robot's (``nearby.nearby_start``), to be tried before the
@@ -108,6 +113,8 @@ def tolerance_boxes(
 
     Raises
     ------
+    InputError
+        If the robot has not six legs of known length, nor three in the plane.
     ValueError
         If the solution is not one of the problem.
 

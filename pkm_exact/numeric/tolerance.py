@@ -58,37 +58,7 @@ def tolerance_boxes(
     solution: Solution,
     progress: Progress | None = None,
 ) -> ToleranceResult:
-    """For every pose of a solution the box of that pose over all robots within tolerance.
-
-    Parameters
-    ----------
-    problem : ForwardProblem
-        The nominal robot.
-    tolerances : Tolerances
-    solution : Solution
-        Of the nominal robot, by any certified method.
-    progress : callable, optional
-        Gets one line when a stage starts.
-
-    Raises
-    ------
-    InputError
-        If the robot is no Gough platform, nor its planar sister.
-    ValueError
-        If the solution is one of another problem.
-
-    Examples
-    --------
-    >>> from pkm_exact.engine import solve
-    >>> from pkm_exact.constraints.distance import Distance
-    >>> from pkm_exact.motions.motion_groups import PLANAR
-    >>> legs = [((0, 0), (0, 0), 50), ((10, 0), (4, 0), 26), ((3, 10), (2, 2), 25)]
-    >>> joint = lambda x, y: (Fraction(x), Fraction(y), Fraction(0))
-    >>> robot = ForwardProblem(tuple(Distance(joint(*a), joint(*b), Fraction(s)) for a, b, s in legs), motion=PLANAR)
-    >>> print(tolerance_boxes(robot, Tolerances.uniform("0.0001"), solve(robot)))
-    2 of 2 poses have a box for every robot within tolerance; complete: every robot within tolerance has exactly 2 \
-poses, one in each box
-    """
+    """The answer to ``pkm_exact.tolerance_boxes``, which says what is asked and what is raised, as data only."""
     if solution.problem != problem:
         raise ValueError("the solution is not one of this problem")
     problem.gough_legs  # noqa: B018 - refuses other robots

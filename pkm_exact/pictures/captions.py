@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import floor, log10
 from typing import TYPE_CHECKING, Any, Final
 
+from pkm_exact.claim_wording import INCONSISTENT_NOTE, subject
+from pkm_exact.geometry.machine import CONSTRAINTS_KIND, locked_at
 from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
 from pkm_exact.pictures.scene import PoseView, Scene
@@ -34,9 +36,8 @@ def headline(name: str, kind: str, configuration: str | None) -> str:
     >>> headline("Rolland 6-6", "6-UPS", "home")
     'Rolland 6-6 (6-UPS), configuration home'
     """
-    actuators = "given leg lengths" if configuration is None else f"configuration {configuration}"
     known = "" if kind in name else f" ({kind})"
-    return f"{style.drawable(name)}{known}, {style.drawable(actuators)}"
+    return f"{style.drawable(name)}{known}, {style.drawable(locked_at(kind, configuration))}"
 
 
 def statement(scene: Scene) -> str:
@@ -52,7 +53,8 @@ def statement(scene: Scene) -> str:
     if scene.claim == "complete":
         return f"{poses} of {counted(scene.complex_solutions, 'complex solution')}; complete"
     if scene.claim == "inconsistent":
-        return "proved: no pose, real or complex, has these lengths"
+        of = subject(of_legs=scene.kind != CONSTRAINTS_KIND)
+        return f"proved: {of.says(INCONSISTENT_NOTE)}"
     if scene.claim.startswith("positive-dimensional"):
         proved = "proved" if scene.claim.endswith("proved") else "detected, not proved"
         shown = f"{counted(len(scene.poses), 'isolated real pose')} listed"

@@ -11,7 +11,7 @@ from pkm_exact.certify.certified_machine import certified_configuration
 from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
-from pkm_exact.geometry.mechanism import CONSTRAINTS_KIND
+from pkm_exact.geometry.machine import CONSTRAINTS_KIND
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.pictures.coordinates import listed_poses, placed_poses
 from pkm_exact.pictures.scene import Point, Scene, view_of

@@ -20,6 +20,7 @@ from pkm_exact.certify.certified_machine import certified_machine, is_of_legs
 from pkm_exact.certify.legs_view import legs_view
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.machine import locked_at
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.pictures.scene import configuration_of, scene_of
@@ -180,7 +181,7 @@ def _assembled(scene: Scene, meaning: Meaning, poses: PoseRows, sections: Mappin
         f"default-src 'none'; script-src '{_digest(script)}'; style-src '{_digest(style)}'; img-src data:; "
         "base-uri 'none'; form-action 'none'"
     )
-    configuration = f"configuration {scene.configuration}" if scene.configuration else "given leg lengths"
+    configuration = locked_at(scene.kind, scene.configuration)
     target, words = ("#poses", "Skip to the poses") if poses.rows else ("#claim", "Skip to the claim")
     parts: dict[str, str] = {
         "policy": policy,

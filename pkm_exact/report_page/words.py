@@ -7,8 +7,18 @@ from dataclasses import dataclass
 from typing import Any
 
 from pkm_exact.claim import Claim, CompletenessRoute
-from pkm_exact.claim_wording import OF_CERTIFICATE, OF_CERTIFICATE_MEANING, OF_EVIDENCE, OF_EVIDENCE_MEANING
-from pkm_exact.motions.motion_groups import PLANAR
+from pkm_exact.claim_wording import (
+    OF_CERTIFICATE,
+    OF_CERTIFICATE_MEANING,
+    OF_EVIDENCE,
+    OF_EVIDENCE_MEANING,
+    Subject,
+    subject,
+)
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.motions.motion import Motion
+from pkm_exact.motions.motion_groups import MOTIONS
 from pkm_exact.wording import counted
 
 
@@ -32,44 +42,69 @@ def meaning_of(document: Mapping[str, Any]) -> Meaning:
     """What is claimed in a certificate."""
     if is_of_tolerances(document):
         return _within_tolerance(document)
-    number = int(document["real_poses"])
+    number, of = int(document["real_poses"]), _subject(document)
     claim = Claim(document["claim"])
     if claim is Claim.COMPLETE:
-        return _complete(document, number)
+        return _complete(document, number, of)
     if claim is Claim.NOT_PROVEN_COMPLETE:
         return _open(document, number)
     if claim is Claim.INCONSISTENT:
         return Meaning(
             "inconsistent, proved",
             True,
-            "No pose: the leg lengths contradict each other.",
-            "No position of the platform gives all legs their lengths, not even a complex one.",
-            "An elimination over the rational numbers shows that the equations of the legs imply 0 = 1.",
+            of.says("No pose: the {equation}s contradict each other."),
+            of.says("No pose of the platform {meets}, not even a complex one."),
+            _route_to_none(document, of),
         )
-    return _infinite(number, proved=claim is Claim.POSITIVE_DIMENSIONAL_PROVED)
+    return _infinite(number, of, proved=claim is Claim.POSITIVE_DIMENSIONAL_PROVED)
 
 
-def _complete(document: Mapping[str, Any], number: int) -> Meaning:
+def _subject(document: Mapping[str, Any]) -> Subject:
+    constraints = document["robot"].get("constraints", ())
+    return subject(of_legs=all(entry["type"] == Distance.type for entry in constraints))
+
+
+def _complete(document: Mapping[str, Any], number: int, of: Subject) -> Meaning:
     if number:
         headline = f"{counted(number, 'real pose')}, and it is proved that there is no other."
         meaning = (
-            "With these leg lengths the robot has exactly the poses listed. Each stands in a box of its own that holds "
-            "exactly one pose. This is proved for the very numbers on this page, without rounding; no pose is missing."
+            f"{of.given.capitalize()} the {of.robot} has exactly the poses listed. Each stands in a box of its own "
+            "that holds exactly one pose. This is proved for the very numbers on this page, without rounding; no pose "
+            "is missing."
         )
     else:
-        headline = "No real pose: it is proved that the robot cannot be assembled with these leg lengths."
+        headline = of.says("No real pose: it is proved that the {robot} cannot be assembled {given}.")
         meaning = "All solutions of its equations are known, and none of them is real."
-    return Meaning("complete, proved", True, headline, meaning, _route(document))
+    return Meaning("complete, proved", True, headline, meaning, _route(document, of))
 
 
-def _route(document: Mapping[str, Any]) -> str:
+def _motion(document: Mapping[str, Any]) -> Motion:
+    robot = document["robot"]
+    return MOTIONS[robot["motion"]] if "motion" in robot else KINDS[robot["kind"]].motion
+
+
+def _route_to_none(document: Mapping[str, Any], of: Subject) -> str:
+    """By which proof there is no pose."""
+    if document["completeness_route"] == CompletenessRoute.COUNTING_AT_INFINITY:
+        return (
+            f"The {of.equation}s and the rigid motions, a variety of degree 40, meet in finitely many points, which "
+            "count 40 at most. Points at infinity, found exactly, fill this number."
+        )
+    if document["completeness_route"] == CompletenessRoute.MODULAR_RANK:
+        return of.says(
+            "Ranks of integer matrices modulo a prime show that the equations of the {equation}s imply 0 = 1."
+        )
+    return of.says("An elimination over the rational numbers shows that the equations of the {equation}s imply 0 = 1.")
+
+
+def _route(document: Mapping[str, Any], of: Subject) -> str:
     total, distinct = document["complex_solutions"], document["distinct_solutions"]
     if document["completeness_route"] == CompletenessRoute.REFINED_BEZOUT:
-        where = "motions of the plane" if total == PLANAR.degree else "rigid motions"
         return (
-            f"The {where} form a variety of degree {total}, and each leg cuts it by a hyperplane. So there are at most "
-            f"{total} isolated solutions, real or complex. {total} were found, distinct and simple: nothing is left "
-            "for another pose, for a motion with locked legs, or for solutions at infinity (refined theorem of Bezout)."
+            f"The motions of the platform ({_motion(document).title}) form a variety, and the {of.equation}s cut it in "
+            f"at most {total} isolated solutions, real or complex. {total} were found, distinct and simple: nothing is "
+            f"left for another pose, for a motion with locked {of.locked}, or for solutions at infinity (refined "
+            "theorem of Bezout)."
         )
     others = {
         CompletenessRoute.PRODUCT_BOUND: (
@@ -124,7 +159,7 @@ def _open(document: Mapping[str, Any], number: int) -> Meaning:
     )
 
 
-def _infinite(number: int, *, proved: bool) -> Meaning:
+def _infinite(number: int, of: Subject, *, proved: bool) -> Meaning:
     isolated = "1 isolated pose is" if number == 1 else f"{number} isolated poses are"
     beside = f" Beside them {isolated} certified, those listed; others are not excluded." if number else ""
     if proved:
@@ -132,12 +167,16 @@ def _infinite(number: int, *, proved: bool) -> Meaning:
             "infinitely many, proved",
             True,
             OF_CERTIFICATE,
-            f"{OF_CERTIFICATE_MEANING}{beside}",
+            f"{of.says(OF_CERTIFICATE_MEANING)}{beside}",
             "The certificate contains solutions, and they lie on curves or surfaces of solutions for the reason in the "
             "last line of what was checked, below.",
         )
     return Meaning(
-        "infinitely many, not proved", False, OF_EVIDENCE, f"{OF_EVIDENCE_MEANING}{beside}", "There is no proof."
+        "infinitely many, not proved",
+        False,
+        of.says(OF_EVIDENCE),
+        f"{OF_EVIDENCE_MEANING}{beside}",
+        "There is no proof.",
     )
 
 

@@ -11,6 +11,7 @@ from typing import Final
 DIGITS_OF_EXACT: Final = 15
 """Decimals shown of a number that is known exactly."""
 _LONGEST_FRACTION: Final = 24
+_GREATEST: Final = nextafter(inf, 0)
 _UPWARDS: Final = Context(prec=2, rounding=ROUND_CEILING, Emin=MIN_EMIN, Emax=MAX_EMAX)
 
 
@@ -19,7 +20,8 @@ class Interval:
     """A closed interval with rational ends; ``lo == hi`` means that the value is known exactly.
 
     ``str`` shows the digits that are certain, the last one to within one unit; ``repr`` adds how far any number of the
-    interval is from them at most. ``float`` is the double nearest to the midpoint, and ``ball`` says how far off it is.
+    interval is from them at most. ``float`` is the finite double nearest to the midpoint, of one that is too great the
+    greatest; ``ball`` says how far off it is, and refuses then.
 
     Attributes
     ----------
@@ -91,7 +93,10 @@ class Interval:
         return bool(self.lo <= value <= self.hi)
 
     def __float__(self) -> float:
-        return float(self.midpoint)
+        try:
+            return float(self.midpoint)
+        except OverflowError:  # infinite it is not: of a condition number that would say that the pose is singular
+            return _GREATEST if self.midpoint > 0 else -_GREATEST
 
     def __format__(self, spec: str) -> str:
         return format(float(self), spec) if spec else str(self)

@@ -144,12 +144,7 @@ def read_document(body: dict[str, Any]) -> Document:
         notes,
     ) = entries(body, "certificate", _KEYS)
     metric, base, platform = read_robot(robot)
-    if not FORMULATIONS.fullmatch(text(formulation, "formulation")):
-        raise malformed("formulation: not the code of one")
-    items(notes, "notes", None, text)
-    exponent = count(box_exponent, "box_exponent")
-    if exponent > MAX_BOX_EXPONENT:
-        raise too_large(f"box_exponent: more than {MAX_BOX_EXPONENT}")
+    check_unproved(formulation, notes)
     return Document(
         metric=metric,
         legs=tuple(map(Leg, base, platform, read_lengths_squared(configuration, len(base)))),
@@ -162,26 +157,52 @@ def read_document(body: dict[str, Any]) -> Document:
         representation=None if representation is None else read_representation(representation, "representation"),
         elimination=None if elimination is None else items(elimination, "elimination", None, read_step),
         isolated=None if krawczyk is None else read_boxes(krawczyk, GREATEST_NUMBER),
-        box_exponent=exponent,
+        box_exponent=read_box_exponent(box_exponent),
         poses=items(poses, "poses", None, read_pose),
     )
+
+
+def check_unproved(formulation: Any, notes: Any) -> None:
+    """Look at the shape of what is there for people and programs, and of which nothing is proved."""
+    if not FORMULATIONS.fullmatch(text(formulation, "formulation")):
+        raise malformed("formulation: not the code of one")
+    items(notes, "notes", None, text)
+
+
+def read_box_exponent(value: Any) -> int:
+    """The exponent of the grid of the poses' boxes."""
+    exponent = count(value, "box_exponent")
+    if exponent > MAX_BOX_EXPONENT:
+        raise too_large(f"box_exponent: more than {MAX_BOX_EXPONENT}")
+    return exponent
 
 
 def read_robot(value: Any) -> tuple[Metric, tuple[Point, ...], tuple[Point, ...]]:
     """Metric, base joints and platform joints."""
     name, kind, unit, source, metric, base, platform = entries(value, "robot", _ROBOT)
-    for label, content in (("name", name), ("unit", unit), ("source", source)):
-        text(content, f"robot.{label}")
+    check_labels(name, unit, source)
     number = KINDS[choice(kind, "robot.kind", tuple(KINDS))]
-    g = items(metric, "robot.metric", 3, positive)
-    if any(number.denominator != 1 for number in g):
-        raise malformed("robot.metric: not three integers")
+    g = read_metric(metric)
     joints = (items(base, "robot.base", number, read_point), items(platform, "robot.platform", number, read_point))
     if number == PLANAR_LEGS and any(joint[2] for side in joints for joint in side):
         raise malformed("robot: a joint of a planar robot has a third coordinate other than 0")
     if number == PLANAR_LEGS and g[2] != 1:
         raise malformed("robot.metric: the third of a planar robot is not 1")
-    return (int(g[0]), int(g[1]), int(g[2])), *joints
+    return g, *joints
+
+
+def check_labels(name: Any, unit: Any, source: Any) -> None:
+    """Look at the shape of the texts that say which robot it is."""
+    for label, content in (("name", name), ("unit", unit), ("source", source)):
+        text(content, f"robot.{label}")
+
+
+def read_metric(value: Any) -> Metric:
+    """Three positive integers."""
+    g = items(value, "robot.metric", 3, positive)
+    if any(number.denominator != 1 for number in g):
+        raise malformed("robot.metric: not three integers")
+    return int(g[0]), int(g[1]), int(g[2])
 
 
 def read_point(value: Any, where: str) -> Point:

@@ -16,11 +16,14 @@ from flint import fmpz_poly
 
 from pkm_exact.certify.checker.document import (
     CLAIMS,
-    FORMULATIONS,
     METHODS,
     ListedPose,
     Representation,
+    check_labels,
+    check_unproved,
+    read_box_exponent,
     read_boxes,
+    read_metric,
     read_point,
     read_polynomial,
     read_pose,
@@ -46,7 +49,7 @@ from pkm_exact.certify.checker.mechanism_forms import (
 )
 from pkm_exact.certify.checker.spelling import choice, count, entries, integer, items, positive, rational, text
 from pkm_exact.certify.checker.study_motion import Metric, Point
-from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, malformed, rejected, too_large
+from pkm_exact.certify.checker.verdict import malformed, rejected
 
 ROUTES: Final = ("refined-bezout", "product-bound", "modular-rank", "counting-at-infinity", "exact-elimination")
 CAUSES: Final = ("dependent-forms", "symmetry", "equal-legs", "more-poses-than-bound")
@@ -134,12 +137,7 @@ def read_mechanism_document(body: dict[str, Any]) -> MechanismDocument:
     values = dict(zip(_KEYS, entries(body, "certificate", _KEYS), strict=True))
     if values["configuration"] is not None:
         text(values["configuration"], "configuration")
-    if not FORMULATIONS.fullmatch(text(values["formulation"], "formulation")):
-        raise malformed("formulation: not the code of one")
-    items(values["notes"], "notes", None, text)
-    exponent = count(values["box_exponent"], "box_exponent")
-    if exponent > MAX_BOX_EXPONENT:
-        raise too_large(f"box_exponent: more than {MAX_BOX_EXPONENT}")
+    check_unproved(values["formulation"], values["notes"])
 
     def given(key: str, read: Callable[[Any], Any]) -> Any:
         return None if values[key] is None else read(values[key])
@@ -158,20 +156,16 @@ def read_mechanism_document(body: dict[str, Any]) -> MechanismDocument:
         elimination=given("elimination", lambda value: items(value, "elimination", None, read_step)),
         self_motion=given("self_motion", _self_motion),
         isolated=given("krawczyk", lambda value: read_boxes(value, mechanism.bound)),
-        box_exponent=exponent,
+        box_exponent=read_box_exponent(values["box_exponent"]),
         poses=items(values["poses"], "poses", None, read_pose),
     )
 
 
 def _robot(value: Any) -> Mechanism:
     name, unit, source, motion, metric, constraints = entries(value, "robot", _ROBOT)
-    for label, content in (("name", name), ("unit", unit), ("source", source)):
-        text(content, f"robot.{label}")
+    check_labels(name, unit, source)
     group = GROUPS[choice(motion, "robot.motion", tuple(GROUPS))]
-    g = items(metric, "robot.metric", 3, positive)
-    if any(number.denominator != 1 for number in g):
-        raise malformed("robot.metric: not three integers")
-    exact = int(g[0]), int(g[1]), int(g[2])
+    exact = read_metric(metric)
     if isinstance(constraints, list) and not 1 <= len(constraints) <= MOST_CONSTRAINTS:
         raise malformed(f"robot.constraints: not 1 to {MOST_CONSTRAINTS}")
     read = items(constraints, "robot.constraints", None, lambda entry, where: _constraint(entry, where, exact))
