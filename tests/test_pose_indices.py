@@ -11,6 +11,7 @@ import pytest
 
 from pkm_exact import Robot, solve_many
 from pkm_exact.certify.build import certificate
+from pkm_exact.cli.feasible_poses import ShownPoses
 from pkm_exact.cli.report import as_object, as_rows
 from pkm_exact.indices.index import EVERYWHERE, Index, Output
 from pkm_exact.indices.pose_indices import INDICES, shown_in
@@ -58,7 +59,9 @@ def _sweep(solution: Solution, robot: Robot) -> str:
 SHOWN: dict[Output, Callable[[Solution, Robot], str]] = {
     Output.TABLE: lambda solution, robot: _table(solution, robot) + solution_html(solution, robot, "home"),
     Output.JSON: lambda solution, robot: json.dumps(as_object(robot, "home", solution)),
-    Output.CSV: lambda solution, _: " ".join(field for row in as_rows(solution) for field in row),
+    Output.CSV: lambda solution, robot: " ".join(
+        field for row in as_rows(solution, ShownPoses.of(robot, "home", solution)) for field in row
+    ),
     Output.PAGE: _page,
     Output.ARRAYS: lambda solution, _: f"{arrays_of(solution.poses).indices} {solution.to_frame().to_dict()}",
     Output.SWEEP: _sweep,

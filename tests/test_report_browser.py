@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 from certificate_tools import golden
-from samples import solved
+from samples import model, solved
 from test_report_page import HOSTILE, data_of, page, written
 
 from pkm_exact import Robot, certificate, read_robot, solve
+from pkm_exact.cli.feasible_poses import ShownPoses
 from pkm_exact.cli.main import main
 from pkm_exact.cli.report import as_rows
 
@@ -382,8 +383,9 @@ def _copied(tab: Tab, kind: str) -> str:
 
 
 def test_copies_are_exact(rolland: Tab) -> None:
-    expected = io.StringIO()
-    csv.writer(expected, lineterminator="\n").writerows(as_rows(solved("rolland-6-6")))
+    expected, solution = io.StringIO(), solved("rolland-6-6")
+    shown = ShownPoses.of(model("rolland-6-6"), "home", solution)
+    csv.writer(expected, lineterminator="\n").writerows(as_rows(solution, shown))
     assert _copied(rolland, "exact") == expected.getvalue()
     rows = list(csv.DictReader(io.StringIO(_copied(rolland, "csv"))))
     entries = json.loads(_copied(rolland, "quaternion"), parse_float=str)
