@@ -4,6 +4,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from robots_table import PAGES
 
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.reader import read_robot
@@ -68,3 +69,10 @@ def test_robocrane_triangles_are_equilateral_in_the_metric() -> None:
         for i in range(3):
             d = [x - y for x, y in zip(corners[i], corners[i - 1], strict=True)]
             assert d[0] ** 2 + 3 * d[1] ** 2 + d[2] ** 2 == side**2
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_documents_say_what_models_and_kinds_say(page: Path) -> None:
+    """If not: python tests/robots_table.py."""
+    text = page.read_text(encoding="utf-8")
+    assert PAGES[page](text) == text

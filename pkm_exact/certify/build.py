@@ -18,6 +18,7 @@ from pkm_exact.certify.certificate_entries import isolated_entry, solutions_entr
 from pkm_exact.claim import CompletenessRoute
 from pkm_exact.files import write_whole
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.poses.pose_spelling import pose_entry
 
@@ -100,11 +101,10 @@ def is_of_version_1(solution: Solution) -> bool:
 def _is_of(machine: Machine, solution: Solution) -> bool:
     """Whether the problem solved is one of the machine's, with whatever values of its actuators."""
     found = {constraint.name: constraint for constraint in solution.problem.constraints}
-    if not all(name in found for name in machine.actuated):
-        return False
-    actuated = [found[name] for name in machine.actuated]
-    values = [getattr(constraint, constraint.value_field or "", None) for constraint in actuated]
-    return None not in values and machine.problem(values) == solution.problem
+    if isinstance(machine, Mechanism):
+        locked = machine.values_of(found)
+        return locked is not None and machine.problem(locked) == solution.problem
+    return False
 
 
 def robot_entry(robot: Robot) -> dict[str, Any]:

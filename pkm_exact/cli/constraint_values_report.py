@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import prod
 from typing import Any
 
-from pkm_exact.cli.legs_report import aligned, exact_and_bounds, pose_lines, pose_object, short, surd_decimal
+from pkm_exact.cli.legs_report import (
+    aligned,
+    exact_and_bounds,
+    mode_object,
+    pose_lines,
+    pose_object,
+    short,
+    surd_decimal,
+)
 from pkm_exact.constraints.form import Vector
+from pkm_exact.geometry.drive_modes import JointModes, joint_values
 from pkm_exact.geometry.inverse import Matrix
 from pkm_exact.geometry.mechanism import Mechanism, is_square
 from pkm_exact.geometry.surds import Surd
+from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, Mode, SlideMode
 
 
 def as_object(
@@ -20,12 +31,33 @@ def as_object(
     A value is exact and has bounds; of lengths and radii the squares are given too. Constraints without a value have
     None. ``holds`` is None for actuated constraints: they are given what they need.
     """
-    return pose_object(mechanism, position, rotation, nearest) | {
+    answer = pose_object(mechanism, position, rotation, nearest) | {
         "constraints": [
             {"name": name, "type": type_, "actuated": holds is None, "holds": holds, **_spelled(value, squared, width)}
             for name, type_, value, squared, holds in _rows(mechanism, position, rotation)
         ]
     }
+    if not mechanism.drives:
+        return answer
+    joints = joint_values(mechanism, position, rotation)
+    return answer | {
+        "working_modes": _count(joints),
+        "actuators": [
+            {
+                "name": joint.name,
+                "modes": [mode_object(mode, width) for mode in joint.modes],
+                "discriminant": None if joint.discriminant is None else str(joint.discriminant),
+            }
+            for joint in joints
+        ],
+    }
+
+
+def _count(joints: tuple[JointModes, ...]) -> int | None:
+    """How many working modes there are; None if infinitely many."""
+    if any(isinstance(mode, FreeCrank) for joint in joints for mode in joint.modes):
+        return None
+    return prod(len(joint.modes) for joint in joints)
 
 
 def _spelled(value: Fraction | None, squared: bool, width: Fraction) -> dict[str, Any]:
@@ -40,10 +72,13 @@ def _rows(
 ) -> list[tuple[str, str, Fraction | None, bool, bool | None]]:
     """Name, type, value at the pose, whether that is a square, and whether the constraint holds (None if actuated)."""
     values = mechanism.values_at(position, rotation)
+    moved = {part.constraint for drive in mechanism.drives for part in drive.parts}
     found: list[tuple[str, str, Fraction | None, bool, bool | None]] = []
     for constraint in mechanism.constraints:
         value = values.get(constraint.name)
-        holds = None if constraint.name in mechanism.actuated else mechanism.holds(constraint, position, rotation)
+        driven = constraint.name in mechanism.actuated or constraint.name in moved
+        holds = None if driven else mechanism.holds(constraint, position, rotation)
+        value = None if constraint.name in moved else value
         found.append((constraint.name, constraint.type, value, is_square(constraint.value_field or ""), holds))
     return found
 
@@ -66,4 +101,39 @@ def as_text(
         number = None if value is None or (squared and value < 0) else Surd.root_of(value) if squared else Surd(value)
         texts = ("", "") if number is None else (surd_decimal(number, width), short(str(number)))
         table.append((name, type_, *texts, {None: "actuated", True: "yes", False: "no"}[holds]))
-    return "".join(f"{line}\n" for line in [*lines, "", *aligned(table)])
+    lines += ["", *aligned(table)]
+    if mechanism.drives:
+        lines += _joint_lines(joint_values(mechanism, position, rotation), width)
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _joint_lines(joints: tuple[JointModes, ...], width: Fraction) -> list[str]:
+    """Working modes: how many, and every value of every actuator with the discriminant that vanishes where two meet."""
+    count = _count(joints)
+    unreached = [joint.name for joint in joints if not joint.modes]
+    if unreached:
+        headline = f"out of reach: {', '.join(unreached)}"
+    elif count is None:
+        headline = "infinitely many working modes: the angle of a crank does not matter here"
+    else:
+        headline = f"{count} working mode{'' if count == 1 else 's'}"
+    table: list[tuple[str, ...]] = [("actuator", "value", "exact", "discriminant")]
+    for joint in joints:
+        discriminant = "" if joint.discriminant is None else short(str(joint.discriminant))
+        table += [(joint.name, *_shown(mode, width), discriminant) for mode in joint.modes]
+    return ["", headline, *(aligned(table) if len(table) > 1 else [])]
+
+
+def _shown(mode: Mode, width: Fraction) -> tuple[str, str]:
+    if isinstance(mode, SlideMode):
+        return surd_decimal(mode.position, width), short(str(mode.position))
+    if isinstance(mode, FreeCrank):
+        return "any angle", ""
+    return _crank(mode, width)
+
+
+def _crank(mode: CrankMode, width: Fraction) -> tuple[str, str]:
+    """The half tangent, if there is one."""
+    if mode.half_tangent is None:
+        return "180 degrees", "half tangent infinite"
+    return surd_decimal(mode.half_tangent, width), short(f"half tangent {mode.half_tangent}")

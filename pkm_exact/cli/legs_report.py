@@ -75,11 +75,12 @@ def as_object(
     free = any(isinstance(mode, FreeCrank) for leg in modes for mode in leg)
     return answer | {
         "working_modes": None if free else prod(map(len, modes)),
-        "legs": [[_mode(mode, width) for mode in leg] for leg in modes],
+        "legs": [[mode_object(mode, width) for mode in leg] for leg in modes],
     }
 
 
-def _mode(mode: Mode, width: Fraction) -> dict[str, Any]:
+def mode_object(mode: Mode, width: Fraction) -> dict[str, Any]:
+    """A working mode: exact numbers with bounds."""
     if isinstance(mode, SlideMode):
         return {"position": exact_and_bounds(mode.position, width)}
     if isinstance(mode, FreeCrank):

@@ -17,6 +17,7 @@ from pkm_exact.cli.circle_options import PARTS, circles, numbers, on_circle
 from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.geometry.machines.machine_kinds import MACHINES
 from pkm_exact.templates import DEFAULT_DECIMALS, MOST_DECIMALS
 from pkm_exact.wording import printable, shown
 
@@ -34,9 +35,9 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
 @click.command(short_help="Write a first model file, from a few answers.")
 @click.option(
     "--kind",
-    type=click.Choice([*KINDS, *_ALIASES]),
+    type=click.Choice([*KINDS, *MACHINES, *_ALIASES]),
     metavar="KIND",
-    help=f"Kind of robot: {', '.join(KINDS)}; 6-6 means 6-UPS.",
+    help=f"Kind of robot: {', '.join((*KINDS, *MACHINES))}; 6-6 means 6-UPS.",
 )
 @click.option(
     "--base-sides",
@@ -74,13 +75,21 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
 @click.option(
     "--exact", is_flag=True, help="Exact joints, in a metric: y in the file is then not y, but y by a square root."
 )
+@click.option(
+    "--dimension",
+    "dimensions",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help=f"For {next(iter(MACHINES))} and the kinds after it: a dimension, as a model file has it, such as "
+    "base_radius=120. The others are examples; may be given several times.",
+)
 @click.option("--unit", help="Unit of all lengths, for display.  [default: mm]")
 @click.option("--name", help="Name of the robot.  [default: that of the file]")
 @click.option(
     "-o", "--output", type=arguments.FilePath(), metavar="MODEL.toml", help="Write to this file; - for stdout."
 )
 @click.option("--force", is_flag=True, help="Overwrite the file if it exists.")
-def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
+def new(output: str | None, name: str | None, force: bool, dimensions: tuple[str, ...], **given: Any) -> int:
     """Write a commented model file of a symmetric robot, as a start for your own.
 
     On a terminal, what is needed and not given is asked for. Lengths are exact (12.5, 25/2) and in any unit. The file
@@ -92,8 +101,13 @@ def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
       certify-poses new --kind 6-6 --base-sides 400,200 --platform-sides 100,300 --height 500 -o my-robot.toml
       certify-poses new --kind 6-RUS --base-circle 300,40 --platform-circle 120,90 --height 400 --crank 120 --exact -o -
       certify-poses new --kind 3-RPR --base-sides 6,5,5 --platform-sides 1.6,1,1 --height 3 --unit m -o planar.toml
+      certify-poses new --kind delta --dimension arm=120 --dimension rod=300 -o delta.toml
     """
     _checked_output(output, force)
+    if given["kind"] in MACHINES:
+        return _new_machine(output, name, dimensions, given)
+    if dimensions:
+        raise click.UsageError("--dimension: only machines with dimensions have any; see the help of --kind.")
     if given["exact"] and given["digits"] is not None:
         raise click.UsageError("--exact and --digits exclude each other.")
     missing = _missing(given, output)
@@ -118,6 +132,46 @@ def new(output: str | None, name: str | None, force: bool, **given: Any) -> int:
         return ExitCode.DONE
     arguments.write_output(output, text.encode("utf-8"))
     click.echo(f"{printable(output)}: {design.kind}, home: {found}")
+    click.echo(f"next: {PROGRAM} solve {printable(shlex.quote(output))}")
+    return ExitCode.DONE
+
+
+def _new_machine(output: str | None, name: str | None, dimensions: tuple[str, ...], given: dict[str, Any]) -> int:
+    """The model of a machine that has a recipe: dimensions that are given, examples of the others."""
+    unfit = [
+        key
+        for key, value in given.items()
+        if key not in ("kind", "unit") and value is not None and value is not False and value != ()
+    ]
+    if unfit:
+        raise click.UsageError(
+            f"--{unfit[0].replace('_', '-')}: a {given['kind']} has dimensions of its own; give them by --dimension."
+        )
+    if output is None:
+        raise click.UsageError("give -o as well: the file to write, or - for stdout.")
+
+    from pkm_exact.claim import Claim
+    from pkm_exact.engine import solve
+    from pkm_exact.geometry.reader import robot_from_toml
+    from pkm_exact.interactive.display import headline
+    from pkm_exact.templates.machine_text import given_dimensions, machine_text
+
+    kind = MACHINES[given["kind"]]
+    name = name or ("my robot" if output == STDOUT else Path(output).stem)
+    text = machine_text(kind, name, given["unit"] or "mm", given_dimensions(kind, dimensions))
+    robot = robot_from_toml(text)
+    solution = solve(robot.problem(robot.configuration()))
+    if solution.claim is not Claim.COMPLETE:
+        raise InputError(
+            f"--dimension: with these no list of poses of the {kind.name} is proved complete at home; "
+            f"{headline(solution)} ({solution.claim}); change one of them"
+        )
+    if output == STDOUT:
+        sys.stdout.write(text)
+        return ExitCode.DONE
+    arguments.write_output(output, text.encode("utf-8"))
+    found = f"{len(solution.poses)} real poses of {solution.complex_solutions} complex ones, proved complete"
+    click.echo(f"{printable(output)}: {kind.name}, home: {found}")
     click.echo(f"next: {PROGRAM} solve {printable(shlex.quote(output))}")
     return ExitCode.DONE
 

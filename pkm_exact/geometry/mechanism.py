@@ -6,7 +6,7 @@ a product, are left to the configurations. With locked actuators all of them tog
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Final
@@ -14,6 +14,9 @@ from typing import Any, Final
 from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.form import Form, Vector, value_at
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.angle_degrees import StandIn
+from pkm_exact.geometry.chains import JointValue
+from pkm_exact.geometry.drives import Drive
 from pkm_exact.geometry.inverse import UNIT_METRIC, Matrix, Metric
 from pkm_exact.geometry.limits import Limits
 from pkm_exact.geometry.machine import CONSTRAINTS_KIND, Machine
@@ -37,12 +40,15 @@ class LockedValues:
     ----------
     name : str
         Unique among the configurations of a mechanism.
-    values : tuple of Fraction
-        In the order of the actuated constraints: squared lengths, offsets, products.
+    values : tuple
+        In the order of the actuators: squared lengths, offsets, products, positions; cosine and sine of a crank.
+    stand_ins : tuple of StandIn
+        Angles among them that were given in degrees and are taken as others, by how much.
     """
 
     name: str
-    values: tuple[Fraction, ...]
+    values: tuple[JointValue, ...]
+    stand_ins: tuple[StandIn, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -56,7 +62,7 @@ class Mechanism(Machine):
     constraints : tuple of Constraint
         All of them. The values of the actuated ones are those of no configuration in particular.
     actuated : tuple of str
-        Names of the actuated constraints, in the order of ``constraints``.
+        Names of the actuators: of constraints whose own values are given, or of drives.
     motion : Motion
         In which the platform is kept by joints that are not declared one by one.
     metric : tuple of 3 int
@@ -65,6 +71,12 @@ class Mechanism(Machine):
         The first one is the default.
     limits : Limits or None
         Of actuators, legs and position, if there are any.
+    kind : str
+        "constraints", or the name of the recipe that it was made by (``machines.machine_kinds``).
+    drives : tuple of Drive
+        Actuators that move parts of constraints: slides, cranks.
+    stand_ins : tuple of StandIn
+        Angles of the geometry that were given in degrees and are taken as others, by how much.
 
     Examples
     --------
@@ -91,6 +103,8 @@ class Mechanism(Machine):
     configurations: tuple[LockedValues, ...] = ()
     kind: str = CONSTRAINTS_KIND
     limits: Limits | None = None
+    drives: tuple[Drive, ...] = ()
+    stand_ins: tuple[StandIn, ...] = ()
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.constraints) <= MOST_CONSTRAINTS:
@@ -100,7 +114,8 @@ class Mechanism(Machine):
         for number, constraint in enumerate(self.constraints, 1):
             _require_directions(constraint, f"constraints[{number}] ({shown(constraint.name)})")
         for name in self.actuated:
-            self._value_field(name)
+            if self.drive(name) is None:
+                self.value_field(name)
         for configuration in self.configurations:
             self.locked(configuration.values, f"configuration {shown(configuration.name)}")
         if not self.configurations and not self.actuated:
@@ -109,7 +124,11 @@ class Mechanism(Machine):
     def __repr__(self) -> str:
         return f"Mechanism({self.name!r}, {len(self.constraints)} constraints)"
 
-    def problem(self, locked: LockedValues | Sequence[Fraction | int | str]) -> ForwardProblem:
+    def drive(self, name: str) -> Drive | None:
+        """The drive of a name; None if that is a constraint whose own value is given."""
+        return next((drive for drive in self.drives if drive.name == name), None)
+
+    def problem(self, locked: LockedValues | Sequence[JointValue | int | str]) -> ForwardProblem:
         """The forward kinematics problem of a configuration, or of the values of the actuated constraints.
 
         Parameters
@@ -126,34 +145,67 @@ class Mechanism(Machine):
         return ForwardProblem(self.locked(values, "values"), self.metric, self.motion)
 
     def problem_at(self, values: Sequence[Fraction], *, squared: bool = False) -> ForwardProblem:
-        """The problem for values of the actuated constraints: lengths, or squared ones, offsets, products."""
-        fields = [self._value_field(name) for name in self.actuated]
-        if squared or len(values) != len(fields):
+        """The problem for one number per actuator: lengths, or squared ones, offsets, positions, half tangents."""
+        if len(values) != len(self.actuated):
             return self.problem(values)
-        for name, field, value in zip(self.actuated, fields, values, strict=True):
-            if is_square(field) and value <= 0:
+        found: list[JointValue] = []
+        for name, is_length, value in zip(self.actuated, self.are_lengths, values, strict=True):
+            drive = self.drive(name)
+            if is_length and not squared and value <= 0:
                 raise InputError(f"values, {shown(name)}: {shown(value)} is not positive; give a length greater than 0")
-        return self.problem(
-            [value * value if is_square(field) else value for field, value in zip(fields, values, strict=True)]
-        )
+            if drive is not None:
+                found.append(drive.from_number(value))
+            else:
+                found.append(value * value if is_length and not squared else value)
+        return self.problem(found)
 
     @property
     def are_lengths(self) -> tuple[bool, ...]:
-        """For each actuated constraint whether users give a length, which is positive."""
-        return tuple(is_square(self._value_field(name)) for name in self.actuated)
+        """For each actuator whether users give a length, which is positive."""
+        return tuple(self.drive(name) is None and is_square(self.value_field(name)) for name in self.actuated)
 
-    def locked(self, values: Sequence[Fraction | int | str], where: str) -> tuple[Constraint, ...]:
-        """All constraints, the actuated ones with the given values."""
+    def locked(self, values: Sequence[JointValue | int | str], where: str) -> tuple[Constraint, ...]:
+        """All constraints, with the given values of the actuators."""
         if len(values) != len(self.actuated):
             wanted = ", ".join(self.actuated) or "none"
             raise InputError(f"{where}: {len(values)} values; give {len(self.actuated)}, for {wanted}")
-        found = dict(zip(self.actuated, values, strict=True))
-        return tuple(
-            self._with_value(constraint, found[constraint.name], f"{where}, {shown(constraint.name)}")
-            if constraint.name in found
-            else constraint
-            for constraint in self.constraints
-        )
+        found = {constraint.name: constraint for constraint in self.constraints}
+        for name, value in zip(self.actuated, values, strict=True):
+            drive, place = self.drive(name), f"{where}, {shown(name)}"
+            if drive is not None:
+                found = drive.moved(found, drive.parsed(value, place), place)
+            elif isinstance(value, tuple):
+                raise InputError(f"{place}: {shown(value)} is no number; give one")
+            else:
+                found[name] = self._with_value(found[name], value, place)
+        return tuple(found.values())
+
+    def values_of(self, found: Mapping[str, Constraint]) -> tuple[JointValue, ...] | None:
+        """The values of the actuators that make the constraints others of the same names; None if there are none."""
+        own = {constraint.name: constraint for constraint in self.constraints}
+        values: list[JointValue] = []
+        for name in self.actuated:
+            drive = self.drive(name)
+            place = name if drive is None else drive.parts[0].constraint
+            if place not in found or type(found[place]) is not type(own[place]):
+                return None
+            value = (
+                getattr(found[place], self.value_field(name))
+                if drive is None
+                else drive.recovered(own[place], found[place])
+            )
+            if value is None:
+                return None
+            values.append(value)
+        return tuple(values)
+
+    def sort_of(self, name: str) -> str:
+        """Under which limits an actuator falls: lengths, slides, angles, or none of them."""
+        drive = self.drive(name)
+        if drive is not None:
+            return "slides" if not drive.is_crank else "angles" if drive.weight == 1 else ""
+        field = self.value_field(name)
+        return "lengths" if is_square(field) else "slides" if field == "offset" else ""
 
     def values_at(self, position: Vector, rotation: Matrix) -> dict[str, Fraction]:
         """By how much each linear form of the constraints differs from 0 at a pose, added to the constraint's value.
@@ -173,6 +225,16 @@ class Mechanism(Machine):
                 values[constraint.name] = getattr(constraint, constraint.value_field or "") + rest
         return values
 
+    def equation_at(self, constraint: Constraint, position: Vector, rotation: Matrix) -> Fraction:
+        """By how much a constraint that is one equation differs from 0 at a pose."""
+        forms, squares = constraint.forms(self.metric), constraint.squares(self.metric)
+        if len(forms) + len(squares) != 1:
+            raise InputError(f"constraint {shown(constraint.name)}: is more than one equation; ask about another")
+        if forms:
+            return self._at(forms[0], position, rotation)
+        linear, root = (self._at(form, position, rotation) for form in (squares[0].linear, squares[0].root))
+        return linear - squares[0].factor * root * root
+
     def holds(self, constraint: Constraint, position: Vector, rotation: Matrix) -> bool:
         """Whether a constraint holds at a pose, exactly."""
         linear = all(self._at(form, position, rotation) == 0 for form in constraint.forms(self.metric))
@@ -184,7 +246,7 @@ class Mechanism(Machine):
     def _at(self, form: Form, position: Vector, rotation: Matrix) -> Fraction:
         return Fraction(value_at(form, position, rotation, self.metric))
 
-    def _value_field(self, name: str) -> str:
+    def value_field(self, name: str) -> str:
         """The field of a constraint that an actuator sets."""
         for constraint in self.constraints:
             if constraint.name == name:
@@ -197,7 +259,7 @@ class Mechanism(Machine):
         raise InputError(f"actuated: {shown(name)} is not the name of a constraint; use one that is")
 
     def _with_value(self, constraint: Constraint, value: Fraction | int | str, where: str) -> Constraint:
-        field = self._value_field(constraint.name)
+        field = self.value_field(constraint.name)
         number = parse_rational(value, where) if isinstance(value, str) else Fraction(value)
         bounded(number, number, where, MAX_COMPUTED_DIGITS)
         if constraint.fields[field] == Role.POSITIVE and number <= 0:

@@ -54,20 +54,20 @@ def read_mechanism(table: dict[str, Any], head: Mapping[str, str]) -> Mechanism:
     who = head["name"], head["unit"], head["source"]
     mechanism = Mechanism(*who, constraints, actuated, motion, metric)
     if "limits" in table:
-        mechanism = replace(mechanism, limits=read_limits(table["limits"], _parts(mechanism)))
+        mechanism = replace(mechanism, limits=read_limits(table["limits"], limited_parts(mechanism)))
     rows = _tables(table, "configurations", required=False)
     locked = tuple(_configuration(row, f"configurations[{i}]", mechanism) for i, row in enumerate(rows, 1))
     return replace(mechanism, configurations=locked) if locked else mechanism
 
 
-def _parts(mechanism: Mechanism) -> LimitedParts:
-    """Lengths and offsets that are actuated, and the legs, which stand on the base."""
-    types = {found.name: found for found in mechanism.constraints}
-    fields = [types[name].value_field for name in mechanism.actuated]
+def limited_parts(mechanism: Mechanism) -> LimitedParts:
+    """Lengths, slides and offsets, and cranks that are actuated, and the legs, which stand on the base or on drives."""
+    sorts = list(map(mechanism.sort_of, mechanism.actuated))
     legs = sum(found.type == "distance" for found in mechanism.constraints)
-    lengths = sum(mechanism.are_lengths)
     dimension = 2 if mechanism.motion.is_planar else 3
-    return LimitedParts(lengths, fields.count("offset"), 0, legs, standing=True, dimension=dimension)
+    lengths, slides, angles = (sorts.count(sort) for sort in ("lengths", "slides", "angles"))
+    standing = not any(drive.is_crank for drive in mechanism.drives)
+    return LimitedParts(lengths, slides, angles, legs, standing=standing, dimension=dimension)
 
 
 def read_motion(table: dict[str, Any]) -> Motion:

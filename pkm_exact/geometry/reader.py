@@ -22,6 +22,8 @@ from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
 from pkm_exact.geometry.machine import CONSTRAINTS_KIND
+from pkm_exact.geometry.machines.machine_kinds import MACHINES
+from pkm_exact.geometry.machines.machine_reader import read_machine
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.mechanism_reader import read_mechanism
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
@@ -91,8 +93,9 @@ def robot_from_toml(text: str) -> Robot | Mechanism:
     if isinstance(schema, bool) or schema != SCHEMA:
         raise InputError(f"schema: {shown(schema)} is unknown; write schema = {SCHEMA}")
     kind_name = label(table, "kind", "")
-    if kind_name not in KINDS and kind_name != CONSTRAINTS_KIND:
-        raise InputError(f"kind: {shown(kind_name)} is unknown; use one of: {', '.join((*KINDS, CONSTRAINTS_KIND))}")
+    if kind_name not in KINDS and kind_name not in MACHINES and kind_name != CONSTRAINTS_KIND:
+        known = ", ".join((*KINDS, *MACHINES, CONSTRAINTS_KIND))
+        raise InputError(f"kind: {shown(kind_name)} is unknown; use one of: {known}")
     head = {
         "name": label(table, "name", ""),
         "unit": label(table, "unit", ""),
@@ -100,6 +103,8 @@ def robot_from_toml(text: str) -> Robot | Mechanism:
     }
     if kind_name == CONSTRAINTS_KIND:
         return read_mechanism(table, head)
+    if kind_name in MACHINES:
+        return read_machine(table, head, MACHINES[kind_name])
     known_keys(table, _TOP, "")
     kind = KINDS[kind_name]
     metric = parse_metric(table["metric"], kind.motion) if "metric" in table else UNIT_METRIC

@@ -100,12 +100,12 @@ def _crank_modes(chain: Crank, offset: Vector, rest: Fraction, metric: Metric) -
         s = root.scaled(sign)
         cos = s.scaled(-b / m).plus(a * g / m)
         sin = s.scaled(a / m).plus(b * g / m)
-        modes.append(CrankMode(cos, sin, _half_tangent(cos, sin)))
+        modes.append(CrankMode(cos, sin, half_tangent(cos, sin)))
     return tuple(modes)
 
 
-def _half_tangent(cos: Surd, sin: Surd) -> Surd | None:
-    """sin / (1 + cos), for cosine and sine of one angle that share their root."""
+def half_tangent(cos: Surd, sin: Surd) -> Surd | None:
+    """sin / (1 + cos), for cosine and sine of one angle that share their root; None at 180 degrees."""
     n = max(cos.n, sin.n)
     p, q = 1 + cos.p, cos.q
     norm = p * p - q * q * n

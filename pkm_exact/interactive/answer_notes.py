@@ -10,6 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from pkm_exact.claim_wording import DIGITS, NEARBY, NEARBY_MOVES, NEARBY_SINGULAR
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.rational import finite_decimal
 
 if TYPE_CHECKING:
@@ -22,7 +23,20 @@ if TYPE_CHECKING:
 def answer_notes(robot: Machine | None, configuration: str | None, solution: Solution) -> tuple[str, ...]:
     """The notes of a solution, and those on the digits of the model that it is one of."""
     digit = None if robot is None else written_digit(robot, configuration)
-    return (*solution.notes, *digit_notes(solution.problem, solution.poses, digit))
+    return (
+        *solution.notes,
+        *stand_in_notes(robot, configuration),
+        *digit_notes(solution.problem, solution.poses, digit),
+    )
+
+
+def stand_in_notes(robot: Machine | None, configuration: str | None) -> tuple[str, ...]:
+    """What stands in for angles that were given in degrees, in the geometry and the configuration."""
+    if not isinstance(robot, Mechanism):
+        return ()
+    chosen = [entry for entry in robot.configurations if entry.name == configuration]
+    found = (*robot.stand_ins, *(stand_in for entry in chosen for stand_in in entry.stand_ins))
+    return tuple(map(str, found))
 
 
 def written_digit(robot: Machine, configuration: str | None) -> Fraction | None:

@@ -46,7 +46,7 @@ class Asked(Machine):
         >>> print(Robot.load("models/3-rpr-merlet-p.toml"))
         Merlet 3-RPR (3-RPR, lengths in 1), configurations: home
         >>> print(Mechanism.load("models/delta.toml"))
-        Delta (constraints, lengths in 1), configurations: home
+        Delta (delta, lengths in 1), configurations: home, level
         """
         found = read_robot(path)
         if isinstance(found, cls):

@@ -23,7 +23,7 @@ from pkm_exact.balls import ball, hull
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.limits import Cones, Limits, Pair
-from pkm_exact.geometry.mechanism import is_square
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.precision import working_precision
 
@@ -123,11 +123,13 @@ def _actuator_values(machine: Machine, locked: Any, problem: ForwardProblem) -> 
         if not machine.chains:
             return {"lengths": [leg.length_squared for leg in problem.distances]}
         return {"slides": locked.joint_values, "angles": locked.joint_values}
-    actuated = [found for found in problem.constraints if found.name in machine.actuated]
-    fields = [(found.value_field or "", found) for found in actuated]
+    if not isinstance(machine, Mechanism):
+        return {}
+    values = machine.values_of({found.name: found for found in problem.constraints}) or ()
+    sorts = list(map(machine.sort_of, machine.actuated))
     return {
-        "lengths": [getattr(found, field) for field, found in fields if is_square(field)],
-        "slides": [getattr(found, field) for field, found in fields if field == "offset"],
+        sort: [value for own, value in zip(sorts, values, strict=True) if own == sort]
+        for sort in ("lengths", "slides", "angles")
     }
 
 

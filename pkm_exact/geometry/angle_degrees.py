@@ -1,0 +1,141 @@
+"""Angles in degrees as exact points of a circle: a rational half tangent near them, and by how much it is off.
+
+Of rational numbers of degrees, the squared half tangent is rational at 0, 60, 90, 120 and 180 degrees only, where it
+is 0, 1/3, 1, 3 and infinite (Niven's theorem: 4 / (1 + t^2) is twice 1 + cos, and an algebraic integer). Every other
+angle has a stand-in: with exact (C, S) on the circle and (c, s) the cosine and sine of the angle, known to 10^-40,
+
+    |difference| <= pi/2 |S c - C s|,    so that 90 |S c - C s| degrees bound it where C c + S s > 0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, isqrt
+from typing import Final
+
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.chains import CosSin, cosine_and_sine
+from pkm_exact.geometry.rational import NumberText, finite_decimal, parse_rational
+from pkm_exact.wording import shown
+
+_PI: Final = Fraction(31415926535897932384626433832795028841971693993751, 10**49)
+_GRID: Final = 10**45
+_SLACK: Final = Fraction(1, 10**39)
+"""More than the errors of cosine and sine, which are below 10^-40 each."""
+_TERMS: Final = 60
+_DENOMINATOR: Final = 10**9
+"""Of a half tangent that stands in for another: it is off by less than 10^-18 then."""
+_SQUARES: Final = {0: Fraction(0), 60: Fraction(1, 3), 90: Fraction(1), 120: Fraction(3)}
+
+
+@dataclass(frozen=True)
+class StandIn:
+    """An angle that was given in degrees, and the exact one that took its place.
+
+    Attributes
+    ----------
+    name : str
+        Of the actuator, or the place in the file.
+    degrees : Fraction
+        As given.
+    half_tangent : Fraction
+        As taken, divided by the square root of the weight.
+    off : Fraction
+        Greatest difference, in degrees.
+    """
+
+    name: str
+    degrees: Fraction
+    half_tangent: Fraction
+    off: Fraction
+
+    def __str__(self) -> str:
+        given = finite_decimal(self.degrees) or str(self.degrees)
+        return (
+            f"{self.name} was given as {given} degrees, whose cosine and sine are not both rational here; the half "
+            f"tangent {self.half_tangent} stands in for it, off by at most {float(self.off):.0e} degrees, and what is "
+            "proved is proved for that angle"
+        )
+
+
+def angle_in_degrees(
+    value: object, where: str, weight: int = 1, *, exact: bool = False
+) -> tuple[CosSin, StandIn | None]:
+    """The point (c, s) of the circle c^2 + w s^2 = 1 at an angle, and what stands in for the angle if that is not
+    exact.
+
+    Parameters
+    ----------
+    value : object
+        A number of degrees, from -360 to 360.
+    where : str
+        Name of the actuator or field.
+    weight : int
+        w.
+    exact : bool
+        Whether an angle without exact cosine and sine is refused.
+
+    Examples
+    --------
+    >>> point, stand_in = angle_in_degrees("60", "arm 1", 3)
+    >>> [str(x) for x in point], stand_in is None
+    (['1/2', '1/2'], True)
+    >>> point, stand_in = angle_in_degrees("37", "arm 1")
+    >>> point[0] ** 2 + point[1] ** 2 == 1, stand_in.off < Fraction(1, 10**15)
+    (True, True)
+    """
+    degrees = parse_rational(NumberText(value) if isinstance(value, str) and "/" not in value else value, where)
+    if abs(degrees) > 360:
+        raise InputError(f"{where}: {shown(value)} is out of range; give an angle from -360 to 360 degrees")
+    angle = degrees - 360 if degrees > 180 else degrees + 360 if degrees <= -180 else degrees
+    if angle == 180:
+        return (Fraction(-1), Fraction(0)), None
+    square = _SQUARES.get(int(abs(angle))) if angle.denominator == 1 else None
+    root = None if square is None else _rational_root(square / weight)
+    if root is not None:
+        return cosine_and_sine(root if angle > 0 else -root, weight), None
+    if exact:
+        raise InputError(
+            f"{where}: cosine and sine of {shown(value)} degrees are not both rational here, and exact = true; give a "
+            "half tangent or cosine and sine that are, or take exact out"
+        )
+    half_sine, half_cosine = _sine_and_cosine(angle / 2)
+    scale = Fraction(isqrt(weight * _GRID**2), _GRID)
+    tangent = (half_sine / (half_cosine * scale)).limit_denominator(_DENOMINATOR)
+    point = cosine_and_sine(tangent, weight)
+    return point, StandIn(where, degrees, tangent, _difference(point, weight, angle))
+
+
+def _difference(point: CosSin, weight: int, angle: Fraction) -> Fraction:
+    """A bound on how many degrees lie between a point of the circle and an angle."""
+    sine, cosine = _sine_and_cosine(angle)
+    root = Fraction(isqrt(weight * _GRID**2), _GRID)
+    across = abs(point[1] * root * cosine - point[0] * sine) + _SLACK
+    along = point[0] * cosine + point[1] * root * sine
+    return _rounded_up(90 * across) if along > _SLACK else Fraction(180)
+
+
+def _rounded_up(number: Fraction) -> Fraction:
+    """The next number with one significant digit, for a positive one."""
+    unit = Fraction(1)
+    while unit > number:
+        unit /= 10
+    return ceil(number / unit) * unit
+
+
+def _sine_and_cosine(degrees: Fraction) -> tuple[Fraction, Fraction]:
+    """Both, to 10^-40, of an angle between -180 and 180 degrees."""
+    radians = Fraction(round(_PI * degrees / 180 * _GRID), _GRID)
+    sums, term = [Fraction(0), Fraction(0)], Fraction(1)
+    for k in range(_TERMS):
+        sign = -1 if k % 4 >= 2 else 1
+        sums[k % 2] += sign * term
+        term = Fraction(round(term * radians / (k + 1) * _GRID), _GRID)
+    return sums[1], sums[0]
+
+
+def _rational_root(square: Fraction) -> Fraction | None:
+    roots = isqrt(square.numerator), isqrt(square.denominator)
+    found = Fraction(roots[0], roots[1])
+    return found if found * found == square else None
