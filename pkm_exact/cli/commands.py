@@ -16,6 +16,7 @@ from pkm_exact.cli.report_command import report
 from pkm_exact.cli.selftest import selftest
 from pkm_exact.cli.shell_completion import completion
 from pkm_exact.cli.solve import solve
+from pkm_exact.cli.statics_command import statics
 from pkm_exact.cli.sweep import sweep
 from pkm_exact.cli.track import track
 
@@ -26,6 +27,7 @@ COMMANDS: Final = (
     formulations,
     export,
     legs,
+    statics,
     compare,
     track,
     sweep,

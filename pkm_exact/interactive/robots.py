@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Configuration
     from pkm_exact.interactive.answers import Solution
     from pkm_exact.policy import Policy
+    from pkm_exact.poses.pose import Pose
+    from pkm_exact.statics.at_pose import AtPose
 
 
 class Asked(Machine):
@@ -115,6 +117,40 @@ class Asked(Machine):
         with _shown(progress) as show:
             engine: Callable[..., Solution] = solve_krawczyk if method == "krawczyk" else solve
             return replace(engine(problem, progress=show, **chosen), robot=self, configuration=name)
+
+    def at(
+        self,
+        pose: Mapping[str, Any] | Pose,
+        *,
+        configuration: Configuration | LockedValues | str | None = None,
+        modes: str | None = None,
+    ) -> AtPose:
+        """The machine at a pose: wrenches, Jacobians, ranks and singularities, exact or enclosed.
+
+        Parameters
+        ----------
+        pose : mapping or Pose
+            A pose as model files have it, exact and in the coordinates of the file: {"position": [..], "quaternion":
+            [..]}, or {"position": [x, y], "half_tangent": t} in the plane; or a pose of a solution.
+        configuration : str or Configuration, optional
+            That of the solution, by default the first; at an exact pose, whose joint values slides or cranks have.
+        modes : str, optional
+            At an exact pose of slides or cranks, instead: a sign for each leg (``statics.placement.equations_at``).
+
+        Raises
+        ------
+        InputError
+            If the machine cannot be there.
+
+        Examples
+        --------
+        >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
+        >>> robot.at(robot.solve().poses[0]).jacobian.to_numpy().shape
+        (3, 3)
+        """
+        from pkm_exact.statics.asking import machine_at
+
+        return machine_at(self, pose, configuration, modes)
 
 
 @dataclass(frozen=True, repr=False)

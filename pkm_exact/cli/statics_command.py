@@ -1,0 +1,183 @@
+"""The command ``statics``: what a machine can do at a pose. Everything heavy is imported inside it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from pkm_exact.cli import arguments
+from pkm_exact.cli.given_pose import given_pose, pose_of, pose_options
+from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.cli.shell_completion import configurations
+from pkm_exact.errors import InputError
+from pkm_exact.wording import printable, shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.machine import Machine
+    from pkm_exact.statics.at_pose import AtPose
+
+
+@click.command(short_help="Jacobians, wrenches and singularities at a pose.")
+@click.argument("source", type=arguments.FilePath(), metavar="MODEL|CERT")
+@click.option("--pose", "number", type=click.IntRange(min=1), metavar="K", help="Pose number K of the solution.")
+@pose_options(required=False)
+@click.option("--configuration", metavar="NAME", shell_complete=configurations, help="Configuration of the model file.")
+@click.option("--modes", metavar="SIGNS", help="Working mode at --position: + or - for each slide or crank, as in ++-.")
+@click.option("--model", type=arguments.FilePath(), metavar="MODEL", help="The model file of CERT, for its drives.")
+@click.option(
+    "--format",
+    "layout",
+    type=click.Choice(["table", "json"]),
+    default="table",
+    show_default=True,
+    help="What to print: decimals, or exact bounds as json.",
+)
+def statics(
+    source: str,
+    number: int | None,
+    position: str | None,
+    nearest: Fraction | None,
+    in_metric: bool,
+    configuration: str | None,
+    modes: str | None,
+    model: str | None,
+    layout: str,
+    **turns: str | None,
+) -> int:
+    """Print what a machine can do at a pose: wrenches, Jacobians, ranks and singularities.
+
+    MODEL is a model file: the pose is given by --position and a rotation, exactly, or it is pose K of the solution of a
+    configuration. CERT is a certificate, which is checked first; its poses are enclosed by its boxes.
+
+    \b
+    Examples:
+      certify-poses statics models/rolland-6-6.toml --position 0,0,650 --quaternion 9,1,0,-1
+      certify-poses statics models/linapod-n.toml --position 0,0,0 --quaternion 1,0,0,0 --modes ++++++
+      certify-poses statics certs/3-rps.json --pose 2 --format json
+    """
+    given = None
+    if position is not None:
+        if number is not None:
+            raise click.UsageError("--pose and --position exclude each other.")
+        given = given_pose(position, in_metric=in_metric, nearest=nearest, **turns)
+    elif any(turns.values()):
+        raise click.UsageError("--position: is missing, give the platform's origin as well.")
+    if _is_certificate(source):
+        for name, value in (("--position", position), ("--configuration", configuration), ("--modes", modes)):
+            if value is not None:
+                raise click.UsageError(f"{name}: is for a model file; of a certificate give --pose K.")
+        found, used = _at_certified_pose(source, number, model), None
+        if found is None:
+            return ExitCode.REJECTED
+    else:
+        if model is not None:
+            raise click.UsageError("--model: is for a certificate.")
+        found, used = _at_pose_of_model(source, number, given, configuration, modes)
+    from pkm_exact.cli import statics_report
+
+    if layout == "json":
+        sys.stdout.write(json.dumps(statics_report.as_object(found, used), indent=1) + "\n")
+    else:
+        sys.stdout.write(statics_report.as_text(found, used))
+    return ExitCode.DONE
+
+
+def _is_certificate(source: str) -> bool:
+    """Whether a file is JSON, by its name or its first character."""
+    if source.endswith(".json"):
+        return True
+    if source.endswith(".toml"):
+        return False
+    try:
+        with Path(source).open("rb") as stream:
+            return stream.read(64).lstrip()[:1] == b"{"
+    except OSError:
+        return False
+
+
+def _at_pose_of_model(
+    source: str, number: int | None, given: Any, configuration: str | None, modes: str | None
+) -> tuple[AtPose, Fraction | None]:
+    """The machine at an exact pose, and by how much that may be off; or at a pose of its solution."""
+    from pkm_exact.cli.model_reading import announced_model
+    from pkm_exact.statics.asking import machine_at_solution
+    from pkm_exact.statics.at_pose import at_rational_pose
+    from pkm_exact.statics.placement import held_at
+
+    robot = announced_model(source)
+    try:
+        if given is not None:
+            chosen = None if configuration is None else robot.configuration(configuration)
+            place, rotation, used = pose_of(given, robot, source)
+            found = held_at(robot, place, rotation, chosen, modes)
+            return at_rational_pose(robot, found, place, rotation), used
+        if modes is not None:
+            raise InputError("--modes: belongs to --position; the joint values of a solution are its configuration's")
+        return _solved(robot, source, number, configuration, machine_at_solution), None
+    except InputError as error:
+        text = str(error)
+        raise InputError(text if text.startswith(source) else f"{source}: {text}") from None
+
+
+def _solved(robot: Machine, source: str, number: int | None, configuration: str | None, ask: Any) -> AtPose:
+    from pkm_exact.engine import solve
+    from pkm_exact.interactive.progress import Progress
+
+    chosen, problem = arguments.chosen_problem(robot, source, configuration)
+    with Progress(verbose=False) as progress:
+        solution = solve(problem, progress=progress)
+    found: AtPose = ask(robot, problem, solution.poses[_chosen(number, len(solution.poses)) - 1], chosen)
+    return found
+
+
+def _chosen(number: int | None, count: int) -> int:
+    """Which pose is meant."""
+    if count == 0:
+        raise InputError("--pose: there is no real pose; give --position and a rotation")
+    if number is None:
+        if count > 1:
+            raise InputError(f"--pose: is missing; there are {count} poses, give a number from 1 to {count}")
+        return 1
+    if number > count:
+        raise InputError(f"--pose: {number} is too large; there are {count} poses, give a number from 1 to {count}")
+    return number
+
+
+def _at_certified_pose(source: str, number: int | None, model: str | None) -> AtPose | None:
+    """The machine at a pose of an accepted certificate; None if it is rejected."""
+    from pkm_exact.certify.certified_machine import certified_configuration, certified_machine, certified_problem
+    from pkm_exact.cli.model_reading import announced_model
+    from pkm_exact.pictures.scene import RejectedError, accepted_document
+    from pkm_exact.poses.pose_spelling import pose_of as box_of
+    from pkm_exact.statics.asking import machine_at_solution
+
+    try:
+        document = accepted_document(Path(source))
+    except RejectedError as error:
+        click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
+        return None
+    if "poses" not in document or "robot" not in document:
+        raise InputError(f"{source}: is no certificate of poses; give one that certify-poses solve wrote")
+    problem, chosen = certified_problem(document), None
+    machine: Machine = certified_machine(document)
+    if model is not None:
+        machine = announced_model(model)
+        name = certified_configuration(document)
+        chosen = machine.configuration(name)
+        if machine.problem(chosen).digest != problem.digest:
+            raise InputError(
+                f"{model}: configuration {shown(chosen.name)} is not the robot of {source}; give its model"
+            )
+    try:
+        place = _chosen(number, len(document["poses"])) - 1
+    except InputError as error:
+        raise InputError(f"{source}: {error}") from None
+    entry = document["poses"][place]
+    pose = replace(box_of(entry), multiplicity=entry["multiplicity"])
+    return machine_at_solution(machine, problem, pose, chosen)

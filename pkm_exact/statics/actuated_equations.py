@@ -1,0 +1,190 @@
+"""The scalar equations that hold a platform, and what moves each of them: a twist of the platform, its actuators.
+
+An equation F = 0 changes with a twist y of the platform, in rational coordinates, by W.y, and with the value q of an
+actuator by -rate q'. So the actuators move with the platform by
+
+    W y = rate q',    q' = J t
+
+Of a leg of length q it is |C + R B - A|^2 = q^2, W the derivative of the left side and rate 2 q. Of an offset or a
+product, rate is 1. A drive, a slide or a crank, moves fields of the constraint along a velocity d: F is a polynomial of
+degree 2 in its step h d, so that the rate is (F(-d) - F(d)) / 2, exactly.
+
+References: Gosselin and Angeles, IEEE Trans. Robotics and Automation 6 (1990), 281-290, for the two Jacobians; Shayya
+et al., IROS 2014, equations (14) to (17).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any, Final, TypeAlias
+
+from pkm_exact.constraints.constraint import Constraint, SquareForm
+from pkm_exact.constraints.form import Form
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.inverse import Metric
+from pkm_exact.geometry.mechanism import is_square
+
+AnyForm: TypeAlias = Form | SquareForm
+_UNIT: Final = Fraction(1)
+
+
+@dataclass(frozen=True)
+class Rate:
+    """How the value of an actuator enters an equation.
+
+    Attributes
+    ----------
+    actuator : int
+        Its index.
+    value_squared : Fraction or None
+        The square of a length that is the value.
+    stepped : pair of forms, or None
+        The equation with the actuator one unit forth and back along its velocity; without either, the rate is 1.
+    """
+
+    actuator: int
+    value_squared: Fraction | None = None
+    stepped: tuple[AnyForm, AnyForm] | None = None
+
+
+@dataclass(frozen=True)
+class Equation:
+    """One scalar equation of a constraint.
+
+    Attributes
+    ----------
+    name : str
+        That of its constraint; of a constraint of several equations with its number.
+    form : Form or SquareForm
+        It vanishes at the pose.
+    size_squared : Fraction
+        The square of what makes the wrench one of unit force, or of unit moment where it has no force.
+    rates : tuple of Rate
+        Of the actuators that enter it.
+    """
+
+    name: str
+    form: AnyForm
+    size_squared: Fraction
+    rates: tuple[Rate, ...] = ()
+
+
+@dataclass(frozen=True)
+class Actuator:
+    """An actuator.
+
+    Attributes
+    ----------
+    name : str
+    unit : str
+        Of its value: "length", "angle" (radians) or "1".
+    equation : int
+        Index of the equation that gives its speed: the first that it enters.
+    """
+
+    name: str
+    unit: str
+    equation: int
+
+
+@dataclass(frozen=True)
+class Held:
+    """What holds a platform.
+
+    Attributes
+    ----------
+    equations : tuple of Equation
+        In the order of the constraints.
+    actuators : tuple of Actuator
+    """
+
+    equations: tuple[Equation, ...]
+    actuators: tuple[Actuator, ...] = ()
+
+    @property
+    def structural(self) -> tuple[int, ...]:
+        """Indices of the equations that give no actuator its speed."""
+        driven = {actuator.equation for actuator in self.actuators}
+        return tuple(index for index in range(len(self.equations)) if index not in driven)
+
+
+@dataclass(frozen=True)
+class Motor:
+    """An actuator as a mechanism has it: the constraint whose value it sets, or what it moves.
+
+    Attributes
+    ----------
+    name, unit : str
+    constraint : str
+        Of the equation that gives its speed.
+    velocities : mapping, or None
+        Of constraints and their fields, for each unit of the value; None if it sets the constraint's own value.
+    """
+
+    name: str
+    unit: str
+    constraint: str
+    velocities: Mapping[tuple[str, str], Any] | None = None
+
+
+def held(constraints: Sequence[tuple[str, Constraint]], metric: Metric, motors: Sequence[Motor]) -> Held:
+    """The equations of named constraints and of their motors.
+
+    Raises
+    ------
+    InputError
+        If a motor drives a constraint of several equations, or two drive one.
+    """
+    equations: list[Equation] = []
+    places: dict[str, int] = {}
+    for name, constraint in constraints:
+        forms, scales = _forms(constraint, metric), constraint.scales(metric, _UNIT)
+        steps = [(index, _stepped(name, constraint, motor, metric)) for index, motor in enumerate(motors)]
+        places[name] = len(equations)
+        for k, (form, scale) in enumerate(zip(forms, scales, strict=True)):
+            title = name if len(forms) == 1 else f"{name} ({k + 1})"
+            rates = tuple(Rate(index, stepped=(up[k], down[k])) for index, (up, down) in steps if up)
+            rates += tuple(
+                Rate(index, _square(constraint))
+                for index, motor in enumerate(motors)
+                if motor.velocities is None and motor.constraint == name
+            )
+            equations.append(Equation(title, form, scale, rates))
+    for motor in motors:
+        shared = [other.name for other in motors if other is not motor and other.constraint == motor.constraint]
+        found = dict(constraints)[motor.constraint]
+        if shared or len(_forms(found, metric)) != 1:
+            why = f"and {shared[0]} drive one constraint" if shared else "drives a constraint of several equations"
+            raise InputError(f"{motor.name}: {why}; velocities and forces are not computed for that")
+    return Held(tuple(equations), tuple(Actuator(m.name, m.unit, places[m.constraint]) for m in motors))
+
+
+def _forms(constraint: Constraint, metric: Metric) -> list[AnyForm]:
+    return [*constraint.forms(metric), *constraint.squares(metric)]
+
+
+def _square(constraint: Constraint) -> Fraction | None:
+    """The square of the value that an actuator sets, if it is a length."""
+    field = constraint.value_field or ""
+    return getattr(constraint, field) if is_square(field) else None
+
+
+def _stepped(name: str, constraint: Constraint, motor: Motor, metric: Metric) -> tuple[list[AnyForm], list[AnyForm]]:
+    """The forms with the motor one unit forth and back; none if it does not move the constraint."""
+    moved = {field: step for (place, field), step in (motor.velocities or {}).items() if place == name}
+    if not moved:
+        return [], []
+    found = []
+    for sign in (1, -1):
+        fields = {field: _sum(getattr(constraint, field), step, sign) for field, step in moved.items()}
+        changed: Any = constraint
+        found.append(_forms(replace(changed, **fields), metric))
+    return found[0], found[1]
+
+
+def _sum(start: Any, step: Any, sign: int) -> Any:
+    if isinstance(start, tuple):
+        return tuple(a + b * sign for a, b in zip(start, step, strict=True))
+    return start + step * sign

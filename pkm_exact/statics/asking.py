@@ -1,0 +1,55 @@
+"""Any machine, any pose: what users give becomes a machine at a pose."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.machine import Machine
+from pkm_exact.geometry.pose_reader import read_pose
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.poses.pose import Pose
+from pkm_exact.statics.at_pose import AtPose, at_box, at_rational_pose
+from pkm_exact.statics.placement import held_at, held_in_solution
+
+
+def machine_at(
+    machine: Machine, pose: Mapping[str, Any] | Pose, configuration: Any = None, modes: str | None = None
+) -> AtPose:
+    """A machine at a pose of a solution, or at one given as model files give it.
+
+    Raises
+    ------
+    InputError
+        If it is no pose of the machine; the message says what to do.
+    """
+    if isinstance(pose, Pose):
+        if modes is not None:
+            raise InputError(
+                "modes: belong to an exact pose; the joint values of a solution are those of its configuration"
+            )
+        chosen = machine.configuration(configuration) if _is_name(configuration) else configuration
+        return machine_at_solution(machine, machine.problem(chosen), pose, chosen)
+    position, rotation = read_pose(
+        dict(pose) if isinstance(pose, Mapping) else pose, "pose", machine.motion, machine.metric
+    )
+    if configuration is not None and _is_name(configuration):
+        configuration = machine.configuration(configuration)
+    found = held_at(machine, position, rotation, configuration, modes)
+    return at_rational_pose(machine, found, position, rotation)
+
+
+def machine_at_solution(machine: Machine, problem: ForwardProblem, pose: Pose, configuration: Any = None) -> AtPose:
+    """A machine at a certified pose of a problem of it."""
+    rank = None
+    if pose.jacobian is not None:
+        rank = pose.jacobian.rank
+    elif pose.multiplicity == 1 and problem.equation_count == problem.motion.dimension:
+        rank = problem.motion.dimension
+    found = held_in_solution(machine, problem, configuration)
+    return at_box(machine, found, pose.position, pose.rotation, rank)
+
+
+def _is_name(configuration: Any) -> bool:
+    return configuration is None or isinstance(configuration, str)
