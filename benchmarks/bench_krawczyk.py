@@ -24,7 +24,8 @@ from pkm_exact.backends.msolve_program import find_msolve, msolve_command, msolv
 from pkm_exact.formulations.registry import formulation
 from pkm_exact.numeric.nearby import nearby_start
 from pkm_exact.numeric.newton_iteration import newton
-from pkm_exact.numeric.numeric_robot import StartPose, numeric_robot
+from pkm_exact.numeric.numeric_machine import StartPose
+from pkm_exact.numeric.numeric_robot import numeric_robot
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Pose
 from pkm_exact.solution import Solution

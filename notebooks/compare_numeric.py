@@ -26,7 +26,8 @@ from pkm_exact.comparison.numeric import WIDTH, compare_numeric
 from pkm_exact.comparison.numeric_distance import Judge, Landing
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.numeric.newton_iteration import newton
-from pkm_exact.numeric.numeric_robot import StartPose, numeric_robot
+from pkm_exact.numeric.numeric_machine import StartPose
+from pkm_exact.numeric.numeric_robot import numeric_robot
 from pkm_exact.poses.jacobian import characteristic_length
 
 root = next(folder for folder in (Path.cwd(), *Path.cwd().parents) if (folder / "models").is_dir())

@@ -297,7 +297,10 @@ BAD_USAGE = [
     (["solve", GENERAL, "--method", "newton", "--time-limit", "1"], "--time-limit: belongs to the methods exact and"),
     (["solve", GENERAL, "--method", "newton", "-o", "c.json"], "-o: a pose of the method newton is uncertified"),
     (["solve", GENERAL, "--method", "newton", "--start", "0,0,1,1"], "--start: 4 numbers given, seven are needed"),
-    (["solve", GENERAL, "--method", "newton", "--start", "0,0,90"], "3 numbers, but the robot is spatial; give X,Y,Z"),
+    (
+        ["solve", GENERAL, "--method", "newton", "--start", "0,0,90"],
+        "3 numbers, but the robot is not planar; give X,Y,Z",
+    ),
     (
         ["solve", PLANAR, "--method", "newton", "--start", "0,0,1,1,0,0,0"],
         "7 numbers, but the robot is planar; give X",

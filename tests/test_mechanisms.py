@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from mechanism_samples import MECHANISMS, ORIGIN, Some, distance, general, h4, hinged, plane, solved, vector
 
 from pkm_exact.claim import Claim, RealMotion
+from pkm_exact.cli.feasible_poses import ShownPoses
 from pkm_exact.cli.table import print_table
 from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.at_point import AtPoint
@@ -140,7 +141,7 @@ def test_redundant_mechanisms_are_shown_without_a_sign(capsys: pytest.CaptureFix
     named = tuple(replace(leg, name=f"leg {k}") for k, leg in enumerate(legs, 1))
     robot = Mechanism("seven legs", "m", "made up for a test", named)
     solution = solve(robot.problem(robot.configuration()))
-    print_table(robot, "home", solution, "", verbose=False)
+    print_table(robot, "home", solution, "", ShownPoses.of(robot, "home", solution), verbose=False)
     shown = capsys.readouterr().out
     assert "assembly modes" not in shown
     assert shown.splitlines()[-1].split()[-2:] == ["none", "12.06"]

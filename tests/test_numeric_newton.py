@@ -33,9 +33,9 @@ from pkm_exact.numeric.newton_iteration import (
     NotConvergedError,
     newton,
     solve_newton,
-    transposed_jacobian,
 )
-from pkm_exact.numeric.numeric_robot import NumericRobot, StartPose, centred, numeric_robot, placed
+from pkm_exact.numeric.numeric_machine import StartPose, centred, placed
+from pkm_exact.numeric.numeric_robot import NumericRobot, numeric_robot, transposed_jacobian
 from pkm_exact.numeric.quaternions import rotation_matrix, turned
 from pkm_exact.numeric.uncertified import Ending, NumericPose, UncertifiedSolution
 from pkm_exact.solution import Solution

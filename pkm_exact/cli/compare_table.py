@@ -14,6 +14,7 @@ from pkm_exact.indices.index import Output
 from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.interactive.display import headline
+from pkm_exact.numeric.poses import is_tracked
 from pkm_exact.poses.planar_coordinates import angle_in_degrees, planar_coordinates
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ def print_comparison(robot: Machine, configuration: str | None, comparison: Nume
         print_rows(rows, ("", "x", "y", third, *headings, *names))
     for result in comparison.results:
         sys.stdout.write(_sentence(result, comparison))
+    if not is_tracked(comparison.solution.problem):
+        sys.stdout.write("path tracking: no paths lead to cylinders, nor to more constraints than freedoms\n")
 
 
 def print_certified(robot: Machine, configuration: str | None, solution: Solution, starts: str = "") -> None:

@@ -17,9 +17,9 @@ from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
-    from pkm_exact.geometry.robot import Robot
-    from pkm_exact.numeric.numeric_robot import StartPose
+    from pkm_exact.numeric.numeric_machine import StartPose
     from pkm_exact.numeric.uncertified import UncertifiedSolution
     from pkm_exact.solution import Solution
 
@@ -85,7 +85,7 @@ def solved_by_newton(problem: ForwardProblem, start: tuple[float, ...] | None) -
 
 
 def _start_pose(values: tuple[float, ...], motion: Motion) -> StartPose:
-    from pkm_exact.numeric.numeric_robot import StartPose
+    from pkm_exact.numeric.numeric_machine import StartPose
 
     if motion.is_planar and len(values) == 3:
         x, y, angle = values
@@ -95,13 +95,13 @@ def _start_pose(values: tuple[float, ...], motion: Motion) -> StartPose:
         x, y, z, *quaternion = values
         q0, q1, q2, q3 = quaternion
         return StartPose((x, y, z), (q0, q1, q2, q3))
-    planar, spatial = "planar; give X,Y,DEGREES", "spatial; give X,Y,Z,Q0,Q1,Q2,Q3"
-    wanted = f"the robot is {planar if motion.is_planar else spatial}"
+    planar, others = "planar; give X,Y,DEGREES", "not planar; give X,Y,Z,Q0,Q1,Q2,Q3"
+    wanted = f"the robot is {planar if motion.is_planar else others}"
     raise InputError(f"--start: {len(values)} numbers, but {wanted}")
 
 
 def report_uncertified(
-    robot: Robot, name: str | None, solution: UncertifiedSolution, layout: str, output: str | None, *, verbose: bool
+    robot: Machine, name: str | None, solution: UncertifiedSolution, layout: str, output: str | None, *, verbose: bool
 ) -> ExitCode:
     """Print a solution without a certificate; say on stderr that none was written, if one was asked for."""
     from pkm_exact.cli.numeric_report import report

@@ -126,7 +126,7 @@ def solve(
         except InputError as error:
             raise InputError(f"{model}: {error}") from None
     if isinstance(solution, UncertifiedSolution):
-        return report_uncertified(jointed(robot, "--method newton"), name, solution, layout, output, verbose=verbose)
+        return report_uncertified(robot, name, solution, layout, output, verbose=verbose)
     if tolerances is not None:
         with Progress(verbose=verbose) as progress:
             return tolerance_report.report_tolerances(

@@ -17,12 +17,12 @@ from typing import Any, Final
 
 from pkm_exact.claim_wording import INFINITE, without_a_list
 from pkm_exact.comparison.numeric_distance import Judge, Judged, Landing
-from pkm_exact.comparison.numeric_engines import ENGINES
+from pkm_exact.comparison.numeric_engines import engines_for
 from pkm_exact.engine import solve
 from pkm_exact.errors import PkmExactError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.levenberg_marquardt import DescentPolicy
-from pkm_exact.numeric.numeric_robot import numeric_robot
+from pkm_exact.numeric.numeric_mechanism import numeric_machine
 from pkm_exact.numeric.uncertified import NumericPose
 from pkm_exact.poses.jacobian import characteristic_length
 from pkm_exact.roots.interval import Interval
@@ -187,13 +187,13 @@ def compare_numeric(
     NothingToCompareError
         If it has no list of all poses, since they form a set of positive dimension, or seem to.
     """
-    robot = numeric_robot(problem)
+    robot = numeric_machine(problem)
     certified = solve(problem, width=WIDTH, progress=progress) if solution is None else solution
     if certified.claim in INFINITE:
         raise NothingToCompareError(certified)
     judge = Judge(problem, certified.poses, characteristic_length(problem))
     results = []
-    for name, engine in ENGINES.items():
+    for name, engine in engines_for(problem).items():
         if progress is not None:
             progress(name)
         begin = perf_counter()

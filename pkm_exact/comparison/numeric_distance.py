@@ -1,6 +1,7 @@
 """How far a pose in floating point is from certified ones: certified bounds, and which of them it belongs to.
 
-The distance between two poses is the greatest displacement of a platform joint, in the robot's unit of length:
+The distance between two poses is the greatest displacement of a platform joint, in the robot's unit of length, of a
+mechanism that of a point of the platform that its constraints name, or of three along its axes:
 
     d = max_i |C + R B_i - C' - R' B_i|
 
@@ -19,7 +20,9 @@ from typing import Final
 from flint import arb, arb_mat
 
 from pkm_exact.balls import ball, hull
+from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric.numeric_mechanism import platform_markers
 from pkm_exact.numeric.uncertified import NumericPose
 from pkm_exact.poses.pose import Pose
 from pkm_exact.precision import working_precision
@@ -66,6 +69,11 @@ class Judged:
     error: Interval | None = None
 
 
+def platform_points(problem: ForwardProblem) -> list[Vector]:
+    """Whose displacement is the distance: the platform joints; of a mechanism also three points along its axes."""
+    return [leg.platform for leg in problem.gough_legs] if problem.is_gough else platform_markers(problem)
+
+
 class Judge:
     """The certified poses of a robot, ready to be compared with.
 
@@ -83,8 +91,9 @@ class Judge:
         self._precision = 64 + max(ends, default=0) + GUARD_BITS
         with working_precision(self._precision):
             scales = [arb(g).sqrt() for g in problem.metric]
-            rows = [[scale * ball(leg.platform[i]) for leg in problem.distances] for i, scale in enumerate(scales)]
-            self._joints = arb_mat([*rows, [arb(1)] * len(problem.distances)])
+            joints = platform_points(problem)
+            rows = [[scale * ball(joint[i]) for joint in joints] for i, scale in enumerate(scales)]
+            self._joints = arb_mat([*rows, [arb(1)] * len(joints)])
             self._places = [
                 self._placed(
                     [

@@ -13,8 +13,9 @@ from pkm_exact.motions.motion import Motion
 from pkm_exact.numeric.home import home_pose, random_states
 from pkm_exact.numeric.levenberg_marquardt import DescentPolicy, levenberg_marquardt
 from pkm_exact.numeric.newton_iteration import newton, newton_from
-from pkm_exact.numeric.numeric_robot import NumericRobot
-from pkm_exact.numeric.poses import approximations
+from pkm_exact.numeric.numeric_machine import NumericMachine
+from pkm_exact.numeric.poses import approximations, is_tracked
+from pkm_exact.numeric.quaternions import rotation_matrix
 from pkm_exact.numeric.study_system import Complex, motion_values
 from pkm_exact.numeric.uncertified import NumericPose
 from pkm_exact.stages import Amount, Watch
@@ -39,15 +40,15 @@ class Ends:
     others: dict[str, int] = field(default_factory=dict)
 
 
-Engine: TypeAlias = Callable[[ForwardProblem, NumericRobot, int, int, Watch], Ends]
+Engine: TypeAlias = Callable[[ForwardProblem, NumericMachine, int, int, Watch], Ends]
 
 
-def newton_at_home(_problem: ForwardProblem, robot: NumericRobot, _starts: int, _seed: int, _watch: Watch) -> Ends:
+def newton_at_home(_problem: ForwardProblem, robot: NumericMachine, _starts: int, _seed: int, _watch: Watch) -> Ends:
     """Newton's method from the home pose."""
     return Ends((newton(robot, home_pose(robot)),))
 
 
-def newton_anywhere(_problem: ForwardProblem, robot: NumericRobot, starts: int, seed: int, watch: Watch) -> Ends:
+def newton_anywhere(_problem: ForwardProblem, robot: NumericMachine, starts: int, seed: int, watch: Watch) -> Ends:
     """Newton's method from random poses."""
     c, quaternions = random_states(robot, starts, seed)
     poses = []
@@ -57,12 +58,12 @@ def newton_anywhere(_problem: ForwardProblem, robot: NumericRobot, starts: int, 
     return Ends(tuple(poses))
 
 
-def descent(_problem: ForwardProblem, robot: NumericRobot, starts: int, seed: int, _watch: Watch) -> Ends:
+def descent(_problem: ForwardProblem, robot: NumericMachine, starts: int, seed: int, _watch: Watch) -> Ends:
     """Levenberg-Marquardt from the same poses."""
     return Ends(levenberg_marquardt(robot, DescentPolicy(starts=starts, seed=seed)))
 
 
-def path_tracking(problem: ForwardProblem, robot: NumericRobot, _starts: int, _seed: int, watch: Watch) -> Ends:
+def path_tracking(problem: ForwardProblem, robot: NumericMachine, _starts: int, _seed: int, watch: Watch) -> Ends:
     """The paths from all solutions of a generic robot; those that end at real points are refined by Newton's method."""
     found = approximations(problem, watch=watch)
     poses, complex_ends = [], 0
@@ -74,7 +75,9 @@ def path_tracking(problem: ForwardProblem, robot: NumericRobot, _starts: int, _s
             continue
         e = _full(turned, problem.motion).real[:4]
         q0, q1, q2, q3 = (e / np.linalg.norm(e)).tolist()
-        c = (values[4:7] / values[-1]).real * (found.section.frames.unit / robot.unit)
+        frames, rotation = found.section.frames, rotation_matrix((q0, q1, q2, q3))
+        c = frames.base - robot.base_centre + rotation @ (robot.platform_centre - frames.platform)
+        c = (c + frames.unit * (values[4:7] / values[-1]).real) / robot.unit
         poses.append(newton_from(robot, c, (q0, q1, q2, q3)))
     lost = problem.solution_bound - len(found.points)
     return Ends(tuple(poses), {"not real": complex_ends, "lost or at infinity": lost})
@@ -93,3 +96,14 @@ ENGINES: Final[dict[str, Engine]] = {
     "levenberg-marquardt": descent,
     "path tracking": path_tracking,
 }
+
+
+def engines_for(problem: ForwardProblem) -> dict[str, Engine]:
+    """Those that there are for a robot: no paths lead to mechanisms with cylinders or redundant constraints.
+
+    Examples
+    --------
+    >>> list(engines_for(ForwardProblem(())))
+    ['newton, home', 'newton', 'levenberg-marquardt']
+    """
+    return {name: engine for name, engine in ENGINES.items() if engine is not path_tracking or is_tracked(problem)}

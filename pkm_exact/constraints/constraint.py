@@ -32,6 +32,7 @@ class SquareForm:
     ----------
     linear, root : Form
     factor : Fraction
+        Positive.
     """
 
     linear: Form

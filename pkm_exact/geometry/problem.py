@@ -74,7 +74,7 @@ class ForwardProblem:
             If it is another robot.
         """
         legs = self.distances
-        if self.motion not in (SPATIAL, PLANAR) or len(legs) != self.motion.dimension:
+        if not self.is_gough:
             raise InputError(
                 f"constraints: {len(legs)} legs and {self.motion.name} motions, but this question is for six legs in "
                 "space or three in the plane; ask another one, or about another robot"
@@ -82,6 +82,12 @@ class ForwardProblem:
         if self.motion == PLANAR and any(leg.base[2] or leg.platform[2] for leg in legs):
             raise InputError("constraints: a joint is out of the plane; give third coordinates 0")
         return legs
+
+    @property
+    def is_gough(self) -> bool:
+        """Whether it has six legs of known length in space or three in the plane, and no other constraint."""
+        is_of_kind = self.motion in (SPATIAL, PLANAR) and len(self.constraints) == self.motion.dimension
+        return is_of_kind and self.has_only_distances
 
     @property
     def has_only_distances(self) -> bool:

@@ -15,7 +15,7 @@ from pkm_exact.errors import InternalError, PkmExactError
 from pkm_exact.failures.failure_report import internal_error
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.levenberg_marquardt import solve_levenberg_marquardt
-from pkm_exact.numeric.numeric_robot import numeric_robot
+from pkm_exact.numeric.numeric_mechanism import numeric_machine
 from pkm_exact.numeric.uncertified import UncertifiedSolution
 from pkm_exact.processes import end_with_parent, messages, process_apart
 from pkm_exact.solution import Solution
@@ -50,7 +50,7 @@ def solve_within(
     InputError
         If a number of the robot is out of reach of floating point.
     """
-    numeric_robot(problem)  # what floating point cannot hold is refused before the time is spent
+    numeric_machine(problem)  # what floating point cannot hold is refused before the time is spent
     stage = "start"
     with process_apart(_work, engine, problem) as (receiver, process):
         try:

@@ -15,7 +15,9 @@ from typing import Final
 
 import numpy as np
 
-from pkm_exact.numeric.numeric_robot import NumericRobot, Real, StartPose, placed
+from pkm_exact.numeric.numeric_machine import NumericMachine, Real, StartPose, placed
+from pkm_exact.numeric.numeric_mechanism import NumericMechanism
+from pkm_exact.numeric.numeric_robot import NumericRobot
 from pkm_exact.numeric.quaternions import rotation_matrix
 from pkm_exact.numeric.uncertified import Quaternion
 
@@ -23,21 +25,42 @@ NOTHING: Final = 1e-9
 """What is smaller, on a robot of size 1, is taken for 0 when a start is chosen."""
 
 
-def random_states(robot: NumericRobot, count: int, seed: int) -> tuple[Real, Real]:
+def random_states(machine: NumericMachine, count: int, seed: int) -> tuple[Real, Real]:
     """``count`` poses (c, q) as arrays (m, 3) and (4, m): rotations uniform, directions of c too, |c| by (1).
 
-    Where (1) has no solution for a rotation, c is 0. The same seed gives the same poses, the first ones whatever the
-    count.
+    Where (1) has no solution for a rotation, or no constraint is a leg, c is 0 or of about the size of the machine. The
+    same seed gives the same poses, the first ones whatever the count.
     """
     c, quaternions = np.zeros((count, 3)), np.zeros((4, count))
     generator = np.random.default_rng(seed)
-    moving = ((0, 3), (0, 1)) if robot.motion.is_planar else ((0, 1, 2, 3), (0, 1, 2))
+    twist = machine.motion.twist
+    moving = (0, *(axis - 2 for axis in twist if axis > 2)), tuple(axis for axis in twist if axis < 3)
     for index in range(count):
-        for target, axes in ((quaternions[:, index], moving[0]), (c[index], moving[1])):
-            values = generator.standard_normal(len(axes))
-            target[list(axes)] = values / np.linalg.norm(values)
-    c *= np.sqrt(np.maximum(distance_squared(robot, rotation_matrix(tuple(quaternions))), 0))[:, None]
+        for target, axes in zip((quaternions[:, index], c[index]), moving, strict=True):
+            if axes:
+                values = generator.standard_normal(len(axes))
+                target[list(axes)] = values / np.linalg.norm(values)
+    rotations = rotation_matrix(tuple(quaternions))
+    if isinstance(machine, NumericRobot):
+        c *= np.sqrt(np.maximum(distance_squared(machine, rotations), 0))[:, None]
+    elif isinstance(machine, NumericMechanism):
+        c *= np.array([_reach(machine, *state) for state in zip(rotations, c, strict=True)])[:, None]
     return c, quaternions
+
+
+def _reach(machine: NumericMechanism, rotation: Real, direction: Real) -> float:
+    """How far the platform is in a direction if (1) holds for those constraints that are legs; 1 if there are none.
+
+    Where it cannot hold, half a mean length of the legs.
+    """
+    if not len(machine.lengths):
+        return 1.0
+    base, platform = machine.legs
+    apart = rotation @ platform - base
+    along = float(direction @ apart.mean(axis=1))
+    square, legs = float((apart * apart).sum(axis=0).mean()), float(np.mean(machine.lengths**2))
+    root = along * along - square + legs
+    return sqrt(root) - along if root >= NOTHING else sqrt(legs) / 2
 
 
 def distance_squared(robot: NumericRobot, rotation: Real) -> Real:
@@ -46,7 +69,7 @@ def distance_squared(robot: NumericRobot, rotation: Real) -> Real:
     return np.asarray(np.mean(robot.lengths**2) - (apart * apart).sum(axis=-2).mean(axis=-1))
 
 
-def home_pose(robot: NumericRobot) -> StartPose:
+def home_pose(machine: NumericMachine) -> StartPose:
     """A start that needs no knowledge of the robot: the platform over the base.
 
     Spatial: the rotation brings the platform's joints nearest to the base joints of their legs, and the centroid stands
@@ -56,6 +79,9 @@ def home_pose(robot: NumericRobot) -> StartPose:
     Planar: the centroids coincide, and the platform is turned counterclockwise from where its joints are nearest to the
     base joints until (1) holds. If it cannot hold so, the platform is not turned, and is moved as above, along the
     second axis.
+
+    Mechanisms declared by constraints: the platform is not turned, and moved from where the centres coincide along the
+    last axis along which it can move, as far as (1) says for those constraints that are legs, or by about its size.
 
     Examples
     --------
@@ -68,6 +94,9 @@ def home_pose(robot: NumericRobot) -> StartPose:
     >>> [round(x, 9) for x in home_pose(robot).position], home_pose(robot).quaternion
     ([0.0, 0.0, 5.0], (1.0, 0.0, 0.0, 0.0))
     """
+    if not isinstance(machine, NumericRobot):
+        return _mechanism_home(machine)
+    robot = machine
     if robot.motion.is_planar:
         quaternion, over = _planar_home(robot)
         direction = np.array([0.0, 1.0, 0.0])
@@ -78,6 +107,16 @@ def home_pose(robot: NumericRobot) -> StartPose:
     if not over and square < NOTHING:
         square = float(np.mean(robot.lengths**2)) / 4
     return StartPose(placed(robot, sqrt(square) * direction, quaternion)[0], quaternion)
+
+
+def _mechanism_home(machine: NumericMachine) -> StartPose:
+    identity = (1.0, 0.0, 0.0, 0.0)
+    axis = max((axis for axis in machine.motion.twist if axis < 3), default=None)
+    c = np.zeros(3)
+    if axis is not None and isinstance(machine, NumericMechanism):
+        c[axis] = 1.0
+        c *= _reach(machine, np.eye(3), c)
+    return StartPose(placed(machine, c, identity)[0], identity)
 
 
 def _planar_home(robot: NumericRobot) -> tuple[Quaternion, bool]:

@@ -20,9 +20,9 @@ from numpy.typing import NDArray
 
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.home import random_states
-from pkm_exact.numeric.newton_iteration import moving_rows, transposed_jacobian
-from pkm_exact.numeric.numeric_robot import NumericRobot, Real, numeric_pose, numeric_robot
-from pkm_exact.numeric.quaternions import rotation_matrix, turned
+from pkm_exact.numeric.numeric_machine import NumericMachine, Place, Real, numeric_pose
+from pkm_exact.numeric.numeric_mechanism import numeric_machine
+from pkm_exact.numeric.quaternions import turned
 from pkm_exact.numeric.uncertified import Ending, NumericPose, UncertifiedSolution
 
 METHOD: Final = "levenberg-marquardt"
@@ -39,7 +39,7 @@ class DescentPolicy:
     seed : int
         Seed of the start poses.
     residual : float
-        Error of a leg's length below which an iteration has converged.
+        Error of a leg's length, or of another constraint, below which an iteration has converged.
     iterations : int
         Most steps, those taken back included.
     first, least, greatest : float
@@ -48,8 +48,8 @@ class DescentPolicy:
     progress : float
         Relative decrease of |f|^2 in a step below which the iteration has stagnated.
     distinct : float
-        Displacement of a platform joint up to which two limits count as one pose. Near a multiple pose limits scatter
-        by the square root of ``residual`` and more.
+        Displacement of a point of the platform up to which two limits count as one pose. Near a multiple pose limits
+        scatter by the square root of ``residual`` and more.
     """
 
     starts: int = 200
@@ -74,29 +74,29 @@ def solve_levenberg_marquardt(problem: ForwardProblem, policy: DescentPolicy = D
     InputError
         If a number of the robot is out of reach of floating point.
     """
-    robot = numeric_robot(problem)
+    robot = numeric_machine(problem)
     poses = distinct_poses(robot, levenberg_marquardt(robot, policy), policy.distinct)
     note = f"found from {policy.starts} random start poses (seed {policy.seed})"
     return UncertifiedSolution(problem, METHOD, poses, (note,))
 
 
-def levenberg_marquardt(robot: NumericRobot, policy: DescentPolicy = DEFAULT) -> tuple[NumericPose, ...]:
+def levenberg_marquardt(robot: NumericMachine, policy: DescentPolicy = DEFAULT) -> tuple[NumericPose, ...]:
     """Where the iterations end, one for each random start, in their order."""
     with np.errstate(all="ignore"):
         return _Descent.started(robot, policy).run()
 
 
-def distinct_poses(robot: NumericRobot, limits: Sequence[NumericPose], distance: float) -> tuple[NumericPose, ...]:
+def distinct_poses(robot: NumericMachine, limits: Sequence[NumericPose], distance: float) -> tuple[NumericPose, ...]:
     """The converged limits without repetitions: those no two of which are closer than ``distance`` times the unit.
 
     Of limits that are close together the one with the least residual stays. Sorted by position, then by rotation.
     """
     chosen: list[NumericPose] = []
-    joints = np.empty((0, 3, robot.base.shape[1]))
+    joints = np.empty((0, *robot.markers.shape))
     for limit in sorted((pose for pose in limits if pose.converged), key=lambda pose: (pose.residual, pose.position)):
         rotation = np.array(limit.rotation)
         centre = np.array(limit.position) + rotation @ robot.platform_centre
-        place = (rotation @ robot.platform + (centre / robot.unit)[:, None])[None]
+        place = (rotation @ robot.markers + (centre / robot.unit)[:, None])[None]
         if len(chosen) == 0 or float(np.sqrt(((joints - place) ** 2).sum(axis=1)).max(axis=1).min()) > distance:
             chosen.append(limit)
             joints = np.concatenate([joints, place])
@@ -107,7 +107,7 @@ def distinct_poses(robot: NumericRobot, limits: Sequence[NumericPose], distance:
 class _Descent:
     """All iterations: their poses, dampings and what ended them; ``active`` are those that have not ended."""
 
-    robot: NumericRobot
+    robot: NumericMachine
     policy: DescentPolicy
     c: Real
     q: Real
@@ -117,7 +117,7 @@ class _Descent:
     active: NDArray[np.int64] = field(repr=False)
 
     @staticmethod
-    def started(robot: NumericRobot, policy: DescentPolicy) -> _Descent:
+    def started(robot: NumericMachine, policy: DescentPolicy) -> _Descent:
         c, q = random_states(robot, policy.starts, policy.seed)
         count = policy.starts
         endings = [Ending.TOO_MANY_ITERATIONS] * count
@@ -126,28 +126,20 @@ class _Descent:
         )
 
     def run(self) -> tuple[NumericPose, ...]:
-        arms, lines, norms = self._legs(self.c, self.q)
+        place = self.robot.at(self.c, tuple(self.q))
         for _ in range(self.policy.iterations + 1):
-            f = norms - self.robot.lengths
-            going = self._retire(f)
-            arms, lines, norms, f = arms[going], lines[going], norms[going], f[going]
+            place = place.at(self._retire(place))
             if not len(self.active):
                 break
-            arms, lines, norms = self._step(arms, lines, norms, f)
+            place = self._step(place)
         return tuple(
             numeric_pose(self.robot, self.c[i], tuple(self.q[:, i].tolist()), ending, int(self.steps[i]))
             for i, ending in enumerate(self.endings)
         )
 
-    def _legs(self, c: Real, q: Real) -> tuple[Real, Real, Real]:
-        """R B_i and c + R B_i - A_i in columns, and the length of each leg, for all poses."""
-        arms = rotation_matrix(tuple(q)) @ self.robot.platform
-        lines = arms + (c[:, :, None] - self.robot.base)
-        return arms, lines, np.sqrt((lines * lines).sum(axis=1))
-
-    def _retire(self, f: Real) -> NDArray[np.bool_]:
+    def _retire(self, place: Place) -> NDArray[np.bool_]:
         """End what has converged or stagnated; which of the active ones go on."""
-        converged = np.abs(f).max(axis=1) <= self.policy.residual
+        converged = place.worst <= self.policy.residual
         stagnated = ~converged & (self.damping[self.active] > self.policy.greatest)
         for which, ending in ((converged, Ending.CONVERGED), (stagnated, Ending.STAGNATED)):
             for index in self.active[which]:
@@ -156,25 +148,21 @@ class _Descent:
         self.active = self.active[going]
         return np.asarray(going)
 
-    def _step(self, arms: Real, lines: Real, norms: Real, f: Real) -> tuple[Real, Real, Real]:
-        """One step of all active iterations, taken back where it does not help; the legs at the new poses."""
-        i = self.active
-        rows = moving_rows(self.robot)
-        transposed = transposed_jacobian(arms, lines, np.maximum(norms, np.finfo(float).tiny))[:, rows]
+    def _step(self, place: Place) -> Place:
+        """One step of all active iterations, taken back where it does not help; the constraints at the new poses."""
+        i, f = self.active, place.errors
+        moving = list(self.robot.motion.twist)
+        transposed = place.transposed_jacobian()[:, moving]
         matrix = transposed @ transposed.transpose(0, 2, 1) + self.damping[i, None, None] * np.eye(transposed.shape[1])
         step = np.zeros((len(i), 6))
-        step[:, rows] = np.linalg.solve(matrix, -(transposed @ f[:, :, None]))[:, :, 0]
+        step[:, moving] = np.linalg.solve(matrix, -(transposed @ f[:, :, None]))[:, :, 0]
         c, q = self.c[i] + step[:, :3], np.array(turned(tuple(self.q[:, i]), tuple(step[:, 3:].T)))
-        legs = self._legs(c, q)
-        before, after = (f * f).sum(axis=1), ((legs[2] - self.robot.lengths) ** 2).sum(axis=1)
+        moved = self.robot.at(c, tuple(q))
+        before, after = (f * f).sum(axis=1), (moved.errors**2).sum(axis=1)
         better = after < before
         slow = better & (after > (1 - self.policy.progress) * before)
         self.c[i[better]], self.q[:, i[better]] = c[better], q[:, better]
         self.damping[i] = np.where(better, np.maximum(self.damping[i] / 10, self.policy.least), self.damping[i] * 10)
         self.damping[i[slow]] = np.inf  # ends as stagnated, unless it has converged
         self.steps[i] += better
-        return (
-            np.where(better[:, None, None], legs[0], arms),
-            np.where(better[:, None, None], legs[1], lines),
-            np.where(better[:, None], legs[2], norms),
-        )
+        return place.changed(better, moved)

@@ -1,9 +1,8 @@
-"""A robot in floating point, and its poses in the coordinates in which iterations run.
+"""A robot with legs in floating point: six of known length in space, or three in the plane.
 
 All in ordinary coordinates. Joints are taken relative to the centroids of base and platform and divided by a unit, a
 power of two, both exactly and before anything is rounded: numbers of any size become numbers of size 1, and a robot far
-from its origin loses no digits. In these coordinates a pose is (c, q), with c the vector between the centroids and q
-the unit quaternion of the platform's rotation.
+from its origin loses no digits.
 """
 
 from __future__ import annotations
@@ -11,59 +10,82 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import copysign, isfinite, sqrt
-from typing import Final, TypeAlias
+from math import copysign, sqrt
+from typing import Any, Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.motions.motion import Motion
+from pkm_exact.numeric.numeric_machine import OUT_OF_REACH, NumericMachine, Place, Real
 from pkm_exact.numeric.quaternions import rotation_matrix
-from pkm_exact.numeric.uncertified import Ending, NumericPose, Point, Quaternion
-
-Real: TypeAlias = NDArray[np.float64]
 
 GREATEST: Final = 10**100
 """Coordinates and lengths beyond it, and robots smaller than its inverse, are left to the exact engine."""
-FARTHEST: Final = 1e6
-"""Distance of a start from the base, in times the size of the robot, beyond which it is a mistake."""
 
 
 @dataclass(frozen=True, eq=False)
-class NumericRobot:
-    """A locked robot in floating point, made once for any number of starts.
+class LegPlace(Place):
+    """What the legs are at a pose, or at many: an error is that of a leg's length.
+
+    Attributes
+    ----------
+    arms, lines : (.., 3, m) array
+        R B_i and c + R B_i - A_i in columns.
+    norms : (.., m) array
+        Lengths of the legs.
+    """
+
+    arms: Real
+    lines: Real
+    norms: Real
+
+    def transposed_jacobian(self) -> Real:
+        """The Pluecker coordinates (n_i, (R B_i) x n_i) of the legs."""
+        return transposed_jacobian(self.arms, self.lines, np.maximum(self.norms, np.finfo(float).tiny))
+
+
+@dataclass(frozen=True, eq=False)
+class NumericRobot(NumericMachine):
+    """A locked robot with legs in floating point.
 
     Attributes
     ----------
     base, platform : (3, n) array
         Joints in the columns, relative to their centroids, in units of ``unit``.
     lengths : (n,) array
-        Leg lengths, in units of ``unit``.
-    base_centre, platform_centre : (3,) array
-        The centroids, in the robot's unit of length.
-    unit : float
-        A power of two; no coordinate or length is greater than it.
-    motion : Motion
+        Leg lengths, in units of ``unit``; as the coordinates, none is greater than 1.
     """
 
     base: Real
     platform: Real
     lengths: Real
-    base_centre: Real
-    platform_centre: Real
-    unit: float
-    motion: Motion
+
+    @property
+    def markers(self) -> Real:
+        """The joints of the platform."""
+        return self.platform
+
+    def at(self, c: Real, quaternion: Sequence[Any]) -> LegPlace:
+        """The legs at a pose, or at many."""
+        arms = rotation_matrix(quaternion) @ self.platform
+        lines = arms + (c[..., :, None] - self.base)
+        norms = np.sqrt((lines * lines).sum(axis=-2))
+        return LegPlace(norms - self.lengths, arms, lines, norms)
 
 
-@dataclass(frozen=True)
-class StartPose:
-    """Where an iteration starts: position in the robot's unit of length, and a quaternion of any norm but 0."""
-
-    position: Point
-    quaternion: Quaternion
+def transposed_jacobian(arms: Real, lines: Real, norms: Real) -> Real:
+    """(.., 6, n): the Pluecker coordinates (n_i, (R B_i) x n_i) of the legs in columns."""
+    units = lines / norms[..., None, :]
+    ax, ay, az = arms[..., 0, :], arms[..., 1, :], arms[..., 2, :]
+    nx, ny, nz = units[..., 0, :], units[..., 1, :], units[..., 2, :]
+    jacobian = np.empty((*units.shape[:-2], 6, units.shape[-1]))
+    jacobian[..., :3, :] = units
+    jacobian[..., 3, :] = ay * nz - az * ny
+    jacobian[..., 4, :] = az * nx - ax * nz
+    jacobian[..., 5, :] = ax * ny - ay * nx
+    return jacobian
 
 
 def numeric_robot(problem: ForwardProblem) -> NumericRobot:
@@ -108,10 +130,7 @@ def _require_moderate(problem: ForwardProblem) -> None:
     numbers += [Fraction(g) for g in problem.metric]
     longest = max(leg.length_squared for leg in problem.distances)
     if max(numbers) > GREATEST or not Fraction(1, GREATEST**2) < longest < GREATEST**2:
-        raise InputError(
-            "coordinates or lengths are out of reach of floating point (10^-100 to 10^100); leave them to the method "
-            "exact, without a time limit"
-        )
+        raise InputError(OUT_OF_REACH)
 
 
 def _centroid(joints: Sequence[Vector]) -> Vector:
@@ -132,48 +151,3 @@ def _columns(joints: Sequence[Vector], centre: Vector, metric: Sequence[int], un
         for joint in joints
     ]
     return np.array(rows).T.copy()
-
-
-def centred(robot: NumericRobot, start: StartPose) -> tuple[Real, Quaternion]:
-    """The start as (c, q), q of norm 1.
-
-    Raises
-    ------
-    InputError
-        If the start is no pose, far off, or out of the plane of a planar robot.
-    """
-    if not all(map(isfinite, (*start.position, *start.quaternion))):
-        raise InputError("start: a number is not finite; give seven numbers")
-    largest = max(map(abs, start.quaternion))
-    if largest == 0:
-        raise InputError("start: all four numbers of the quaternion are 0; give one that is not")
-    if robot.motion.is_planar and (start.position[2], *start.quaternion[1:3]) != (0, 0, 0):
-        raise InputError("start: leaves the plane of a planar robot; give z, q1 and q2 as 0")
-    far = max(abs(x - m) for x, m in zip(start.position, robot.base_centre, strict=True))
-    if far > FARTHEST * (robot.unit + float(abs(robot.platform_centre).max())):
-        raise InputError("start: the position is over a million times the robot's size away; give one nearby")
-    q0, q1, q2, q3 = (value / largest for value in start.quaternion)
-    norm = sqrt(q0 * q0 + q1 * q1 + q2 * q2 + q3 * q3)
-    quaternion = q0 / norm, q1 / norm, q2 / norm, q3 / norm
-    moved = np.array(start.position) + rotation_matrix(quaternion) @ robot.platform_centre - robot.base_centre
-    return moved / robot.unit, quaternion
-
-
-def placed(robot: NumericRobot, c: Real, quaternion: Quaternion) -> tuple[Point, Real]:
-    """Position, in the robot's unit of length, and rotation matrix of the pose (c, q)."""
-    rotation = rotation_matrix(quaternion)
-    x, y, z = (robot.base_centre + robot.unit * c - rotation @ robot.platform_centre + 0.0).tolist()
-    return (x, y, z), rotation
-
-
-def numeric_pose(robot: NumericRobot, c: Real, quaternion: Quaternion, ending: Ending, iterations: int) -> NumericPose:
-    """The place (c, q) as it is returned; the residual is computed from it."""
-    position, rotation = placed(robot, c, quaternion)
-    lines = rotation @ robot.platform + c[:, None] - robot.base
-    residual = float(abs(np.sqrt((lines * lines).sum(axis=0)) - robot.lengths).max())
-    rows: list[Point] = [(x, y, z) for x, y, z in (rotation + 0.0).tolist()]  # no negative zeros
-    sign = -1.0 if quaternion[0] < 0 else 1.0
-    q0, q1, q2, q3 = (sign * float(value) + 0.0 for value in quaternion)
-    return NumericPose(
-        ending, position, (rows[0], rows[1], rows[2]), (q0, q1, q2, q3), iterations, residual * robot.unit
-    )

@@ -35,9 +35,8 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import support, translation_coordinates
 from pkm_exact.numeric.certification import isolated_solutions
 from pkm_exact.numeric.chart_equations import ChartSystem
-from pkm_exact.numeric.constraint_descent import approximate_poses
 from pkm_exact.numeric.levenberg_marquardt import DescentPolicy, distinct_poses, levenberg_marquardt
-from pkm_exact.numeric.numeric_robot import numeric_robot
+from pkm_exact.numeric.numeric_mechanism import numeric_machine
 from pkm_exact.numeric.uncertified import NumericPose
 from pkm_exact.policy import Policy
 from pkm_exact.poses.coaxial_motion import screws
@@ -137,11 +136,11 @@ def _is_proved(problem: ForwardProblem, motion: SelfMotion, policy: Policy, *, t
 
 
 def _approximate_poses(problem: ForwardProblem, seed: int) -> Iterator[NumericPose]:
-    """Places where the legs have their lengths as far as floating point tells; none beyond its reach."""
+    """Places where the constraints hold as far as floating point tells; none beyond its reach."""
     try:
-        robot = numeric_robot(problem)
+        robot = numeric_machine(problem)
     except InputError:
-        return islice(approximate_poses(problem, STARTS, seed), TRIED)
+        return iter(())
     limits = DescentPolicy(starts=STARTS, seed=seed)
     return islice(iter(distinct_poses(robot, levenberg_marquardt(robot, limits), limits.distinct)), TRIED)
 

@@ -21,7 +21,7 @@ UNCERTIFIED: Final = "uncertified"
 class Ending(StrEnum):
     """Why an iteration ended.
 
-    ``CONVERGED``: the legs have their lengths, up to the tolerance on the residual. ``SINGULAR``: the leg Jacobian
+    ``CONVERGED``: the constraints hold, up to the tolerance on the residual. ``SINGULAR``: the Jacobian
     cannot be inverted in floating point. ``STAGNATED``: no step makes the residual smaller; often a place where it is
     least without being zero. Only the first gives a pose.
     """
@@ -48,7 +48,8 @@ class NumericPose:
     iterations : int
         Steps taken.
     residual : float
-        Greatest difference between a leg's length at this place and the length given, in the robot's unit.
+        Greatest error of a constraint at this place, in the robot's unit: of a leg the difference between its length
+        and the one given; of others to first order, products of directions times the size of the platform.
     """
 
     ending: Ending
