@@ -11,6 +11,8 @@ from typing import Any
 import pytest
 from certificate_tools import boxed_certificate, golden, tolerant_certificate, without_proof
 
+from mechanism_certificates import mechanism_content
+
 from pkm_exact.certify.build import certificate
 from pkm_exact.engine import solve
 from pkm_exact.geometry.robot import Robot
@@ -84,6 +86,22 @@ def _held(step: int, wrong: int) -> Content:
     return _made_up("6-UPS", base, platform, [squares[0] + wrong, *squares[1:]])
 
 
+MECHANISMS = {
+    "spatial-2": {"3-RPS": 0, "3-RPS, boxes": 0, "six planes": 10, "point and spheres": 10},
+    "spatial-2-infinity": {"3-PSS+C, general": 6},
+    "spatial-2-elimination": {"3-PSS+C": 6},
+    "kept-2": {
+        **{"H4": 10, "H4, boxes": 2, "Delta": 10, "about a point": 10, "planar lines": 10, "planar lines, boxes": 10},
+        **{"cylinders": 6, "cylinders, boxes": 2, "redundant leg": 10},
+        "more legs than freedoms, a multiple solution": 10,
+    },
+    "inconsistent-2": {"contradictory leg": 10},
+    "moving-2": {"few legs, real": 10, "few legs": 10, "joints on a line": 10, "parallelogram": 6},
+    "moving-2-slices": {"slices": 6},
+}
+"""Certificates of version 2, by kind, and how many changes a quick run makes: spatial motions, others, .."""
+
+
 @dataclass(frozen=True)
 class Subject:
     """A certificate to be changed, how often in a quick run, and in a complete one: every change if None."""
@@ -120,6 +138,11 @@ SUBJECTS = {
     "unproved multiplicities": Subject(partial(_unproved, "3-rpr-triple")),
     "not proven complete": Subject(lambda: without_proof(golden("similar-planar-s")), complete=1500),
     "nothing known": Subject(_nothing),
+    **{
+        f"{sort}, {name}": Subject(partial(mechanism_content, name), quick, 100 if "boxes" in name else 400)
+        for sort, names in MECHANISMS.items()
+        for name, quick in names.items()
+    },
 }
 """Certificates of every kind, by name; the first word of the name is the kind that ``FREE`` speaks of."""
 

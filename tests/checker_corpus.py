@@ -23,9 +23,12 @@ FILES = (
     "test_limit_cases.py",
     "test_multiplicities.py",
     "test_mutations.py",
+    "test_plain_mechanism_checker.py",
     "test_pure_checker.py",
     "test_self_motion.py",
+    "test_slices.py",
     "test_tolerances.py",
+    "test_upright_legs.py",
 )
 WEAK = "test_any_json_in_place_of_an_entry_gets_a_verdict"
 """Tests that do not ask for a certain verdict."""

@@ -18,6 +18,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Sequence
 from hashlib import sha256
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -73,8 +74,8 @@ def _fresh_corpus(again: bool) -> list[Example]:
 class Journal:
     """Outcomes, one a line; those of the same checker and the same certificates need not be found again."""
 
-    def __init__(self, path: Path, checker: str, examples: Sequence[Example]) -> None:
-        self.path = path
+    def __init__(self, path: Path, checker: str, examples: Sequence[Example], most: float) -> None:
+        self.path, self.most = path, most
         sources = b"".join(source.read_bytes() for source in SOURCES[checker])
         self.checker = sha256(sources).hexdigest()[:16]
         self.names = {example.name for example in examples}
@@ -91,7 +92,8 @@ class Journal:
         if entry is None or entry["checker"] != self.checker or entry["line"] != mutant.line:
             return None
         if entry["killer"] is None:
-            return Outcome(None, entry["how"]) if entry["corpus"] == self.corpus else None
+            is_enough = entry["corpus"] == self.corpus and (self.most < inf or _is_complete(entry["how"]))
+            return Outcome(None, entry["how"]) if is_enough else None
         return Outcome(entry["killer"], entry["how"]) if entry["killer"] in self.names else None
 
     def hint(self, mutant: Mutant) -> str | None:
@@ -105,6 +107,12 @@ class Journal:
         self.path.parent.mkdir(parents=True, exist_ok=True)
         with self.path.open("a", encoding="utf-8") as stream:
             stream.write(json.dumps(entry) + "\n")
+
+
+def _is_complete(how: str) -> bool:
+    """Whether all certificates that reach a mutant were tried in vain."""
+    tried, _, there, *_ = how.split(" ")
+    return tried == there
 
 
 # The run
@@ -123,25 +131,23 @@ def _reach(checker: str, examples: list[Example], journal: Journal) -> Reach:
     return reach
 
 
-def run(checker: str, examples: list[Example], only: str) -> list[tuple[Mutant, Outcome]]:
+def run(checker: str, examples: list[Example], only: str, most: float) -> list[tuple[Mutant, Outcome]]:
     """Those that survive, of the mutants of a checker that are not listed as equivalent."""
     listed, _ = equivalents(mutants(checker))
     chosen = [m for m in mutants(checker) if m.key not in listed and only in str(m)]
-    journal = Journal(BUILD / f"{checker}.jsonl", checker, examples)
+    journal = Journal(BUILD / f"{checker}.jsonl", checker, examples, most)
     known = [(mutant, found) for mutant in chosen if (found := journal.outcome(mutant)) is not None]
     pending = [mutant for mutant in chosen if journal.outcome(mutant) is None]
     reach = _reach(checker, examples, journal) if pending else Reach([])
     start, found = time.monotonic(), list(known)
-    for number, (mutant, outcome) in enumerate(outcomes(pending, reach, journal.hint), 1):
+    for number, (mutant, outcome) in enumerate(outcomes(pending, reach, journal.hint, most), 1):
         journal.write(mutant, outcome)
         found.append((mutant, outcome))
         if outcome.survives:
             print(f"survives: {mutant}  ({outcome.how})", flush=True)
         if number % 200 == 0 and sys.stderr.isatty():
             print(f"{checker}: {number} of {len(pending)}, {time.monotonic() - start:.0f} s", file=sys.stderr)
-    counts = Counter(
-        outcome.how.split(" certificates")[0] if not outcome.survives else "survive" for _, outcome in found
-    )
+    counts = Counter("survive" if outcome.survives else outcome.how for _, outcome in found)
     print(f"{checker} checker: {len(found)} mutants; " + ", ".join(f"{n} {how}" for how, n in counts.most_common()))
     return [(mutant, outcome) for mutant, outcome in found if outcome.survives]
 
@@ -152,13 +158,16 @@ def main(words: Sequence[str]) -> int:
     parser.add_argument("--checker", choices=[*SOURCES], action="append", help="one of the checkers (default: both)")
     parser.add_argument("--only", default="", metavar="TEXT", help="mutants whose description has this text")
     parser.add_argument("--collect", action="store_true", help="run the tests again for their certificates")
+    parser.add_argument("--seconds", type=float, default=inf, help="of certificates to try on a mutant (default: all)")
     options = parser.parse_args(words)
     listed, wrong = equivalents([mutant for checker in SOURCES for mutant in mutants(checker)])
     for line in wrong:
         print(f"{EQUIVALENT.name}: {line}")
     examples = _fresh_corpus(options.collect)
     survivors = [
-        survivor for checker in options.checker or SOURCES for survivor in run(checker, examples, options.only)
+        survivor
+        for checker in options.checker or SOURCES
+        for survivor in run(checker, examples, options.only, options.seconds)
     ]
     for mutant, outcome in survivors:
         print(f"{mutant}  ({outcome.how})")

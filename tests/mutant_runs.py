@@ -15,6 +15,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from importlib.machinery import ModuleSpec
+from itertools import accumulate
+from math import inf
 from pathlib import Path
 from types import CodeType, FrameType, ModuleType
 from typing import Any
@@ -29,6 +31,9 @@ STATISTICS = Path("/proc/self/statm")
 """Where Linux tells how much that is."""
 PATIENCE = 1.0, 5.0
 """A mutant may take so many seconds of processor time, and so many times that of the checker, with a certificate."""
+
+HINTS = 5
+"""So many certificates that told other mutants from the checker are tried first."""
 
 LARGE = 1 << 20
 """Certificates of so many bytes are not kept in memory."""
@@ -248,11 +253,10 @@ class Outcome:
         return self.killer is None
 
 
-def outcome(mutant: Mutant, reach: Reach, first: str | None = None) -> Outcome:
-    """Try the examples that reach a mutant, cheapest first, the one named first before all."""
-    chosen = reach.of(mutant)
-    if first is not None:
-        chosen.sort(key=lambda number: reach.examples[number].name != first)
+def outcome(mutant: Mutant, reach: Reach, first: Sequence[str] = (), most: float = inf) -> Outcome:
+    """Try the examples that reach a mutant, those named first before all, as many as take ``most`` seconds."""
+    reaching = reach.of(mutant)
+    chosen = _affordable(sorted(reaching, key=lambda number: reach.examples[number].name not in first), reach, most)
     reader, writer = os.pipe()
     child = os.fork()
     if child == 0:
@@ -264,12 +268,18 @@ def outcome(mutant: Mutant, reach: Reach, first: str | None = None) -> Outcome:
     _, status = os.waitpid(child, 0)
     number, how = int(last[0]), last[1]
     if how == "survives":
-        return Outcome(None, f"{len(chosen)} certificates")
+        return Outcome(None, f"{len(chosen)} of {len(reaching)} certificates")
     if not how:
         how = "takes too long" if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGPROF else "crashes"
     if number < 0:
         raise RuntimeError(f"{mutant}: {how} before a certificate is read")
     return Outcome(reach.examples[number].name, how)
+
+
+def _affordable(chosen: Sequence[int], reach: Reach, most: float) -> list[int]:
+    """As many as the checker checks in ``most`` seconds, three at least."""
+    spent = accumulate(reach.examples[number].cost for number in chosen)
+    return [number for place, (number, cost) in enumerate(zip(chosen, spent, strict=True)) if cost <= most or place < 3]
 
 
 def _try_all(mutant: Mutant, chosen: Sequence[tuple[int, Example]], writer: int) -> None:
@@ -311,12 +321,17 @@ def _difference(answer: Callable[[bytes], Answer], example: Example) -> str:
 
 
 def outcomes(
-    chosen: Sequence[Mutant], reach: Reach, first: Callable[[Mutant], str | None] = lambda _: None
+    chosen: Sequence[Mutant], reach: Reach, first: Callable[[Mutant], str | None] = lambda _: None, most: float = inf
 ) -> Iterator[tuple[Mutant, Outcome]]:
-    """What becomes of mutants, one after another."""
+    """What becomes of mutants, one after another; what told the last ones from the checker is tried first."""
     for checker in {mutant.checker for mutant in chosen}:
         check(checker)  # imported once, in this process
     gc.collect()
     gc.freeze()
+    last: list[str] = []
     for mutant in chosen:
-        yield mutant, outcome(mutant, reach, first(mutant))
+        hint = first(mutant)
+        found = outcome(mutant, reach, last if hint is None else [hint, *last], most)
+        if found.killer is not None:
+            last = [found.killer, *(name for name in last if name != found.killer)][:HINTS]
+        yield mutant, found

@@ -8,7 +8,7 @@ import mutations
 import pytest
 from certificate_subjects import EACH, SUBJECTS, subject
 from certificate_tools import CERTS, Path_, at, golden_bytes, with_entry
-from mutations import FREE, Mutation, outcome, quick_names, report
+from mutations import FREE, FREE_2, Free, Mutation, outcome, quick_names, report
 
 from pkm_exact.certify import pure
 from pkm_exact.certify.check import Status, Verdict, check_bytes
@@ -88,20 +88,63 @@ NEEDED: dict[str, tuple[str, Path_, Any]] = {
 """For each entry of ``FREE`` a change that is accepted."""
 
 
-def test_no_entry_of_the_table_is_there_for_nothing() -> None:
+H4, LINES, SLICES, INFINITY = (
+    *("kept-2, H4", "kept-2, planar lines", "moving-2-slices, slices"),
+    "spatial-2-infinity, 3-PSS+C, general",
+)
+CONCURRENT = "kept-2, more legs than freedoms, a multiple solution"
+
+
+def _fourth_more(values: list[int]) -> list[int]:
+    """Another weight of C1, which is 0 at these points at infinity."""
+    return [*values[:4], values[4] + 1, *values[5:]]
+
+
+def _with_a_form_of_the_plane(forms: list[list[str]]) -> list[list[str]]:
+    """The last one and r33 - 1, which is 0."""
+    *others, last = forms
+    return [*others, [*last[:15], str(Fraction(last[15]) + 1), str(Fraction(last[16]) - 1)]]
+
+
+NEEDED_2: dict[str, tuple[str, Path_, Any]] = {
+    "configuration": (H4, ("configuration",), "another"),
+    "robot.constraints.*.name": (H4, ("robot", "constraints", 2, "name"), "another"),
+    "robot.constraints": ("kept-2, redundant leg", ("robot", "constraints"), lambda legs: legs[:-1]),
+    "robot": ("inconsistent-2, contradictory leg", ("robot", "motion"), "translation"),
+    "robot.motion": (CONCURRENT, ("robot", "motion"), "translation"),
+    "robot.metric": (CONCURRENT, ("robot", "metric", 2), "5"),
+    "representation.chart": (LINES, ("representation", "chart", 1), 5),
+    "representation.separating_form": (LINES, ("representation", "separating_form", 1), 5),
+    "infinity.chart": (INFINITY, ("infinity", "chart"), _fourth_more),
+    "infinity.separating_form": (INFINITY, ("infinity", "separating_form"), _fourth_more),
+    "self_motion.forms": (SLICES, ("self_motion", "forms"), _with_a_form_of_the_plane),
+    "self_motion.slices": (SLICES, ("self_motion", "slices", 1, "representation", "chart", 1), 5),
+}
+"""The same for ``FREE_2``."""
+
+
+def test_no_entry_of_the_tables_is_there_for_nothing() -> None:
     assert [free.path for free in FREE] == list(NEEDED)
+    assert [free.path for free in FREE_2] == list(NEEDED_2)
 
 
-@pytest.mark.parametrize("path", NEEDED)
-def test_what_is_free_may_change(path: str) -> None:
-    assert _replaced(*NEEDED[path]) == "free"
+@pytest.mark.parametrize(("path", "change"), [*NEEDED.items(), *NEEDED_2.items()])
+def test_what_is_free_may_change(path: str, change: tuple[str, Path_, Any]) -> None:
+    assert _replaced(*change) == "free", path
 
 
-def test_the_page_lists_what_is_free() -> None:
-    page = (CERTS.parent / "docs" / "certificates.md").read_text()
-    table = page.partition("### What the digest binds")[2].partition("\n#")[0]
+@pytest.mark.parametrize(
+    ("page", "heading", "free"),
+    [
+        ("certificates.md", "### What the digest binds", FREE),
+        ("certificates-2.md", "## What the digest binds", FREE_2),
+    ],
+)
+def test_the_pages_list_what_is_free(page: str, heading: str, free: tuple[Free, ...]) -> None:
+    text = (CERTS.parent / "docs" / page).read_text()
+    table = text.partition(heading)[2].partition("\n#")[0]
     listed = re.findall(r"^\| `([a-z_.*]+)` \|", table, flags=re.MULTILINE)
-    assert listed == [free.path for free in FREE]
+    assert listed == [entry.path for entry in free]
 
 
 # The suite itself

@@ -82,14 +82,15 @@ def check_mechanism_claims(document: MechanismDocument) -> Iterator[str]:
 
 
 def _check_parts(document: MechanismDocument) -> None:
-    """What a certificate may have depends on its method."""
+    """What a certificate may have depends on its method and its route."""
     if document.method == "krawczyk":
         if document.isolated is None or document.representation is not None:
             raise rejected("method: krawczyk needs boxes, and no representation")
     elif document.isolated is not None and not document.claim.startswith("positive-dimensional"):
         raise rejected("method: exact, but solutions in boxes are listed, and none of positive dimension is claimed")
-    if document.infinity is not None and document.elimination is not None:
-        raise rejected("completeness: points at infinity and an elimination are given, one of them proves enough")
+    for part, route in ((document.infinity, "counting-at-infinity"), (document.elimination, "exact-elimination")):
+        if (part is not None) != (document.route == route):
+            raise rejected(f"claim: the route is not {route}")
 
 
 def _listed(document: MechanismDocument) -> _Listed:
@@ -198,8 +199,8 @@ def _line(document: MechanismDocument, listed: _Listed, proved: _Proved) -> str:
 
 def _beside(document: MechanismDocument, listed: _Listed) -> Iterator[str]:
     """Isolated solutions in boxes beside a set of positive dimension that was only detected."""
-    alone = document.representation is None and document.infinity is None and document.elimination is None
-    if not alone or (document.claim, document.route) != ("positive-dimensional-detected", None):
+    alone = document.representation is None and document.route is None
+    if not alone or document.claim != "positive-dimensional-detected":
         raise rejected(f"claim: {document.claim} is not proved by what is in the certificate")
     _require_isolated(document, listed.distinct)
     yield f"isolated: {listed.distinct} solutions lie on no curve of poses"
@@ -220,7 +221,7 @@ def _moving(document: MechanismDocument) -> Iterator[str]:
     """A set of positive dimension that is proved; isolated solutions beside it need boxes."""
     if document.self_motion is None:
         raise rejected("claim: positive-dimensional-proved, but no self-motion is given")
-    if document.route is not None or document.elimination is not None or document.infinity is not None:
+    if document.route is not None:
         raise rejected("claim: beside positive dimension, completeness is claimed")
     if document.method != "exact":
         raise rejected("claim: a self-motion is proved by the method exact")
