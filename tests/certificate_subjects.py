@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 from certificate_tools import boxed_certificate, golden, tolerant_certificate, without_proof
-
 from mechanism_certificates import mechanism_content
 
 from pkm_exact.certify.build import certificate
@@ -91,8 +90,15 @@ MECHANISMS = {
     "spatial-2-infinity": {"3-PSS+C, general": 6},
     "spatial-2-elimination": {"3-PSS+C": 6},
     "kept-2": {
-        **{"H4": 10, "H4, boxes": 2, "Delta": 10, "about a point": 10, "planar lines": 10, "planar lines, boxes": 10},
-        **{"cylinders": 6, "cylinders, boxes": 2, "redundant leg": 10},
+        "H4": 10,
+        "H4, boxes": 2,
+        "Delta": 10,
+        "about a point": 10,
+        "planar lines": 10,
+        "planar lines, boxes": 10,
+        "cylinders": 6,
+        "cylinders, boxes": 2,
+        "redundant leg": 10,
         "more legs than freedoms, a multiple solution": 10,
     },
     "inconsistent-2": {"contradictory leg": 10},
