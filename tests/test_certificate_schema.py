@@ -61,7 +61,9 @@ def _objects(value: Any, node: Any, root: Any) -> Any:
     while "$ref" in node:
         node = root["$defs"][node["$ref"].rpartition("/")[2]]
     for choice in node.get("anyOf", ()):
-        if choice != {"type": "null"} and value is not None:
+        word = choice.get("properties", {}).get("type", {}).get("const")
+        is_other = word is not None and word != value["type"]
+        if choice != {"type": "null"} and value is not None and not is_other:
             node = choice
             while "$ref" in node:
                 node = root["$defs"][node["$ref"].rpartition("/")[2]]
