@@ -211,9 +211,8 @@ def _below(
     parent: ast.AST, field: str, index: int | None, node: ast.AST, header: ast.AST, bound: ast.AST | None
 ) -> Iterator[_Site]:
     """The changes of a node and of what is below it, but for messages, annotations and default values."""
-    is_estimate = (
-        isinstance(node, ast.Expr) and isinstance(node.value, ast.Call) and ESTIMATES.fullmatch(_called(node.value))
-    )
+    call = node.value if isinstance(node, ast.Expr) else node
+    is_estimate = isinstance(call, ast.Call) and ESTIMATES.fullmatch(_called(call))
     if is_estimate or isinstance(node, ast.Raise | ast.JoinedStr | ast.arg | ast.Import | ast.ImportFrom):
         return
     if isinstance(node, ast.stmt):
@@ -255,9 +254,9 @@ def _is_message(node: ast.AST, field: str, index: int | None) -> bool:
 
     Neither is an index without a choice changed, nor whether ``zip`` insists on equal lengths: what is read has them.
     """
-    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-        is_number = node.func.id == "enumerate" and index == 1
-        return field == "args" and (is_number or (node.func.id in REFUSERS and index == 1))
+    if isinstance(node, ast.Call) and _called(node):
+        is_number = _called(node) == "enumerate" and index == 1
+        return field == "args" and (is_number or (_called(node) in REFUSERS and index == 1))
     if isinstance(node, ast.keyword):
         return node.arg == "strict"
     return isinstance(node, ast.Subscript) and field == "slice" and isinstance(node.slice, ast.Constant | ast.UnaryOp)
@@ -363,7 +362,11 @@ def _negated(node: ast.AST) -> ast.AST:
 
 
 def _called(node: ast.Call) -> str:
-    return node.func.id if isinstance(node.func, ast.Name) else ""
+    """The name of the function that is called, if it has one, perhaps with that of its module."""
+    match node.func:
+        case ast.Name(id=name) | ast.Attribute(value=ast.Name(id="pure"), attr=name):
+            return name
+    return ""
 
 
 def _is_single_comparison(node: ast.AST) -> bool:

@@ -18,7 +18,7 @@ from importlib.machinery import ModuleSpec
 from itertools import accumulate
 from math import inf
 from pathlib import Path
-from types import CodeType, FrameType, ModuleType
+from types import CodeType, FrameType, FunctionType, ModuleType
 from typing import Any
 from zipfile import ZipFile
 
@@ -202,10 +202,14 @@ def install(mutant: Mutant) -> None:
 
 def _replace(mutant: Mutant, code: CodeType) -> None:
     """Give the function its new code, wherever it is referred to."""
-    target: Any = sys.modules[mutant.module]
+    owner, target = None, sys.modules[mutant.module]  # type: Any, Any
     for name in mutant.function.split("."):
         code = next(entry for entry in code.co_consts if isinstance(entry, CodeType) and entry.co_name == name)
-        target = vars(target)[name]
+        owner, target = target, vars(target)[name]
+    if isinstance(target, FunctionType) and len(code.co_freevars) < len(target.__code__.co_freevars):
+        # It speaks no longer of its class, as by super().
+        setattr(owner, mutant.function.rpartition(".")[2], FunctionType(code, target.__globals__))
+        return
     while not hasattr(target, "__code__"):
         if hasattr(target, "cache_clear"):
             target.cache_clear()

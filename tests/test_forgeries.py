@@ -6,6 +6,7 @@ import pytest
 from certificate_subjects import Content
 from certificate_tools import both_resealed, last_line
 from forged_boxes import BOXES
+from forged_completions import COMPLETIONS
 from forged_ends import first_and_last
 from forged_poses import POSES
 from forgeries import FORGERIES
@@ -19,9 +20,9 @@ def test_a_forgery(name: str) -> None:
     assert last_line(answer).startswith(forgery.reason)
 
 
-@pytest.mark.parametrize("name", [*POSES, *BOXES])
+@pytest.mark.parametrize("name", [*POSES, *BOXES, *COMPLETIONS])
 def test_one_condition_decides(name: str) -> None:
-    make, status, reason = (POSES | BOXES)[name]
+    make, status, reason = (POSES | BOXES | COMPLETIONS)[name]
     answer = both_resealed(make())
     assert answer.status == status, last_line(answer)
     assert last_line(answer).startswith(reason)

@@ -1808,7 +1808,7 @@ def solved_modulo(rows: Sequence[Mapping[int, int]], pivots: set[int], n: int) -
     """The rows modulo p = 2^n - 1 that have a 1, left out, at one of the pivots, by pivot, and 0 at the others.
 
     Any order of elimination serves; to keep the rows sparse, the one with the fewest pivots is next (Markowitz 1957).
-    None if p is not prime and divides, in part, a pivot.
+    None if p divides the determinant at the pivots, or has a factor in common with one of them.
     """
     left = [remainders(row, n) for row in rows]
     done = []
@@ -1817,7 +1817,7 @@ def solved_modulo(rows: Sequence[Mapping[int, int]], pivots: set[int], n: int) -
         row = left.pop(min(range(len(left)), key=lambda i: len(left[i].keys() & pivots)))
         candidates = sorted(row.keys() & pivots)
         if not candidates:
-            continue
+            return None
         pivot = min(candidates, key=lambda column: sum(column in other for other in left))
         try:
             row = scaled(row, row.pop(pivot), n)
