@@ -10,10 +10,13 @@ from pathlib import Path
 from typing import Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+import mutations
 import pytest
+from certificate_subjects import subject
 
 import pkm_exact.certify.check as first
 from pkm_exact.certify import pure as plain
+from pkm_exact.certify.build import canonical_bytes, sealed
 
 HERE = Path(__file__).parent
 FILES = (
@@ -34,6 +37,16 @@ WEAK = "test_any_json_in_place_of_an_entry_gets_a_verdict"
 """Tests that do not ask for a certain verdict."""
 
 
+MANY = (
+    *("kept-2, planar lines", "kept-2, Delta", "inconsistent-2, contradictory leg", "moving-2, few legs"),
+    "kept-2, more legs than freedoms, a multiple solution",
+)
+SOME = (
+    *("moving-2-slices, slices", "spatial-2-infinity, 3-PSS+C, general", "kept-2, cylinders"),
+    *("kept-2, planar lines, boxes", "kept-2, redundant leg", "moving-2, joints on a line"),
+)
+CHANGED = dict.fromkeys(MANY, 1500) | dict.fromkeys(SOME, 700)
+"""Certificates of which so many changes of single entries are kept besides, a sample of what ``mutations`` makes."""
 ALIKE = 3
 """As many certificates are kept of those that one test checks and that get the same verdict for the same reason."""
 
@@ -78,6 +91,11 @@ def collect(target: Path) -> int:
     files = [str(path) for pattern in FILES for path in sorted(HERE.glob(pattern))]
     options = ["-q", "-p", "no:cacheprovider", "-p", "no:xdist"]
     code = pytest.main([*options, *files], plugins=[collector])
+    for name, most in CHANGED.items():
+        collector.test = f"{name}, changed"
+        for mutation in mutations.sampled(list(mutations.mutations(subject(name))), most, name):
+            if isinstance(mutation.content, dict):
+                first.check_bytes(canonical_bytes(sealed(mutation.content)))
     target.parent.mkdir(parents=True, exist_ok=True)
     with ZipFile(target.with_suffix(".part"), "w", ZIP_DEFLATED) as archive:
         for data, test in collector.found.items():

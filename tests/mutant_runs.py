@@ -202,7 +202,7 @@ def install(mutant: Mutant) -> None:
 
 def _replace(mutant: Mutant, code: CodeType) -> None:
     """Give the function its new code, wherever it is referred to."""
-    owner, target = None, sys.modules[mutant.module]  # type: Any, Any
+    owner, target = None, importlib.import_module(mutant.module)  # type: Any, Any
     for name in mutant.function.split("."):
         code = next(entry for entry in code.co_consts if isinstance(entry, CodeType) and entry.co_name == name)
         owner, target = target, vars(target)[name]

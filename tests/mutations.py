@@ -282,7 +282,7 @@ def quick_names() -> list[str]:
     return [name for name, entry in SUBJECTS.items() if entry.quick]
 
 
-def _sample(every: list[Mutation], most: int | None, seed: str) -> list[Mutation]:
+def sampled(every: list[Mutation], most: int | None, seed: str) -> list[Mutation]:
     """As many of them, always the same ones: of each change of each part of the certificate one, then another, .."""
     if most is None:
         return every
@@ -301,7 +301,7 @@ def report(name: str, *, complete: bool) -> Report:
     most = SUBJECTS[name].complete if complete else SUBJECTS[name].quick
     content = subject(name)
     content = sealed(content)
-    chosen = _sample(list(mutations(content)), most, name)
+    chosen = sampled(list(mutations(content)), most, name)
     found: Counter[str] = Counter()
     survivors = []
     for mutation in chosen:
