@@ -13,6 +13,8 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 import mutations
 import pytest
 from certificate_subjects import subject
+from forged_mechanisms import MECHANISMS
+from forged_motions import MOTIONS
 
 import pkm_exact.certify.check as first
 from pkm_exact.certify import pure as plain
@@ -96,6 +98,9 @@ def collect(target: Path) -> int:
         for mutation in mutations.sampled(list(mutations.mutations(subject(name))), most, name):
             if isinstance(mutation.content, dict):
                 first.check_bytes(canonical_bytes(sealed(mutation.content)))
+    for name, (make, _) in (MECHANISMS | MOTIONS).items():
+        collector.test = f"version 2: {name}"
+        first.check_bytes(canonical_bytes(sealed(make())))
     target.parent.mkdir(parents=True, exist_ok=True)
     with ZipFile(target.with_suffix(".part"), "w", ZIP_DEFLATED) as archive:
         for data, test in collector.found.items():

@@ -8,7 +8,7 @@ from functools import cache
 from math import prod
 from typing import Any
 
-from flint import fmpq, fmpq_poly, fmpz_poly
+from flint import fmpq_poly, fmpz_poly
 from forged_multiplicities import honest
 from forged_representations import fit_real_poses, representation_through, set_representation
 
@@ -35,17 +35,22 @@ def with_representation(content: Content, rows: Sequence[fmpq_poly]) -> Content:
     return found
 
 
-def without_root(content: Content, root: Fraction) -> Content:
-    """The certificate without the solution at a rational root of h, and without its pose; not yet called complete."""
-    t0 = fmpq(root.numerator, root.denominator)
+def without_factor(content: Content, factor: fmpz_poly, multiplicity: int | None) -> Content:
+    """The certificate without the solutions at the roots of a factor of h, and their poses; not called complete."""
+    f = fmpq_poly(factor)
     h, *numerators = polynomials(content)
-    left, rest = divmod(h, ROOT - t0)
+    left, rest = divmod(h, f)
     assert rest == 0
-    # At the other roots h' = (T - t0) left'.
-    values = [divmod(x - x(t0) / left(t0) * left, ROOT - t0)[0] for x in numerators]
-    found = with_representation(content, [left, *values])
-    fit_real_poses(found, None)
+    # At the other roots h' = f left'.
+    inverse = (f % left).xgcd(left)[1] if left.degree() else fmpq_poly([1])
+    found = with_representation(content, [left, *(x * inverse % left for x in numerators)])
+    fit_real_poses(found, multiplicity)
     return found
+
+
+def without_root(content: Content, root: Fraction) -> Content:
+    """The same for a rational root."""
+    return without_factor(content, fmpz_poly([-root.numerator, root.denominator]), None)
 
 
 def called_complete(content: Content, elimination: Any, total: int, double: Sequence[Fraction]) -> Content:

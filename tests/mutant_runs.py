@@ -22,7 +22,7 @@ from types import CodeType, FrameType, FunctionType, ModuleType
 from typing import Any
 from zipfile import ZipFile
 
-from checker_mutations import SOURCES, Mutant, uses
+from checker_mutations import PACKAGE, SOURCES, Mutant, uses
 
 ROOTS = {"first": "pkm_exact.certify.check", "plain": "pkm_exact.certify.pure"}
 MEMORY = 2 << 30
@@ -131,6 +131,7 @@ def measured(checker: str, examples: Sequence[Example]) -> Reach:
         start = time.process_time()
         example.answer = answer(data)
         example.cost = time.process_time() - start
+        _forget(checker)
         traces.append(_traced(partial(answer, data), files))
     seen: Counter[Any] = Counter()
     ranks = [0] * len(examples)
@@ -145,6 +146,18 @@ def measured(checker: str, examples: Sequence[Example]) -> Reach:
             for line in lines:
                 kept[line].append(place)
     return Reach([examples[number] for number in order], *map(dict, places))
+
+
+def _forget(checker: str) -> None:
+    """Clear what is remembered from certificate to certificate: each one must reach what it needs."""
+    for name in _module_names(checker):
+        for value in vars(importlib.import_module(name)).values():
+            if hasattr(value, "cache_clear"):
+                value.cache_clear()
+
+
+def _module_names(checker: str) -> list[str]:
+    return [".".join(path.relative_to(PACKAGE).with_suffix("").parts) for path in SOURCES[checker]]
 
 
 def _numbers() -> array[int]:
@@ -232,11 +245,8 @@ def _import_again(mutant: Mutant, code: CodeType) -> None:
         def exec_module(self, module: ModuleType) -> None:
             exec(code, vars(module))  # noqa: S102 - a source file of the project
 
-    names = {
-        ".".join(path.relative_to(mutant.path.parents[len(mutant.module.split(".")) - 1]).with_suffix("").parts)
-        for path in SOURCES[mutant.checker]
-    }
-    for name in names | {name.removesuffix(".__init__") for name in names}:
+    names = _module_names(mutant.checker)
+    for name in {*names, *(name.removesuffix(".__init__") for name in names)}:
         sys.modules.pop(name, None)
     sys.meta_path.insert(0, Loader())  # type: ignore[arg-type]
 
