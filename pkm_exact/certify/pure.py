@@ -4,7 +4,7 @@
 
 It prints what ``certify-poses check`` prints, and takes longer: one line per claim that was proved, then accepted,
 rejected, malformed or too-large. Exit code: 0 if all are accepted, 1 if one is rejected, otherwise 2. Certificates of
-version 2 need the file ``pure_mechanism.py`` beside this one.
+version 2 need the file ``pure_mechanism.py`` beside this one, those of polynomial systems ``pure_system.py``.
 
 Written from the definition of the format and its proofs, ``docs/certificates.md``; the sections below have its order
 and its notation. It shares no line with the other checker and needs no library, so an error of one of them, or of
@@ -2050,16 +2050,20 @@ def quotient_algebra(elimination: Elimination, basis: list[Monomial]) -> Algebra
     return algebra if algebra.vanish(elimination.elements) else None
 
 
+Powers: TypeAlias = Callable[[Sequence[int], int], list[list[int]] | None]
+
+
 def multiplicity_polynomial(
-    algebra: Algebra, representation: Representation, certificate: Certificate, places: Sequence[int]
+    algebra: Algebra, representation: Representation, powers_of: Powers, number: int
 ) -> Polynomial | None:
     """V with V(t) = m(t) h0'(t) at each root t of h0, where m(t) is the multiplicity; None if it is not found.
 
     The algebra must have D distinct solutions: those at the roots of h0. For a combination u of unknowns,
-    Tr(u^k) is the sum of m(t) u(t)^k. Modulo p, u is a polynomial in T modulo h0, by the representation. If
-    1, u, u^2, .. are independent there, these equations yield s_j = sum of m(t) t^j, and V = sum of m(t) h0 / (T - t)
-    follows. Now V is an integer polynomial: the sum over m of m a' b, where h0 = a b and the roots of a are those of
-    multiplicity m. Its coefficients are at most n^2 D 2^D times the size of h0 (Mignotte), less than p / 2.
+    Tr(u^k) is the sum of m(t) u(t)^k. Modulo p, u is a polynomial in T modulo h0, by the representation, and so are its
+    powers (``powers_of``, from the weights of the ``number`` unknowns and p). If 1, u, u^2, .. are independent there,
+    these equations yield s_j = sum of m(t) t^j, and V = sum of m(t) h0 / (T - t) follows. Now V is an integer
+    polynomial: the sum over m of m a' b, where h0 = a b and the roots of a are those of multiplicity m. Its
+    coefficients are at most n^2 D 2^D times the size of h0 (Mignotte), less than p / 2.
     """
     h0 = primitive_part(representation.h)
     tables, traces = algebra.traces()
@@ -2073,8 +2077,8 @@ def multiplicity_polynomial(
     bound = 2 * len(algebra.basis) ** 2 * len(h0) * size(h0) << len(h0)
     for n, weight in ((n, weight) for n in MERSENNE if bound >> n == 0 for weight in (3, 5, 7)):
         p = (1 << n) - 1
-        weights = [pow(weight, power, p) for power in range(len(places))]
-        powers = powers_modulo(representation, certificate.metric, places, weights, p)
+        weights = [pow(weight, power, p) for power in range(number)]
+        powers = powers_of(weights, p)
         sums = power_sums(algebra, traces, weights, p, len(h0) - 1)
         if powers is None or sums is None:
             continue
@@ -2294,7 +2298,8 @@ def proved_of_all(certificate: Certificate, representation: Representation) -> P
     if double is not None:
         return Proved("complete", "exact-elimination", len(basis), True, doubled(double, representation))
     algebra = quotient_algebra(elimination, basis) if basis else None
-    v = multiplicity_polynomial(algebra, representation, certificate, elimination.places) if algebra else None
+    powers = partial(powers_modulo, representation, certificate.metric, elimination.places)
+    v = multiplicity_polynomial(algebra, representation, powers, len(elimination.places)) if algebra else None
     if v is None:
         line = f"elimination: it leaves {len(basis)} monomials, the solutions are not proved to fill them"
         raise Refusal("rejected", line)
@@ -3399,22 +3404,26 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
     """The content, read at once, and its checks, one after another."""
     if next(iter(body.items()), None) == ("format", TOLERANCE_FORMAT):
         return check_tolerances(read_tolerances(body))
+    if next(iter(body.items()), None) == ("format", SYSTEM_FORMAT):
+        return checks_beside("pure_system", "a system certificate")(body)
     if body.get("version") == 2 and type(body["version"]) is int:
-        return checks_of_mechanisms()(body)
+        return checks_beside("pure_mechanism", "version 2")(body)
     return checks(read(body))
 
 
-def checks_of_mechanisms() -> Callable[[dict[str, Any]], Iterator[str]]:
-    """What reads and checks certificates of version 2: in ``pure_mechanism.py``, beside this file, which imports it."""
+SYSTEM_FORMAT: Final = "pkm_exact system certificate"
+
+
+def checks_beside(module: str, kind: str) -> Callable[[dict[str, Any]], Iterator[str]]:
+    """What reads and checks certificates of another kind: in a file beside this one, which imports it."""
     package = f"{__package__}." if __package__ else ""
     sys.modules.setdefault(f"{package}pure", sys.modules[__name__])
     if not package:
         sys.path.append(os.path.dirname(os.path.abspath(__file__)))  # noqa: PTH100, PTH120 - Python may be isolated
     try:
-        return import_module(f"{package}pure_mechanism").replayed  # type: ignore[no-any-return]
+        return import_module(f"{package}{module}").replayed  # type: ignore[no-any-return]
     except ModuleNotFoundError:
-        line = "format: not version 1, and pure_mechanism.py, for version 2, is not beside this program"
-        raise Refusal("malformed", line) from None
+        raise Refusal("malformed", f"format: {kind} needs {module}.py, which is not beside this program") from None
 
 
 def checks(certificate: Certificate) -> Iterator[str]:

@@ -1522,7 +1522,8 @@ def proved_by_elimination(certificate: Certificate, listed: Listed, claim: str) 
     if representation is None or simple or not basis:
         raise pure.Refusal("rejected", line)
     algebra = pure.quotient_algebra(elimination, basis)
-    v = algebra and pure.multiplicity_polynomial(algebra, representation, certificate, elimination.places)
+    powers = partial(pure.powers_modulo, representation, certificate.robot.metric, elimination.places)
+    v = algebra and pure.multiplicity_polynomial(algebra, representation, powers, len(elimination.places))
     if not v:
         raise pure.Refusal("rejected", line)
     found = pure.multiplicities(v, representation)

@@ -1,0 +1,1193 @@
+"""Checks certificates of polynomial systems with Python's integers and nothing else.
+
+The part of the plain checker that ``pure.py``, beside this file, uses when it meets such a certificate; spelling,
+verdicts, real roots, eliminations and algebras are there. Written from the definition of the format and its proofs,
+``docs/certificates-systems.md``; the sections below have its order and its notation. It shares no line with the other
+checker.
+
+Points are homogeneous here: a solution at a root of h is (h' : N_1 : .. : N_n), a point at infinity (0 : Z_1 : ..
+: Z_n), and polynomials are made homogeneous by x_0. So the value of F in a representation is F^h at its point, and the
+matrices of derivatives differ from those of the specification by powers of h' only, which is nowhere 0.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from hashlib import sha256
+from itertools import combinations, pairwise
+from math import gcd, isqrt, prod
+from random import Random
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
+
+if TYPE_CHECKING or __package__:
+    from pkm_exact.certify import pure
+else:
+    import pure
+
+__all__ = ["replayed"]
+
+Forms: TypeAlias = dict[pure.Monomial, int]  # homogeneous: the first exponent is that of x_0
+Polynomial: TypeAlias = pure.Polynomial
+
+MAX_VARIABLES: Final = 64
+MAX_POLYNOMIALS: Final = 256
+MAX_POLYNOMIAL_DEGREE: Final = 64
+MAX_TERMS: Final = 1 << 16
+MAX_DIGITS: Final = 4000
+MAX_NUMBER: Final = 2000
+MAX_HOMOGENEOUS_NUMBER: Final = 20_000
+MAX_GRADE: Final = 200
+MAX_FORMS: Final = 64
+MAX_STATES: Final = 1 << 20
+ATTEMPTS: Final = 3
+"""Primes that are tried."""
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Format
+# ---------------------------------------------------------------------------------------------------------------------
+
+FORMAT: Final = "pkm_exact system certificate"
+NAME: Final = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,31}", re.ASCII)
+FACTOR: Final = re.compile(r"(-?[1-9][0-9]*)|([A-Za-z_][A-Za-z0-9_]{0,31})(?:\^([1-9][0-9]?))?", re.ASCII)
+PRODUCT: Final = re.compile(r"(?:0|[1-9][0-9]{0,5})(?: (?:[0-9]|[1-5][0-9]|6[0-3])){0,64}", re.ASCII)
+
+ROUTES: Final = (
+    "refined-bezout",
+    "multihomogeneous-bezout",
+    "modular-rank",
+    "counting-at-infinity",
+    "exact-elimination",
+)
+CAUSES: Final = ("fewer-polynomials", "more-solutions-than-bound")
+KEYS: Final = (
+    "format version title variables polynomials claim completeness_route complex_solutions distinct_solutions "
+    "real_solutions representation groups infinity elimination witness box_exponent solutions notes"
+)
+
+
+@dataclass(frozen=True)
+class Infinity:
+    """Points at infinity, with the chart w.z = 1, and the sum of their weights."""
+
+    points: pure.Representation
+    multiplicity: int
+
+
+@dataclass(frozen=True)
+class Witness:
+    """What proves a positive dimension; slices are constants with representations."""
+
+    cause: str
+    forms: tuple[tuple[int, ...], ...]
+    slices: tuple[tuple[Fraction, pure.Representation], ...]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A solution as listed: ends of intervals as texts."""
+
+    parameter: pure.Ends
+    values: tuple[pure.Ends, ...]
+    multiplicity: int | None
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """What a certificate says."""
+
+    number: int
+    polynomials: tuple[pure.Terms, ...]
+    claim: str
+    route: str | None
+    complex_solutions: int | None
+    distinct_solutions: int
+    real_solutions: int
+    representation: pure.Representation | None
+    groups: tuple[tuple[int, ...], ...] | None
+    infinity: Infinity | None
+    elimination: tuple[pure.Step, ...] | None
+    witness: Witness | None
+    box_exponent: int
+    solutions: tuple[Solution, ...]
+
+
+def some_names(value: Any, where: str) -> tuple[str, ...]:
+    """The names of the variables."""
+    names: tuple[str, ...] = tuple(pure.a_list(pure.a_text)(value, where))
+    pure.well_formed(1 <= len(names) <= MAX_VARIABLES, f"{where}: not 1 to {MAX_VARIABLES} of them")
+    pure.well_formed(all(map(NAME.fullmatch, names)) and len(set(names)) == len(names), f"{where}: not different names")
+    return names
+
+
+def a_term(places: Mapping[str, int], value: Any, where: str) -> tuple[pure.Monomial, int]:
+    """A monomial and its coefficient, in the one spelling."""
+    text = pure.a_text(value, where)
+    coefficient, exponents, last = 1, [0] * len(places), -1
+    negative = re.match(r"-[A-Za-z_]", text) is not None
+    words = text[negative:].split("*")
+    for number, word in enumerate(words):
+        match = FACTOR.fullmatch(word)
+        if match is None:
+            raise pure.Refusal("malformed", f"{where}: not a coefficient and powers of variables")
+        digits, name, power = match.groups()
+        if digits:
+            pure.well_formed(number == 0, f"{where}: a coefficient after a variable")
+            pure.affordable(len(digits.removeprefix("-")) <= MAX_DIGITS, f"{where}: more than {MAX_DIGITS} digits")
+            coefficient = int(digits)
+            trivial = len(words) > 1 and coefficient in (1, -1)
+            pure.well_formed(not trivial, f"{where}: a coefficient 1 before variables")
+            continue
+        place = places.get(name, -1)
+        pure.well_formed(place > last, f"{where}: not the variables, once each, in their order")
+        pure.well_formed(power != "1", f"{where}: a power 1")
+        exponents[place], last = int(power or 1), place
+    degree = sum(exponents)
+    pure.affordable(degree <= MAX_POLYNOMIAL_DEGREE, f"{where}: degree above {MAX_POLYNOMIAL_DEGREE}")
+    return tuple(exponents), -coefficient if negative else coefficient
+
+
+def a_system(names: Sequence[str], value: Any, where: str) -> tuple[pure.Terms, ...]:
+    """The polynomials, terms decreasing."""
+    places = {name: place for place, name in enumerate(names)}
+    lists = pure.a_list(pure.a_list(partial(a_term, places)))(value, where)
+    pure.well_formed(1 <= len(lists) <= MAX_POLYNOMIALS, f"{where}: not 1 to {MAX_POLYNOMIALS} of them")
+    pure.affordable(sum(map(len, lists)) <= MAX_TERMS, f"{where}: more than {MAX_TERMS} terms")
+    for number, terms in enumerate(lists):
+        keys = [pure.order(monomial) for monomial, _ in terms]
+        falling = bool(keys) and all(a > b for a, b in pairwise(keys))
+        pure.well_formed(falling, f"{where}[{number}]: no terms, or not in decreasing order")
+    return tuple(map(dict, lists))
+
+
+def a_representation(number: int, value: Any, where: str) -> pure.Representation:
+    """A rational univariate representation of points with so many coordinates."""
+    c, h, numerators = pure.an_object(value, where, "separating_form eliminant numerators")
+    return some_points(number, [0] * number, c, h, numerators, where, "numerators")
+
+
+def some_points(number: int, w: Any, c: Any, h: Any, values: Any, where: str, name: str) -> pure.Representation:
+    """The entries that representations of finite points and of those at infinity have in common."""
+    eliminant = pure.a_polynomial(h, f"{where}.eliminant")
+    pure.well_formed(len(eliminant) > 1, f"{where}.eliminant: constant")
+    integers = pure.a_list(pure.an_integer, number)
+    return pure.Representation(
+        w=tuple(integers(w, f"{where}.chart")),
+        c=tuple(integers(c, f"{where}.separating_form")),
+        h=eliminant,
+        numerators=tuple(pure.a_list(pure.a_polynomial, number)(values, f"{where}.{name}")),
+    )
+
+
+def an_infinity(number: int, value: Any, where: str) -> Infinity:
+    """The points at infinity."""
+    w, c, h, z, times = pure.an_object(value, where, "chart separating_form eliminant coordinates multiplicity")
+    points = some_points(number, w, c, h, z, where, "coordinates")
+    return Infinity(points, pure.a_number(times, f"{where}.multiplicity"))
+
+
+def some_groups(number: int, value: Any, where: str) -> tuple[tuple[int, ...], ...]:
+    """Groups of variables: each in one of them."""
+    groups = tuple(map(tuple, pure.a_list(pure.a_list(pure.a_number))(value, where)))
+    members = [place for group in groups for place in group]
+    fits = len(groups) >= 2 and all(groups) and sorted(members) == list(range(number))
+    falls = fits and all(list(group) == sorted(group) for group in groups) and sorted(groups) == list(groups)
+    pure.well_formed(falls, f"{where}: not at least two groups, in order, with every variable in one of them")
+    return groups
+
+
+def a_product(number: int, value: Any, where: str) -> tuple[int, ...]:
+    """The index of an element, then those of unknowns."""
+    text = pure.a_text(value, where)
+    fits = PRODUCT.fullmatch(text)
+    pure.well_formed(fits, f"{where}: not the index of an element and those of the unknowns that multiply it")
+    index, *factors = map(int, text.split(" "))
+    pure.well_formed(factors == sorted(factors), f"{where}: the unknowns are not in increasing order")
+    pure.require(max(factors, default=0) < number, "elimination: it names an unknown that there is not")
+    return index, *factors
+
+
+def a_step(number: int, value: Any, where: str) -> pure.Step:
+    """The products of a step of an elimination."""
+    few = not isinstance(value, list) or len(value) <= pure.MAX_PRODUCTS
+    pure.affordable(few, f"{where}: more than {pure.MAX_PRODUCTS} products")
+    return pure.a_list(partial(a_product, number))(value, where)  # type: ignore[no-any-return]
+
+
+def a_slice(number: int, value: Any, where: str) -> tuple[Fraction, pure.Representation]:
+    """The constant of the last form, and the solutions."""
+    constant, representation = pure.an_object(value, where, "constant representation")
+    found = pure.a_rational(constant, f"{where}.constant")
+    return found, a_representation(number, representation, f"{where}.representation")
+
+
+def a_witness(number: int, value: Any, where: str) -> Witness:
+    """What proves a positive dimension."""
+    cause, forms, slices = pure.an_object(value, where, "cause forms slices")
+    cause = pure.one_of(CAUSES)(cause, f"{where}.cause")
+    rows = tuple(map(tuple, pure.a_list(pure.a_list(pure.an_integer, number + 1))(forms, f"{where}.forms")))
+    listed = tuple(pure.a_list(partial(a_slice, number))(slices, f"{where}.slices"))
+    if cause == CAUSES[0]:
+        pure.well_formed(not rows and not listed, f"{where}: forms or slices, but the polynomials are few")
+    else:
+        fits = 1 <= len(rows) <= MAX_FORMS and all(any(row[:-1]) for row in rows)
+        pure.well_formed(fits, f"{where}.forms: not 1 to {MAX_FORMS} forms, none of them constant")
+        rising = listed and all(a < b for (a, _), (b, _) in pairwise(listed))
+        pure.well_formed(rising, f"{where}.slices: none, or constants do not increase")
+    return Witness(cause, rows, listed)
+
+
+def a_solution(number: int, value: Any, where: str) -> Solution:
+    """A real solution as listed."""
+    parameter, values, multiplicity = pure.an_object(value, where, "parameter values multiplicity")
+    return Solution(
+        tuple(pure.an_interval(parameter, f"{where}.parameter")),
+        tuple(map(tuple, pure.a_list(pure.an_interval, number)(values, f"{where}.values"))),
+        pure.nullable(pure.a_number)(multiplicity, f"{where}.multiplicity"),
+    )
+
+
+def read(body: dict[str, Any]) -> Certificate:
+    """The content of a certificate."""
+    version = body.get("version")
+    pure.well_formed(type(version) is int and version == 1, "format: not a system certificate, version 1")
+    values = dict(zip(KEYS.split(), pure.an_object(body, "certificate", KEYS), strict=True))
+
+    def entry(key: str, read: pure.Reader) -> Any:
+        return read(values[key], key)
+
+    entry("title", pure.a_text)
+    entry("notes", pure.a_list(pure.a_text))
+    names = entry("variables", some_names)
+    number = len(names)
+    exponent = entry("box_exponent", pure.a_number)
+    pure.affordable(exponent <= pure.MAX_BOX_EXPONENT, f"box_exponent: more than {pure.MAX_BOX_EXPONENT}")
+    return Certificate(
+        number=number,
+        polynomials=entry("polynomials", partial(a_system, names)),
+        claim=entry("claim", pure.one_of(pure.CLAIMS)),
+        route=entry("completeness_route", pure.nullable(pure.one_of(ROUTES))),
+        complex_solutions=entry("complex_solutions", pure.nullable(pure.a_number)),
+        distinct_solutions=entry("distinct_solutions", pure.a_number),
+        real_solutions=entry("real_solutions", pure.a_number),
+        representation=entry("representation", pure.nullable(partial(a_representation, number))),
+        groups=entry("groups", pure.nullable(partial(some_groups, number))),
+        infinity=entry("infinity", pure.nullable(partial(an_infinity, number))),
+        elimination=entry("elimination", pure.nullable(pure.a_list(partial(a_step, number)))),
+        witness=entry("witness", pure.nullable(partial(a_witness, number))),
+        box_exponent=exponent,
+        solutions=entry("solutions", pure.a_list(partial(a_solution, number))),
+    )
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Notation: homogeneous polynomials and their values at points
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def degree_of(terms: Mapping[pure.Monomial, int]) -> int:
+    """The greatest degree of a term."""
+    return max(map(sum, terms))
+
+
+def homogeneous(terms: Mapping[pure.Monomial, int]) -> Forms:
+    """F^h."""
+    degree = degree_of(terms)
+    return {(degree - sum(monomial), *monomial): value for monomial, value in terms.items()}
+
+
+def top_form(terms: Mapping[pure.Monomial, int]) -> pure.Terms:
+    """The terms of greatest degree."""
+    degree = degree_of(terms)
+    return {monomial: value for monomial, value in terms.items() if sum(monomial) == degree}
+
+
+def slope_by(form: Forms, place: int) -> Forms:
+    """The derivative by a variable."""
+    found = {}
+    for monomial, value in form.items():
+        if monomial[place]:
+            found[(*monomial[:place], monomial[place] - 1, *monomial[place + 1 :])] = value * monomial[place]
+    return found
+
+
+class Values:
+    """Values of homogeneous polynomials at one point in any ring; a product of variables is formed once."""
+
+    def __init__(self, coordinates: Sequence[Any], cost: Callable[[Any, Any], int] | None = None) -> None:
+        self.coordinates = coordinates
+        self.cost = cost
+        self.known: dict[pure.Monomial, Any] = {}
+
+    def monomial(self, monomial: pure.Monomial) -> Any:
+        """The product of powers of coordinates, the degree being 1 at least."""
+        if monomial not in self.known:
+            place = next(place for place, exponent in enumerate(monomial) if exponent)
+            rest = (*monomial[:place], monomial[place] - 1, *monomial[place + 1 :])
+            value = self.coordinates[place]
+            if any(rest):
+                other = self.monomial(rest)
+                if self.cost is not None:
+                    pure.spend(self.cost(value, other))
+                value = value * other
+            self.known[monomial] = value
+        return self.known[monomial]
+
+    def value(self, form: Forms) -> Any:
+        """The value of a polynomial; None for 0, and the number itself if the degree is 0."""
+        total: Any = None
+        for monomial, value in form.items():
+            if not any(monomial):
+                return value
+            if self.cost is not None:
+                pure.spend(self.cost(value, self.monomial(monomial)))
+            term = value * self.monomial(monomial)
+            total = term if total is None else total + term
+        return total
+
+
+def product_of_integers(a: int, b: int) -> int:
+    """What a product costs."""
+    return pure.product_cost(a.bit_length(), b.bit_length())
+
+
+def size_at(form: Forms, sizes: Sequence[int]) -> int:
+    """A bound for the size of the value, from those of the coordinates."""
+    return sum(abs(value) * prod(s**e for s, e in zip(sizes, m, strict=True) if e) for m, value in form.items())
+
+
+class Points:
+    """The points of a representation: numerators of homogeneous coordinates."""
+
+    def __init__(self, representation: pure.Representation, first: Polynomial) -> None:
+        self.representation = representation
+        self.h0 = pure.primitive_part(representation.h)
+        self.coordinates = [first, *representation.numerators]
+        self.sizes = [max(pure.size(each), 1) for each in self.coordinates]
+
+    def at_power(self, k: int) -> Values:
+        """Values at T = 2^k."""
+        return Values([pure.at_power(each, k) for each in self.coordinates], product_of_integers)
+
+    def modulo(self, g: Polynomial, m: int) -> tuple[pure.Residues, Values]:
+        """Values modulo m and a polynomial."""
+        ring = pure.Residues(g, m)
+        return ring, Values([ring.element(each) for each in self.coordinates])
+
+    def vanish(self, forms: Sequence[Forms]) -> Iterator[bool]:
+        """Whether h0 divides the value of each form: forms of one degree share their products."""
+        answers = {}
+        for degree in sorted({sum(next(iter(form))) for form in forms}):
+            alike = [(place, form) for place, form in enumerate(forms) if sum(next(iter(form))) == degree]
+            bound = max(size_at(form, self.sizes) for _, form in alike)
+            multiples = pure.Multiples(self.h0, bound, max(degree, 2))
+            values = self.at_power(multiples.k)
+            for place, form in alike:
+                answers[place] = bool(degree) and multiples.include(values.value(form))
+        return (answers[place] for place in range(len(forms)))
+
+
+def finite_points(representation: pure.Representation) -> Points:
+    """(h' : N)."""
+    return Points(representation, pure.derivative(representation.h))
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Checks 1 to 3: the roots of the eliminant are distinct solutions
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def check_representation(representation: pure.Representation, where: str = "") -> Iterator[str]:
+    """Checks 1 and 2."""
+    h, numerators = representation.h, representation.numerators
+    degree = len(h) - 1
+    pure.require(degree <= MAX_NUMBER, f"{where}eliminant: degree {degree} is above {MAX_NUMBER}")
+    numbers = [*h, *(coefficient for numerator in numerators for coefficient in numerator)]
+    pure.spend(2 * len(numbers) * pure.division_cost(pure.most_bits(numbers), pure.most_bits(h)))
+    lowest = h[-1] > 0 and gcd(*numbers) == 1
+    pure.require(lowest, f"{where}eliminant: not in lowest terms with positive leading coefficient")
+    h0 = pure.primitive_part(h)
+    squarefree = any(pure.is_coprime(h0, pure.derivative(h0), p) for p in pure.good_primes(h0))
+    pure.require(squarefree, f"{where}eliminant: not proved squarefree")
+    small = all(len(numerator) <= degree for numerator in numerators)
+    pure.require(small, f"{where}representation: a numerator has not a smaller degree than the eliminant")
+    yield f"{where}eliminant: squarefree of degree {degree}"
+    expected = [(power - degree) * coefficient for power, coefficient in enumerate(h[:-1])]  # T h' - D h
+    takes = combined(representation.c, numerators, degree) == expected
+    pure.require(takes, f"{where}separating form: its values are not the roots of the eliminant")
+    yield f"{where}separating form: takes {degree} different values, the points are distinct"
+
+
+def combined(scalars: Sequence[int], numerators: Sequence[Polynomial], length: int) -> list[int]:
+    """The combination of polynomials, so many coefficients."""
+    total = [0] * length
+    for scalar, numerator in zip(scalars, numerators, strict=True):
+        pure.spend(len(numerator) * (200 + pure.product_cost(scalar.bit_length(), pure.most_bits(numerator))))
+        for power, coefficient in enumerate(numerator if scalar else ()):
+            total[power] += scalar * coefficient
+    return total
+
+
+def check_solutions(representation: pure.Representation, polynomials: Sequence[pure.Terms], where: str = "") -> str:
+    """Check 3."""
+    points = finite_points(representation)
+    for number, holds in enumerate(points.vanish(list(map(homogeneous, polynomials))), 1):
+        pure.require(holds, f"{where}solutions: polynomial {number} is not 0 at every root of the eliminant")
+    return f"{where}solutions: all {len(polynomials)} polynomials are 0 at every root of the eliminant"
+
+
+def checked(representation: pure.Representation, polynomials: Sequence[pure.Terms], where: str = "") -> Iterator[str]:
+    """Checks 1 to 3."""
+    yield from check_representation(representation, where)
+    yield check_solutions(representation, polynomials, where)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 4: real solutions
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def check_real(certificate: Certificate, representation: pure.Representation) -> Iterator[str]:
+    """Check 4."""
+    h0 = pure.primitive_part(representation.h)
+    roots = pure.isolated(h0)
+    listed, exponent = certificate.solutions, certificate.box_exponent
+    same = len(listed) == len(roots)
+    pure.require(same, f"real solutions: {len(listed)} listed, the eliminant has {len(roots)} real roots")
+    boxes = [pure.cells_of(partial(coordinates_at, representation, h0, root), exponent) for root in roots]
+    order = sorted(range(len(roots)), key=boxes.__getitem__)
+    bits = pure.most_bits(end for cells in boxes for pair in cells for end in pair)
+    pure.affordable(bits <= pure.MAX_CELL_BITS, f"boxes: a coordinate of more than {pure.MAX_CELL_BITS} bits")
+    pure.spend(len(roots) * certificate.number * (8 * (5000 + pure.division_cost(bits, bits)) + 1000 * len(roots)))
+    for number, (solution, place) in enumerate(zip(listed, order, strict=True), 1):
+        root = roots[place]
+        same = solution.parameter == pure.ends(root.m, root.m + (not root.exact), root.k)
+        line = f"real solutions: solution {number} does not have the isolating interval of real root {place + 1}"
+        pure.require(same, line)
+        same = solution.values == tuple(pure.ends(low, high, exponent) for low, high in boxes[place])
+        pure.require(same, f"boxes: the box of solution {number} is not that of its root")
+    yield f"real solutions: {len(roots)}, one for each real root of the eliminant, in their boxes"
+    for (i, one), (j, other) in combinations(enumerate((boxes[place] for place in order), 1), 2):
+        apart = any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one, other, strict=True))
+        pure.require(apart, f"boxes: those of solutions {i} and {j} are not disjoint")
+    yield "boxes: pairwise disjoint"
+
+
+def coordinates_at(
+    representation: pure.Representation, h0: Polynomial, root: pure.Root, p: int
+) -> list[pure.Interval] | None:
+    """Enclosures of N_i(t) / h'(t); None if the precision does not suffice."""
+    finer = pure.refined(h0, root, max(p, root.k))
+    length = len(representation.h)
+    slope = pure.enclosed([*pure.derivative(representation.h), 0], finer, p)
+    if slope.contains_zero():
+        return None
+    return [
+        pure.enclosed(pure.padded(numerator, length), finer, p).over(slope) for numerator in representation.numerators
+    ]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 5: ranks of matrices of derivatives, and weights
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Part(NamedTuple):
+    """A factor of h0, modulo a prime or over Z, at whose roots a matrix has this rank.
+
+    ``kernel`` has, for each column that has no pivot, the column and the entries at the pivots, modulo the prime.
+    """
+
+    factor: Polynomial
+    rank: int
+    pivots: tuple[int, ...]
+    kernel: tuple[tuple[int, tuple[Polynomial, ...]], ...]
+
+
+class Slopes:
+    """The matrix of the derivatives of forms by some of the variables, at points."""
+
+    def __init__(self, points: Points, forms: Sequence[Forms], columns: Sequence[int]) -> None:
+        self.points = points
+        self.entries = [[slope_by(form, place) for place in columns] for form in forms]
+        self.width = len(columns)
+
+    def modulo(self, g: Polynomial, p: int) -> tuple[pure.Residues, list[list[pure.Residue]]]:
+        """The matrix modulo a prime and a polynomial."""
+        ring, values = self.points.modulo(g, p)
+
+        def entry(form: Forms) -> pure.Residue:
+            value = values.value(form)
+            return value if isinstance(value, pure.Residue) else ring.element([value] if value else [])
+
+        return ring, [[entry(form) for form in row] for row in self.entries]
+
+
+def ranks_modulo(slopes: Slopes, g: Polynomial, p: int) -> list[Part]:
+    """Factors of g, squarefree modulo p, at the roots of which the rank is the same: by Gauss and Jordan.
+
+    Where a pivot is neither 0 nor a unit, g falls into two factors, and each is done anew (Della Dora, Dicrescenzo and
+    Duval 1985).
+    """
+    pending, parts = [g], []
+    while pending:
+        factor = pending.pop()
+        ring, rows = slopes.modulo(factor, p)
+        pivots: list[int] = []
+        split: Polynomial | None = None
+        for column in range(slopes.width):
+            start = len(pivots)
+            row = next((i for i in range(start, len(rows)) if any(rows[i][column].value)), None)
+            if row is None:
+                continue
+            entry = rows[row][column].polynomial()
+            inverse = pure.inverse_modulo(entry, ring.g, p)
+            if inverse is None:
+                split = pure.common_divisor(ring.g, entry, p)
+                break
+            rows[start], rows[row] = rows[row], rows[start]
+            scale = ring.element(inverse)
+            rows[start] = [scale * each if any(each.value) else each for each in rows[start]]
+            clear_column(rows, start, column)
+            pivots.append(column)
+        if split is not None:
+            pending += [split, pure.divided(ring.g, split, p)[0]]
+            continue
+        free = [column for column in range(slopes.width) if column not in pivots]
+        kernel = tuple((c, tuple(rows[i][c].polynomial() for i in range(len(pivots)))) for c in free)
+        parts.append(Part(ring.g, len(pivots), tuple(pivots), kernel))
+    return parts
+
+
+def clear_column(rows: list[list[pure.Residue]], pivot: int, column: int) -> None:
+    """Subtract multiples of the row of the pivot, which is 1, from the others."""
+    for number, row in enumerate(rows):
+        factor = row[column]
+        if number != pivot and any(factor.value):
+            rows[number] = [
+                each - factor * other if any(other.value) else each
+                for each, other in zip(row, rows[pivot], strict=True)
+            ]
+
+
+def ranks(slopes: Slopes, greatest: int) -> list[Part]:
+    """Factors of h0 over Z with the ranks at their roots, those below ``greatest`` proved to be no greater.
+
+    The rank is at least that modulo a prime that does not divide the leading coefficient. It is at most that if there
+    are so many vectors in the kernel: those modulo a large prime, lifted to rational numbers and multiplied by the
+    derivative of the factor, which keeps them short, are put into the equations.
+    """
+    h0 = slopes.points.h0
+    for p in pure.good_primes(h0):
+        if all(part.rank == greatest for part in ranks_modulo(slopes, h0, p)):
+            return [Part(h0, greatest, (), ())]
+    for n in pure.MERSENNE:
+        p = (1 << n) - 1
+        if h0[-1] % p and pure.is_coprime(h0, pure.derivative(h0), p):
+            parts = ranks_modulo(slopes, h0, p)
+            lifted = [lifted_part(slopes, part, p) for part in parts if part.rank < greatest]
+            found = [part for part in lifted if part is not None]
+            if len(found) == len(lifted):
+                rest = sum(len(part.factor) - 1 for part in found) < len(h0) - 1
+                return [*found, *[Part(h0, greatest, (), ())] * rest]
+    raise pure.Refusal("too-large", "regular: the ranks at the solutions are not decided")
+
+
+def lifted_part(slopes: Slopes, part: Part, p: int) -> Part | None:
+    """The factor over Z, if it is one and the rank at its roots is proved; otherwise None."""
+    h0 = slopes.points.h0
+    a = h0 if len(part.factor) == len(h0) else pure.lifted_factor(part.factor, p)
+    if len(a) != len(part.factor) or (a is not h0 and not pure.is_factor(a, h0)):
+        return None
+    ring = pure.Residues(part.factor, p)
+    slope = ring.element(pure.derivative(a))
+    vectors = []
+    for column, entries in part.kernel:
+        values = [(slope * ring.element(entry)).polynomial() for entry in entries]
+        lifted = lifted_values(values, p)
+        if lifted is None:
+            return None
+        denominator, numerators = lifted
+        vector: list[Polynomial] = [[] for _ in range(slopes.width)]
+        vector[column] = [denominator * value for value in pure.derivative(a)]
+        for place, numerator in zip(part.pivots, numerators, strict=True):
+            vector[place] = [-value for value in numerator]
+        vectors.append(vector)
+    return Part(a, part.rank, part.pivots, ()) if are_orthogonal(slopes, a, vectors) else None
+
+
+def lifted_values(values: Sequence[Polynomial], p: int) -> tuple[int, list[Polynomial]] | None:
+    """A denominator and integer polynomials whose quotients are the given ones modulo p; None if they are not short."""
+    lead, bound = 1, isqrt(p) >> 8
+    for value in (coefficient for each in values for coefficient in each):
+        rest = value * lead % p
+        if bound < rest < p - bound:
+            lead *= pure.least_denominator(rest, p, bound)
+        if lead > bound:
+            return None
+    found = [[rest - p if 2 * (rest := value * lead % p) > p else rest for value in each] for each in values]
+    short = all(abs(value) <= bound for each in found for value in each)
+    return (lead, found) if short else None
+
+
+def are_orthogonal(slopes: Slopes, a: Polynomial, vectors: Sequence[Sequence[Polynomial]]) -> bool:
+    """Whether all rows of the matrix are orthogonal to vectors at the roots of a, over Q."""
+    points = slopes.points
+    for row in slopes.entries:
+        degree = max((sum(next(iter(form))) for form in row if form), default=0)
+        sizes = [size_at(form, points.sizes) for form in row]
+        bound = max(sum(s * max(pure.size(v), 1) for s, v in zip(sizes, vector, strict=True)) for vector in vectors)
+        total = degree * (len(points.h0) - 1) + len(a)
+        multiples = pure.Multiples(a, max(bound, 1), -(-total // (len(a) - 1)) + 1)
+        values = points.at_power(multiples.k)
+        entries = [values.value(form) or 0 for form in row]
+        for vector in vectors:
+            at = [pure.at_power(each, multiples.k) for each in vector]
+            pure.spend(sum(product_of_integers(x, y) for x, y in zip(entries, at, strict=True)))
+            if not multiples.include(sum(x * y for x, y in zip(entries, at, strict=True))):
+                return False
+    return True
+
+
+class Weighed(NamedTuple):
+    """Factors of h0 over Z with the weights of the points at their roots; the last may be h0, for all other roots."""
+
+    parts: tuple[tuple[Polynomial, int], ...]
+    total: int
+
+    def regular(self) -> bool:
+        """Whether all weights are 1."""
+        return all(weight == 1 for _, weight in self.parts)
+
+
+def weighed(slopes: Slopes, dimension: int) -> Weighed:
+    """The weights: 1 if the rank is n, else 2^c with as many polynomials as variables, 1 + c with others."""
+    found, left, total = [], len(slopes.points.h0) - 1, 0
+    for part in ranks(slopes, dimension):
+        lack = dimension - part.rank
+        weight = 1 if not lack else 1 << lack if len(slopes.entries) == dimension else 1 + lack
+        number = len(part.factor) - 1 if lack else left
+        left -= number
+        total += number * weight
+        found.append((part.factor, weight))
+    return Weighed(tuple(found), total)
+
+
+def weights_of(weights: Weighed, h0: Polynomial) -> dict[pure.Ends, int]:
+    """The weights of the real solutions, by their parameters."""
+    found = {}
+    for root in pure.isolated(h0):
+        key = pure.ends(root.m, root.m + (not root.exact), root.k)
+        found[key] = 1
+        for factor, weight in weights.parts:
+            low, high = pure.value_at(factor, root.m, root.k), pure.value_at(factor, root.m + 1, root.k)
+            if weight > 1 and ((not low and root.exact) or (not root.exact and low * high < 0)):
+                found[key] = weight
+    return found
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 6: bounds
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def bezout(degrees: Sequence[int], number: int) -> int | None:
+    """The product of the n greatest degrees; None if there are fewer."""
+    return prod(sorted(degrees)[-number:]) if len(degrees) >= number else None
+
+
+def multihomogeneous(polynomials: Sequence[pure.Terms], groups: Sequence[Sequence[int]]) -> int:
+    """b', a coefficient of a product of linear forms: factor by factor, powers above those asked for left out.
+
+    Examples
+    --------
+    >>> multihomogeneous([{(1, 1): 1}, {(1, 1): 2, (0, 0): 1}], [[0], [1]])
+    2
+    """
+    most = tuple(map(len, groups))
+    coefficients = {(0,) * len(groups): 1}
+    for terms in polynomials:
+        degrees = [max(sum(m[place] for place in group) for m in terms) for group in groups]
+        pure.affordable(len(coefficients) <= MAX_STATES, f"groups: more than {MAX_STATES} terms in their product")
+        pure.spend(len(coefficients) * len(groups) * 3000)
+        further: dict[tuple[int, ...], int] = {}
+        for powers, value in coefficients.items():
+            for place, degree in enumerate(degrees):
+                if degree and powers[place] < most[place]:
+                    key = (*powers[:place], powers[place] + 1, *powers[place + 1 :])
+                    further[key] = further.get(key, 0) + value * degree
+        coefficients = further
+    return coefficients.get(most, 0)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Checks 7 and 8: elements, and the number of homogeneous polynomials
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def elements_of(certificate: Certificate) -> pure.Elimination:
+    """The elements of an elimination."""
+    elements = pure.echelon_form(certificate.polynomials)
+    return pure.followed(tuple(range(certificate.number)), elements, certificate.elimination or ())
+
+
+def primes_of(forms: Iterable[Mapping[pure.Monomial, int]]) -> list[int]:
+    """Primes of 31 bits for which nothing is built: they follow from the polynomials."""
+    digest = sha256(repr([sorted(form.items()) for form in forms]).encode()).digest()
+    starts = (int.from_bytes(digest[8 * k : 8 * k + 4], "big") >> 2 | 1 << 30 | 1 for k in range(ATTEMPTS))
+    return [next(n for n in range(start, 1 << 32, 2) if pure.is_prime(n)) for start in starts]
+
+
+SLOT: Final = 16
+"""Bytes for an entry of a packed row: residues have 31 bits; 2^16 times a product is added, then 2^17 such are."""
+
+SUMS: Final = 1 << 16
+"""So often is a multiple of another row added to one before it is reduced."""
+
+
+class Relations:
+    """Linear relations of symbols modulo a prime: each symbol is free, or a combination of free ones.
+
+    A combination is one integer, with the residue of symbol number s at byte ``SLOT s``; residues are reduced late.
+    """
+
+    def __init__(self, symbols: int, p: int) -> None:
+        self.symbols = symbols
+        self.p = p
+        self.known: dict[int, int] = {}
+        self.added: dict[int, int] = {}
+
+    def unpacked(self, value: int) -> list[int]:
+        """The residues."""
+        pure.spend(150 * self.symbols)
+        data = value.to_bytes(SLOT * self.symbols, "little")
+        return [int.from_bytes(data[i : i + SLOT], "little") % self.p for i in range(0, len(data), SLOT)]
+
+    def packed(self, residues: Sequence[int]) -> int:
+        """One integer."""
+        return int.from_bytes(b"".join(residue.to_bytes(SLOT, "little") for residue in residues), "little")
+
+    def reduced(self, relation: Mapping[int, int]) -> list[int]:
+        """The combination of free symbols, for that of any symbols."""
+        pure.spend(len(relation) * (500 + 3 * self.symbols))
+        total = 0
+        for symbol, value in relation.items():
+            total += value % self.p * self.known.get(symbol, 1 << (8 * SLOT * symbol))
+        return self.unpacked(total)
+
+    def add(self, relation: Mapping[int, int]) -> None:
+        """One relation more."""
+        residues = self.reduced(relation)
+        lead = next((symbol for symbol, value in enumerate(residues) if value), None)
+        if lead is None:
+            return
+        factor = -pow(residues[lead], -1, self.p)
+        residues[lead] = 0
+        row = self.packed([value * factor % self.p for value in residues])
+        shift, mask = 8 * SLOT * lead, (1 << (8 * SLOT)) - 1
+        pure.spend(len(self.known) * (500 + 3 * self.symbols) + 300 * self.symbols)
+        for symbol, known in self.known.items():
+            entry = (known >> shift) & mask
+            if entry:
+                value = known - (entry << shift) + entry % self.p * row
+                self.added[symbol] += 1
+                if self.added[symbol] == SUMS:
+                    value, self.added[symbol] = self.packed(self.unpacked(value)), 0
+                self.known[symbol] = value
+        self.known[lead], self.added[lead] = row, 0
+
+
+Vector: TypeAlias = dict[int, int]
+
+
+def graded(number: int, forms: Sequence[Mapping[pure.Monomial, int]], p: int, most: int) -> list[int] | None:
+    """dim A_0, dim A_1, .. up to the last that is not 0; None if their sum is too large, or they do not end.
+
+    A = S / J modulo p. ``maps[i][c]`` is x_i c for the c-th element of the basis of the part of A of one degree less.
+    If they end, n general combinations of the polynomials, of the greatest degrees d_i, are a regular sequence, and A
+    is 0 above the sum of the d_i - 1 (Macaulay); so nothing is looked for further on.
+    """
+    words = [word_of(form) for form in forms]
+    if any(not word and value % p for each in words for word, value in each):
+        return []
+    dimensions, maps = [1], [[{0: 1}] for _ in range(number)]
+    starts: dict[tuple[int, ...], Vector] = {(): {0: 1}}
+    below = 0
+    last = sum(sorted(degree_of(form) - 1 for form in forms)[-number:])
+    for degree in range(1, min(MAX_GRADE, last if len(forms) >= number else -1) + 2):
+        size = dimensions[-1]
+        relations = Relations(number * size, p)
+        entries = number * size * (below * number * (number - 1) // 2 + len(forms) + 1)
+        pure.affordable(entries <= pure.MAX_ENTRIES_OF_A_MATRIX << 4, "bound: a matrix with too many entries")
+        if degree > 1:
+            for relation in commuting(maps, size):
+                relations.add(relation)
+        for each in words:
+            if each and len(each[0][0]) == degree:
+                relations.add(relation_of(each, starts, size))
+        free = {s: k for k, s in enumerate(s for s in range(number * size) if s not in relations.known)}
+        maps = mapped(relations, free, number, size)
+        starts = continued(words, starts, maps, degree, p)
+        below, size = size, len(free)
+        if not size:
+            return dimensions
+        dimensions.append(size)
+        if sum(dimensions) > most:
+            return None
+    return None
+
+
+def word_of(form: Mapping[pure.Monomial, int]) -> list[tuple[tuple[int, ...], int]]:
+    """The monomials as words in the variables, with their coefficients."""
+    return [
+        (tuple(place for place, exponent in enumerate(monomial) for _ in range(exponent)), value)
+        for monomial, value in form.items()
+    ]
+
+
+def commuting(maps: Sequence[Sequence[Vector]], size: int) -> Iterator[Vector]:
+    """x_i (x_j c) = x_j (x_i c), of symbols x_i a with the number ``i size + a``."""
+    for i, j in combinations(range(len(maps)), 2):
+        for left, right in zip(maps[j], maps[i], strict=True):
+            relation = {i * size + place: value for place, value in left.items()}
+            relation |= {j * size + place: -value for place, value in right.items()}
+            yield relation
+
+
+def relation_of(words: Sequence[tuple[tuple[int, ...], int]], starts: Mapping[Any, Vector], size: int) -> Vector:
+    """A polynomial whose degree is now reached, each word written as its last variable times what is before it."""
+    relation: Vector = {}
+    for word, value in words:
+        pure.spend(300 * len(starts[word[:-1]]))
+        for place, entry in starts[word[:-1]].items():
+            symbol = word[-1] * size + place
+            relation[symbol] = relation.get(symbol, 0) + value * entry
+    return relation
+
+
+def mapped(relations: Relations, free: Mapping[int, int], number: int, size: int) -> list[list[Vector]]:
+    """The products of the variables and the last basis, in the new one."""
+    found = []
+    for i in range(number):
+        row: list[Vector] = []
+        for symbol in range(i * size, (i + 1) * size):
+            if symbol in free:
+                row.append({free[symbol]: 1})
+            else:
+                values = relations.unpacked(relations.known[symbol])
+                row.append({free[s]: value for s, value in enumerate(values) if value})
+        found.append(row)
+    return found
+
+
+def continued(
+    words: Sequence[Sequence[tuple[tuple[int, ...], int]]],
+    starts: Mapping[Any, Vector],
+    maps: Sequence[Sequence[Vector]],
+    degree: int,
+    p: int,
+) -> dict[tuple[int, ...], Vector]:
+    """The values in A of the beginnings, of this length, of words that are longer."""
+    found: dict[tuple[int, ...], Vector] = {}
+    for word in {word[:degree] for each in words for word, _ in each if len(word) > degree}:
+        total: Vector = {}
+        for place, value in starts[word[:-1]].items():
+            image = maps[word[-1]][place]
+            pure.spend(300 * len(image))
+            for other, entry in image.items():
+                total[other] = (total.get(other, 0) + value * entry) % p
+        found[word] = total
+    return found
+
+
+def number_of(number: int, forms: Sequence[Mapping[pure.Monomial, int]], most: int, extra: bool = False) -> int | None:
+    """The number of homogeneous polynomials (check 8), with a random linear form if ``extra``; None if not found."""
+    for p in primes_of(forms):
+        random = Random(p)
+        further = [{tuple(int(i == k) for k in range(number)): random.randrange(1, p) for i in range(number)}]
+        dimensions = graded(number, [*forms, *further * extra], p, most)
+        if dimensions is not None:
+            return sum(dimensions)
+    return None
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 9: points at infinity
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def check_infinity(certificate: Certificate, infinity: Infinity) -> Iterator[str]:
+    """The points are distinct common points at infinity, their weights sum to what is said, and all are isolated."""
+    number, representation = certificate.number, infinity.points
+    pure.require(len(certificate.polynomials) >= number, "infinity: there are fewer polynomials than variables")
+    yield from check_representation(representation, "infinity: ")
+    length = len(representation.h) - 1
+    chart = combined(representation.w, representation.numerators, length) == pure.derivative(representation.h)
+    pure.require(chart, "infinity: w.z is not 1 at the roots of the eliminant")
+    points = Points(representation, [])
+    forms = list(map(homogeneous, certificate.polynomials))
+    tops = [{m: value for m, value in form.items() if not m[0]} for form in forms]
+    for place, holds in enumerate(points.vanish(tops), 1):
+        pure.require(holds, f"infinity: polynomial {place} is not 0 at every point")
+    yield f"infinity: {length} points, common to all polynomials"
+    weights = weighed(Slopes(points, forms, range(number + 1)), number)  # the kernel has the point, and c vectors more
+    same = infinity.multiplicity == weights.total
+    pure.require(same, f"infinity: multiplicity {infinity.multiplicity} claimed, {weights.total} proved")
+    finite = number_of(number + 1, forms, MAX_HOMOGENEOUS_NUMBER, extra=True)
+    pure.require(finite is not None, "infinity: not proved that the common points are finitely many")
+    yield f"infinity: {weights.total} with multiplicity; all common points are isolated"
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 10: counts and claims
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Proved(NamedTuple):
+    """The strongest claim that is proved; ``multiplicity`` by parameter, None where they are not known."""
+
+    claim: str
+    route: str | None
+    total: int | None
+    multiplicity: dict[pure.Ends, int] | None
+    line: str
+
+
+def check_parts(certificate: Certificate) -> None:
+    """What a certificate must have depends on its route and claim."""
+    route = certificate.route
+    for key, value, of in (
+        ("groups", certificate.groups, "multihomogeneous-bezout"),
+        ("infinity", certificate.infinity, "counting-at-infinity"),
+        ("elimination", certificate.elimination, "exact-elimination"),
+    ):
+        pure.require((value is not None) == (route == of), f"{key}: not as the route {route or 'null'} needs")
+    positive = certificate.claim == "positive-dimensional-proved"
+    pure.require((certificate.witness is not None) == positive, "witness: not as the claim needs")
+
+
+def check_claims(certificate: Certificate) -> Iterator[str]:
+    """Check 10."""
+    check_parts(certificate)
+    listed = len(certificate.solutions)
+    same = certificate.real_solutions == listed
+    pure.require(same, f"real solutions: {certificate.real_solutions} claimed, {listed} listed")
+    pure.require(listed or not certificate.box_exponent, "boxes: a grid is given, but there is no solution")
+    if certificate.witness is not None:
+        yield from check_positive_dimension(certificate, certificate.witness)
+    elif certificate.representation is None:
+        yield from nothing_listed(certificate)
+    else:
+        yield from solutions_listed(certificate, certificate.representation)
+
+
+def nothing_listed(certificate: Certificate) -> Iterator[str]:
+    """Without a representation there may be no solution at all, or nothing is claimed."""
+    nothing = not certificate.distinct_solutions and not certificate.solutions
+    pure.require(nothing, "representation: missing, but solutions are claimed")
+    claim = certificate.claim, certificate.route
+    total = 0 if certificate.claim == "inconsistent" else None
+    same = certificate.complex_solutions == total and type(certificate.complex_solutions) is type(total)
+    pure.require(same, "complex solutions: not what the claim needs")
+    if claim == ("inconsistent", "exact-elimination"):
+        elements = elements_of(certificate).elements
+        constant = any(degree_of(element) == 0 for element in elements)
+        pure.require(constant, "elimination: no element is a constant")
+        yield INCONSISTENT
+    elif claim == ("inconsistent", "modular-rank"):
+        forms = list(map(homogeneous, certificate.polynomials))
+        found = number_of(certificate.number + 1, forms, MAX_HOMOGENEOUS_NUMBER)
+        pure.require(found is not None, "claim: not proved that the polynomials have no common zero")
+        yield INCONSISTENT
+    elif claim == ("not-proven-complete", None):
+        yield "not proven complete: no solution is listed, and none is excluded"
+    elif claim == ("positive-dimensional-detected", None):
+        yield "positive dimension detected: evidence found by the solver, no proof"
+    else:
+        raise pure.Refusal("rejected", f"claim: {certificate.claim} is not proved by what is in the certificate")
+
+
+INCONSISTENT: Final = "inconsistent: 1 = 0 follows from the polynomials, there is no solution, real or complex"
+
+
+def solutions_listed(certificate: Certificate, representation: pure.Representation) -> Iterator[str]:
+    """The claim, the counts and the multiplicities beside solutions."""
+    number = len(representation.h) - 1
+    distinct = certificate.distinct_solutions
+    pure.require(distinct == number, f"distinct solutions: {distinct} claimed, {number} proved")
+    columns = range(1, certificate.number + 1)
+    forms = list(map(homogeneous, certificate.polynomials))
+    weights = weighed(Slopes(finite_points(representation), forms, columns), certificate.number)
+    if certificate.infinity is not None:
+        yield from check_infinity(certificate, certificate.infinity)
+    proved = proved_of_all(certificate, representation, weights)
+    claimed = f"{certificate.claim} by {certificate.route or 'no route'}"
+    pure.require(
+        (certificate.claim, certificate.route) == (proved.claim, proved.route),
+        f"claim: {claimed}, but what is proved is {proved.claim} by {proved.route or 'no route'}",
+    )
+    total = certificate.complex_solutions
+    pure.require(total == proved.total, f"complex solutions: {total} claimed, {proved.total} proved")
+    for place, solution in enumerate(certificate.solutions, 1):
+        expected = None if proved.multiplicity is None else proved.multiplicity.get(solution.parameter)
+        same = solution.multiplicity == expected
+        pure.require(same, f"multiplicity: that of solution {place} differs from what is proved")
+    if proved.total is not None:
+        yield f"complex solutions: {number} distinct, {proved.total} with multiplicity"
+    yield proved.line
+
+
+def proved_of_all(certificate: Certificate, representation: pure.Representation, weights: Weighed) -> Proved:
+    """The first argument that applies."""
+    number, total = len(representation.h) - 1, weights.total
+    regular = weights.regular()
+    by_weight = weights_of(weights, pure.primitive_part(representation.h))
+    bound = bezout([degree_of(terms) for terms in certificate.polynomials], certificate.number)
+    if regular and number == bound:
+        line = f"complete: {number} isolated solutions are the product of the degrees, there is no other"
+        return Proved("complete", "refined-bezout", number, by_weight, line)
+    if certificate.groups is not None:
+        square = len(certificate.polynomials) == certificate.number
+        closes = regular and square and number == multihomogeneous(certificate.polynomials, certificate.groups)
+        pure.require(closes, f"groups: {number} solutions are not proved to be all by their number")
+        line = f"complete: {number} isolated solutions are the multihomogeneous Bezout number, there is no other"
+        return Proved("complete", "multihomogeneous-bezout", number, by_weight, line)
+    if certificate.infinity is not None:
+        further = certificate.infinity.multiplicity
+        line = f"infinity: {total} solutions and {further} at infinity, but the degrees leave room for {bound}"
+        pure.require(total + further == bound, line)
+        line = (
+            f"complete: {total} solutions and {further} at infinity, with multiplicity, are the product of the "
+            "degrees, there is no other"
+        )
+        return Proved("complete", "counting-at-infinity", total, by_weight, line)
+    if certificate.elimination is not None:
+        return proved_by_elimination(certificate, representation, weights, by_weight)
+    if certificate.route == "modular-rank":
+        found = number_of(certificate.number, list(map(top_form, certificate.polynomials)), MAX_NUMBER)
+        pure.require(found == total, f"claim: {total} solutions, not proved that there are no others")
+        return Proved("complete", "modular-rank", total, by_weight, room_for(total))
+    line = f"not proven complete: {number} solutions are proved, others are not excluded"
+    return Proved("not-proven-complete", None, None, by_weight if regular else None, line)
+
+
+def room_for(number: int) -> str:
+    """The last line where elements, or their top forms, leave room for so many solutions."""
+    return f"complete: polynomials that vanish at all solutions leave room for {number}, there is no other"
+
+
+def proved_by_elimination(
+    certificate: Certificate,
+    representation: pure.Representation,
+    weights: Weighed,
+    by_weight: dict[pure.Ends, int],
+) -> Proved:
+    """Complete if the weights fill what the top forms leave, or by the algebra of all solutions."""
+    elimination = elements_of(certificate)
+    total = weights.total
+    if number_of(certificate.number, list(map(top_form, elimination.elements)), MAX_NUMBER) == total:
+        return Proved("complete", "exact-elimination", total, by_weight, room_for(total))
+    basis = elimination.basis(MAX_NUMBER)
+    line = f"elimination: it leaves {len(basis)} monomials, the solutions are not proved to fill them"
+    pure.require(basis, line)
+    algebra = pure.quotient_algebra(elimination, basis)
+    powers = partial(powers_modulo, representation)
+    v = pure.multiplicity_polynomial(algebra, representation, powers, certificate.number) if algebra else None
+    if v is None:
+        raise pure.Refusal("rejected", line)
+    found = pure.multiplicities(v, representation)
+    return Proved("complete", "exact-elimination", len(basis), found, room_for(len(basis)))
+
+
+def powers_modulo(representation: pure.Representation, weights: Sequence[int], p: int) -> list[list[int]] | None:
+    """1, u, .., u^(D - 1) modulo p and h0, for the combination u of the variables; None if p is not suitable."""
+    h0 = pure.primitive_part(representation.h)
+    if not h0[-1] % p:
+        return None
+    ring = pure.Residues(h0, p)
+    slope = ring.element(pure.derivative(representation.h)).polynomial()
+    inverse = pure.inverse_modulo(slope, h0, p)
+    if inverse is None:
+        return None
+    values = [ring.element(numerator) for numerator in representation.numerators]
+    u = pure.combination(weights, values) * ring.element(inverse)
+    powers = [ring.element([1])]
+    for _ in range(ring.degree - 1):
+        powers.append(powers[-1] * u)
+    return [power.value for power in powers]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Check 11: positive dimension
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def check_positive_dimension(certificate: Certificate, witness: Witness) -> Iterator[str]:
+    """The solutions are infinitely many."""
+    nothing = not (certificate.solutions or certificate.distinct_solutions) and certificate.complex_solutions is None
+    pure.require(nothing and certificate.route is None, "claim: beside positive dimension, solutions are claimed")
+    if witness.cause == CAUSES[0]:
+        yield from few_polynomials(certificate)
+    else:
+        yield from many_solutions(certificate, witness)
+    yield "positive dimension: complex solutions are infinitely many; that real ones are is not proved"
+
+
+def few_polynomials(certificate: Certificate) -> Iterator[str]:
+    """A solution exists, and the polynomials are combinations of fewer than n."""
+    representation = certificate.representation
+    if representation is None:
+        raise pure.Refusal("rejected", "witness: there is no solution")
+    yield from checked(representation, certificate.polynomials)
+    rank = len(pure.echelon_form(certificate.polynomials))
+    line = f"witness: {rank} polynomials are independent, not fewer than the {certificate.number} variables"
+    pure.require(rank < certificate.number, line)
+    yield f"polynomials: {rank} are independent, in {certificate.number} variables"
+
+
+def many_solutions(certificate: Certificate, witness: Witness) -> Iterator[str]:
+    """Slices have more solutions than isolated ones are possible."""
+    pure.require(certificate.representation is None, "witness: a representation is given beside slices")
+    number = certificate.number
+    *fixed, last = (form_of(form, number) for form in witness.forms)
+    degrees = [degree_of(terms) for terms in certificate.polynomials] + [1] * len(fixed)
+    bound = bezout(degrees, number)
+    if bound is None:
+        raise pure.Refusal("rejected", "witness: with the forms there are fewer polynomials than variables")
+    total = 0
+    for place, (constant, representation) in enumerate(witness.slices, 1):
+        moved = {m: value * constant.denominator for m, value in last.items()}
+        moved[(0,) * number] = moved.get((0,) * number, 0) - constant.numerator
+        forms = [*fixed, {m: value for m, value in moved.items() if value}]
+        yield from checked(representation, [*certificate.polynomials, *forms], f"slice {place}: ")
+        total += len(representation.h) - 1
+    pure.require(total > bound, f"witness: {total} solutions, but {bound} can be isolated")
+    yield f"slices: {total} solutions, but no more than {bound} can be isolated"
+
+
+def form_of(row: Sequence[int], number: int) -> pure.Terms:
+    """A linear form as a polynomial."""
+    monomials = [tuple(int(i == k) for i in range(number)) for k in range(number + 1)]
+    return {monomial: value for monomial, value in zip(monomials, row, strict=True) if value}
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# All checks
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def replayed(body: dict[str, Any]) -> Iterator[str]:
+    """The content, read at once, and its checks, one after another."""
+    return checks(read(body))
+
+
+def checks(certificate: Certificate) -> Iterator[str]:
+    """One line per claim that is proved; witnesses of a positive dimension are checked with the claim."""
+    representation = certificate.representation
+    if representation is not None and certificate.witness is None:
+        yield from checked(representation, certificate.polynomials)
+        yield from check_real(certificate, representation)
+    yield from check_claims(certificate)
