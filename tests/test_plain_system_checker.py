@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from math import comb
@@ -10,6 +11,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from forged_systems import FORGERIES, MALFORMED
 from handmade_systems import SQUARES, handmade, represented, sealed_bytes, system_content
 
 from pkm_exact.certify import pure, pure_system
@@ -152,3 +154,16 @@ def test_ranks_are_found_where_roots_differ() -> None:
     assert sum(len(factor) - 1 for factor in double) == 2
     for factor in double:
         assert all(pure.value_at(factor, t, 0) for t in (1, 3))
+
+
+@pytest.mark.parametrize("name", FORGERIES)
+def test_forged_certificates_are_rejected(name: str) -> None:
+    make, reason = FORGERIES[name]
+    verdict = pure.check_bytes(sealed_bytes(make()))
+    assert verdict.status == "rejected", verdict.lines
+    assert re.search(reason, verdict.lines[-1]), verdict.lines[-1]
+
+
+@pytest.mark.parametrize("name", MALFORMED)
+def test_malformed_certificates_are_malformed(name: str) -> None:
+    assert pure.check_bytes(sealed_bytes(MALFORMED[name]())).status == "malformed"

@@ -230,13 +230,7 @@ def a_witness(number: int, value: Any, where: str) -> Witness:
     cause = pure.one_of(CAUSES)(cause, f"{where}.cause")
     rows = tuple(map(tuple, pure.a_list(pure.a_list(pure.an_integer, number + 1))(forms, f"{where}.forms")))
     listed = tuple(pure.a_list(partial(a_slice, number))(slices, f"{where}.slices"))
-    if cause == CAUSES[0]:
-        pure.well_formed(not rows and not listed, f"{where}: forms or slices, but the polynomials are few")
-    else:
-        fits = 1 <= len(rows) <= MAX_FORMS and all(any(row[:-1]) for row in rows)
-        pure.well_formed(fits, f"{where}.forms: not 1 to {MAX_FORMS} forms, none of them constant")
-        rising = listed and all(a < b for (a, _), (b, _) in pairwise(listed))
-        pure.well_formed(rising, f"{where}.slices: none, or constants do not increase")
+    pure.affordable(len(rows) <= MAX_FORMS, f"{where}.forms: more than {MAX_FORMS}")
     return Witness(cause, rows, listed)
 
 
@@ -418,7 +412,7 @@ def check_representation(representation: pure.Representation, where: str = "") -
     expected = [(power - degree) * coefficient for power, coefficient in enumerate(h[:-1])]  # T h' - D h
     takes = combined(representation.c, numerators, degree) == expected
     pure.require(takes, f"{where}separating form: its values are not the roots of the eliminant")
-    yield f"{where}separating form: takes {degree} different values, the points are distinct"
+    yield f"{where}separating form: takes {degree} different values, the solutions are distinct"
 
 
 def combined(scalars: Sequence[int], numerators: Sequence[Polynomial], length: int) -> list[int]:
@@ -435,8 +429,8 @@ def check_solutions(representation: pure.Representation, polynomials: Sequence[p
     """Check 3."""
     points = finite_points(representation)
     for number, holds in enumerate(points.vanish(list(map(homogeneous, polynomials))), 1):
-        pure.require(holds, f"{where}solutions: polynomial {number} is not 0 at every root of the eliminant")
-    return f"{where}solutions: all {len(polynomials)} polynomials are 0 at every root of the eliminant"
+        pure.require(holds, f"{where}polynomials: number {number} is not 0 at every root of the eliminant")
+    return f"{where}polynomials: all {len(polynomials)} are 0 at every root of the eliminant"
 
 
 def checked(representation: pure.Representation, polynomials: Sequence[pure.Terms], where: str = "") -> Iterator[str]:
@@ -469,7 +463,8 @@ def check_real(certificate: Certificate, representation: pure.Representation) ->
         pure.require(same, line)
         same = solution.values == tuple(pure.ends(low, high, exponent) for low, high in boxes[place])
         pure.require(same, f"boxes: the box of solution {number} is not that of its root")
-    yield f"real solutions: {len(roots)}, one for each real root of the eliminant, in their boxes"
+    yield f"real solutions: {len(roots)}, one for each real root of the eliminant"
+    yield f"boxes: all {certificate.number * len(roots)} intervals are those of the values, on the grid 2^-{exponent}"
     for (i, one), (j, other) in combinations(enumerate((boxes[place] for place in order), 1), 2):
         apart = any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one, other, strict=True))
         pure.require(apart, f"boxes: those of solutions {i} and {j} are not disjoint")
@@ -919,11 +914,12 @@ def number_of(number: int, forms: Sequence[Mapping[pure.Monomial, int]], most: i
 # ---------------------------------------------------------------------------------------------------------------------
 
 
-def check_infinity(certificate: Certificate, infinity: Infinity) -> Iterator[str]:
+def check_infinity(certificate: Certificate, infinity: Infinity) -> None:
     """The points are distinct common points at infinity, their weights sum to what is said, and all are isolated."""
     number, representation = certificate.number, infinity.points
     pure.require(len(certificate.polynomials) >= number, "infinity: there are fewer polynomials than variables")
-    yield from check_representation(representation, "infinity: ")
+    for _ in check_representation(representation, "infinity: "):
+        pass
     length = len(representation.h) - 1
     chart = combined(representation.w, representation.numerators, length) == pure.derivative(representation.h)
     pure.require(chart, "infinity: w.z is not 1 at the roots of the eliminant")
@@ -932,13 +928,11 @@ def check_infinity(certificate: Certificate, infinity: Infinity) -> Iterator[str
     tops = [{m: value for m, value in form.items() if not m[0]} for form in forms]
     for place, holds in enumerate(points.vanish(tops), 1):
         pure.require(holds, f"infinity: polynomial {place} is not 0 at every point")
-    yield f"infinity: {length} points, common to all polynomials"
     weights = weighed(Slopes(points, forms, range(number + 1)), number)  # the kernel has the point, and c vectors more
     same = infinity.multiplicity == weights.total
     pure.require(same, f"infinity: multiplicity {infinity.multiplicity} claimed, {weights.total} proved")
     finite = number_of(number + 1, forms, MAX_HOMOGENEOUS_NUMBER, extra=True)
     pure.require(finite is not None, "infinity: not proved that the common points are finitely many")
-    yield f"infinity: {weights.total} with multiplicity; all common points are isolated"
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -967,11 +961,12 @@ def check_parts(certificate: Certificate) -> None:
         pure.require((value is not None) == (route == of), f"{key}: not as the route {route or 'null'} needs")
     positive = certificate.claim == "positive-dimensional-proved"
     pure.require((certificate.witness is not None) == positive, "witness: not as the claim needs")
+    fits = (route is not None) == (certificate.claim in ("complete", "inconsistent"))
+    pure.require(fits, f"claim: {certificate.claim} by {route or 'no route'}")
 
 
 def check_claims(certificate: Certificate) -> Iterator[str]:
     """Check 10."""
-    check_parts(certificate)
     listed = len(certificate.solutions)
     same = certificate.real_solutions == listed
     pure.require(same, f"real solutions: {certificate.real_solutions} claimed, {listed} listed")
@@ -995,7 +990,7 @@ def nothing_listed(certificate: Certificate) -> Iterator[str]:
     if claim == ("inconsistent", "exact-elimination"):
         elements = elements_of(certificate).elements
         constant = any(degree_of(element) == 0 for element in elements)
-        pure.require(constant, "elimination: no element is a constant")
+        pure.require(constant, "claim: inconsistent, but the elimination comes to no constant")
         yield INCONSISTENT
     elif claim == ("inconsistent", "modular-rank"):
         forms = list(map(homogeneous, certificate.polynomials))
@@ -1022,7 +1017,7 @@ def solutions_listed(certificate: Certificate, representation: pure.Representati
     forms = list(map(homogeneous, certificate.polynomials))
     weights = weighed(Slopes(finite_points(representation), forms, columns), certificate.number)
     if certificate.infinity is not None:
-        yield from check_infinity(certificate, certificate.infinity)
+        check_infinity(certificate, certificate.infinity)
     proved = proved_of_all(certificate, representation, weights)
     claimed = f"{certificate.claim} by {certificate.route or 'no route'}"
     pure.require(
@@ -1035,7 +1030,11 @@ def solutions_listed(certificate: Certificate, representation: pure.Representati
         expected = None if proved.multiplicity is None else proved.multiplicity.get(solution.parameter)
         same = solution.multiplicity == expected
         pure.require(same, f"multiplicity: that of solution {place} differs from what is proved")
-    if proved.total is not None:
+    if weights.regular():
+        yield f"complex solutions: {number}, each isolated and simple"
+    elif proved.total is None:
+        yield f"complex solutions: {number} distinct; not proved that all are simple"
+    else:
         yield f"complex solutions: {number} distinct, {proved.total} with multiplicity"
     yield proved.line
 
@@ -1068,7 +1067,7 @@ def proved_of_all(certificate: Certificate, representation: pure.Representation,
         return proved_by_elimination(certificate, representation, weights, by_weight)
     if certificate.route == "modular-rank":
         found = number_of(certificate.number, list(map(top_form, certificate.polynomials)), MAX_NUMBER)
-        pure.require(found == total, f"claim: {total} solutions, not proved that there are no others")
+        pure.require(found == total, f"modular rank: {total} solutions, not proved that there are no others")
         return Proved("complete", "modular-rank", total, by_weight, room_for(total))
     line = f"not proven complete: {number} solutions are proved, others are not excluded"
     return Proved("not-proven-complete", None, None, by_weight if regular else None, line)
@@ -1128,7 +1127,9 @@ def powers_modulo(representation: pure.Representation, weights: Sequence[int], p
 def check_positive_dimension(certificate: Certificate, witness: Witness) -> Iterator[str]:
     """The solutions are infinitely many."""
     nothing = not (certificate.solutions or certificate.distinct_solutions) and certificate.complex_solutions is None
-    pure.require(nothing and certificate.route is None, "claim: beside positive dimension, solutions are claimed")
+    pure.require(
+        nothing and certificate.route is None, "witness: beside it solutions are listed, or a number or route given"
+    )
     if witness.cause == CAUSES[0]:
         yield from few_polynomials(certificate)
     else:
@@ -1138,19 +1139,22 @@ def check_positive_dimension(certificate: Certificate, witness: Witness) -> Iter
 
 def few_polynomials(certificate: Certificate) -> Iterator[str]:
     """A solution exists, and the polynomials are combinations of fewer than n."""
-    representation = certificate.representation
-    if representation is None:
-        raise pure.Refusal("rejected", "witness: there is no solution")
+    representation, witness = certificate.representation, certificate.witness
+    if representation is None or witness is None or witness.forms or witness.slices:
+        raise pure.Refusal("rejected", "witness: not a representation of a solution, without forms and slices")
     yield from checked(representation, certificate.polynomials)
     rank = len(pure.echelon_form(certificate.polynomials))
     line = f"witness: {rank} polynomials are independent, not fewer than the {certificate.number} variables"
     pure.require(rank < certificate.number, line)
-    yield f"polynomials: {rank} are independent, in {certificate.number} variables"
 
 
 def many_solutions(certificate: Certificate, witness: Witness) -> Iterator[str]:
     """Slices have more solutions than isolated ones are possible."""
     pure.require(certificate.representation is None, "witness: a representation is given beside slices")
+    fits = witness.forms and all(any(row[:-1]) for row in witness.forms)
+    pure.require(fits, "witness: there is no form, or a constant one")
+    rising = all(a < b for (a, _), (b, _) in pairwise(witness.slices))
+    pure.require(rising, "witness: the constants of the slices do not increase")
     number = certificate.number
     *fixed, last = (form_of(form, number) for form in witness.forms)
     degrees = [degree_of(terms) for terms in certificate.polynomials] + [1] * len(fixed)
@@ -1165,7 +1169,7 @@ def many_solutions(certificate: Certificate, witness: Witness) -> Iterator[str]:
         yield from checked(representation, [*certificate.polynomials, *forms], f"slice {place}: ")
         total += len(representation.h) - 1
     pure.require(total > bound, f"witness: {total} solutions, but {bound} can be isolated")
-    yield f"slices: {total} solutions, but no more than {bound} can be isolated"
+    yield f"witness: {total} solutions, of which {bound} at most are isolated"
 
 
 def form_of(row: Sequence[int], number: int) -> pure.Terms:
@@ -1186,6 +1190,7 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
 
 def checks(certificate: Certificate) -> Iterator[str]:
     """One line per claim that is proved; witnesses of a positive dimension are checked with the claim."""
+    check_parts(certificate)
     representation = certificate.representation
     if representation is not None and certificate.witness is None:
         yield from checked(representation, certificate.polynomials)
