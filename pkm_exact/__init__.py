@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from pkm_exact.interactive.robots import Mechanism as Mechanism
     from pkm_exact.interactive.robots import Robot as Robot
     from pkm_exact.interactive.robots import read_robot as read_robot
+    from pkm_exact.interactive.system_answers import SystemSolution as SystemSolution
+    from pkm_exact.interactive.system_answers import solve_system as solve_system
     from pkm_exact.numeric.trajectory import track_branch as track_branch
     from pkm_exact.policy import Policy as Policy
     from pkm_exact.poses.pose import Interval as Interval
@@ -64,6 +66,7 @@ _HOME: Final = {
     "Pose": "poses.pose",
     "Robot": "interactive.robots",
     "Solution": "interactive.answers",
+    "SystemSolution": "interactive.system_answers",
     "ToleranceResult": "interactive.answers",
     "Tolerances": "geometry.tolerances",
     "Verdict": "certify.checker.verdict",
@@ -75,6 +78,7 @@ _HOME: Final = {
     "solve": "interactive.questions",
     "solve_krawczyk": "interactive.questions",
     "solve_many": "batch.many",
+    "solve_system": "interactive.system_answers",
     "tolerance_boxes": "interactive.questions",
     "track_branch": "numeric.trajectory",
     "write_certificate": "certify.build",

@@ -2,7 +2,8 @@
 
 Fenced blocks say what they are by their language tag:
 
-sh      commands. ``certify-poses`` runs inside this process. ``# exit code 3`` behind a command says what it returns.
+sh      commands. ``certify-poses`` and ``certify-roots`` run inside this process. ``# exit code 3`` behind one says
+        what it returns.
         ``make`` targets must exist, ``pip install`` extras must be those of pyproject.toml, other lines run in bash.
 python  runs with the names of the page's earlier blocks. ``# -> text`` behind a ``print`` says what it prints.
 toml    is a robot if it has a ``schema``; yaml, json must be valid.
@@ -134,11 +135,12 @@ class Session:
 
     def _command(self, command: str) -> int:
         words = shlex.split(command)
-        if words[0] == "certify-poses" and not set(words) & {"|", ">", ">>", "<", "&&", "||", ";", "*"}:
+        programs = ("certify-poses", "certify-roots")
+        if words[0] in programs and not set(words) & {"|", ">", ">>", "<", "&&", "||", ";", "*"}:
             from pkm_exact.cli.main import main
 
             with redirect_stdout(io.StringIO()) as out:
-                code = int(main(words[1:]))
+                code = int(main(words[1:], words[0]))
             self.printed += out.getvalue().splitlines()
             return code
         if words[0] == "make":

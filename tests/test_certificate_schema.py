@@ -13,7 +13,7 @@ from certificate_subjects import SUBJECTS, subject
 from certificate_tools import CERTS, golden, leaves, with_entry
 from mutations import FREE
 
-from pkm_exact.certify import build, build_constraints, pure, tolerance_build
+from pkm_exact.certify import build, build_constraints, pure, system_build, tolerance_build
 from pkm_exact.certify.build import sealed
 from pkm_exact.certify.checker import document, tolerance_document, verdict
 from pkm_exact.certify.checker.certificate_kinds import KINDS, CertificateKind
@@ -179,7 +179,7 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
-    writers = (build, build_constraints, tolerance_build)
+    writers = (build, build_constraints, tolerance_build, system_build)
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

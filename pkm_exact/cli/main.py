@@ -1,4 +1,4 @@
-"""Entry point of ``certify-poses``: exit codes, and errors as one sentence on stderr.
+"""Entry points of ``certify-poses`` and ``certify-roots``: exit codes, and errors as one sentence on stderr.
 
 Exit codes: 0 done, and the claim is "complete" or "inconsistent" (or every certificate was accepted); 1 a certificate
 was rejected; 2 input or usage that cannot be used; 3 done, but the claim is weaker than complete; 4 no answer, the
@@ -12,6 +12,7 @@ import os
 import sys
 from collections.abc import Sequence
 from enum import IntEnum
+from functools import partial
 from pathlib import Path
 
 import click
@@ -20,6 +21,8 @@ from pkm_exact.errors import InputError, InternalError, PkmExactError
 from pkm_exact.wording import printable
 
 PROGRAM = "certify-poses"
+ROOTS = "certify-roots"
+"""The program for polynomial systems."""
 COMPLETION = "_CERTIFY_POSES_COMPLETE"
 """The environment variable by which a shell's completion script asks."""
 PROBLEM = "pkm_exact.problem"
@@ -38,13 +41,20 @@ class ExitCode(IntEnum):
     BROKEN_PIPE = 141
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
+def roots_main(arguments: Sequence[str] | None = None) -> int:
+    """Run ``certify-roots`` and return its exit code; as ``main``."""
+    return main(arguments, ROOTS)
+
+
+def main(arguments: Sequence[str] | None = None, program: str = PROGRAM) -> int:
     """Run ``certify-poses`` and return its exit code.
 
     Parameters
     ----------
     arguments : sequence of str, optional
         The words after the command's name; those of the process by default.
+    program : str
+        ``certify-roots`` instead.
 
     Examples
     --------
@@ -57,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _accept_any_character()
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        code = _run(words)
+        code = _run(words, program)
         sys.stdout.flush()
     except BrokenPipeError:
         _discard_output()
@@ -66,39 +76,50 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return ExitCode.INTERRUPTED
     except OSError as error:
         _discard_output()
-        return _complain(f"the output cannot be written ({error.strerror}); free the disk or write elsewhere")
+        sentence = f"the output cannot be written ({error.strerror}); free the disk or write elsewhere"
+        return _complain(sentence, program=program)
     except Exception as error:
-        return _failed(error, words)
+        return _failed(error, words, program)
     return code
 
 
-def _run(words: list[str]) -> int:
+def _commands(program: str) -> click.Group:
+    if program == ROOTS:
+        from pkm_exact.cli.roots_commands import certify_roots
+
+        return certify_roots
     from pkm_exact.cli.commands import certify_poses
 
+    return certify_poses
+
+
+def _run(words: list[str], program: str) -> int:
+    group = _commands(program)
+    complain = partial(_complain, program=program)
     if COMPLETION in os.environ and _answered():
         return ExitCode.DONE
     try:
         # click's own main() would turn a broken pipe into exit code 1, which here means a rejected certificate.
-        with certify_poses.make_context(PROGRAM, list(words)) as context:
-            return _invoked(certify_poses, context)
+        with group.make_context(program, list(words)) as context:
+            return _invoked(group, context)
     except click.exceptions.Exit as end:
         return end.exit_code
     except click.UsageError as error:
         if isinstance(error, click.exceptions.NoArgsIsHelpError):
             click.echo(error.format_message(), err=True)
             return ExitCode.BAD_INPUT
-        where = error.ctx.command_path if error.ctx else PROGRAM
-        return _complain(f"{_sentence(error.format_message())}; see {where} --help")
+        where = error.ctx.command_path if error.ctx else program
+        return complain(f"{_sentence(error.format_message())}; see {where} --help")
     except click.ClickException as error:
-        return _complain(_sentence(error.format_message()))
+        return complain(_sentence(error.format_message()))
     except InputError as error:
-        return _complain(str(error))
+        return complain(str(error))
     except InternalError:
         raise
     except PkmExactError as error:
-        return _complain(f"no answer: {error}", ExitCode.NO_ANSWER)
+        return complain(f"no answer: {error}", ExitCode.NO_ANSWER)
     except MemoryError:
-        return _complain("no answer: the memory is exhausted", ExitCode.NO_ANSWER)
+        return complain("no answer: the memory is exhausted", ExitCode.NO_ANSWER)
 
 
 def _answered() -> bool:
@@ -119,14 +140,14 @@ def _invoked(command: click.Command, context: click.Context) -> int:
         raise
 
 
-def _failed(error: Exception, words: list[str]) -> ExitCode:
+def _failed(error: Exception, words: list[str], program: str) -> ExitCode:
     from pkm_exact.failures.failure_report import reported
 
-    return _complain(f"no answer: {reported(error, words)}", ExitCode.NO_ANSWER)
+    return _complain(f"no answer: {reported(error, words)}", ExitCode.NO_ANSWER, program=program)
 
 
-def _complain(sentence: str, code: ExitCode = ExitCode.BAD_INPUT) -> ExitCode:
-    click.echo(f"{PROGRAM}: error: {printable(sentence)}", err=True)
+def _complain(sentence: str, code: ExitCode = ExitCode.BAD_INPUT, *, program: str) -> ExitCode:
+    click.echo(f"{program}: error: {printable(sentence)}", err=True)
     return code
 
 

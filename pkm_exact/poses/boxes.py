@@ -95,20 +95,25 @@ def _at_roots(
         yield coordinates
 
 
-def disjoint_cells(enclosures: Enclosures, count: int, width: Fraction) -> tuple[int, list[list[Interval]]]:
-    """The grid exponent and the cells of all coordinates of the poses; no two poses have overlapping boxes."""
+def disjoint_cells(
+    enclosures: Enclosures, count: int, width: Fraction, *, size: int = 16, apart: int = 12
+) -> tuple[int, list[list[Interval]]]:
+    """The grid exponent and the cells of all coordinates of the poses; no two poses have overlapping boxes.
+
+    Points of another ``size`` serve as well; the boxes differ in one of the first ``apart`` coordinates.
+    """
     exponent = exponent_for_width(width)
     while True:
-        cells = _cells(enclosures, exponent, count)
-        if _are_disjoint(cells):
+        cells = _cells(enclosures, exponent, count, size)
+        if _are_disjoint(cells, apart):
             return exponent, cells
         exponent += 8
 
 
-def _cells(enclosures: Enclosures, exponent: int, count: int) -> list[list[Interval]]:
+def _cells(enclosures: Enclosures, exponent: int, count: int, size: int) -> list[list[Interval]]:
     """Position (3), rotation (9) and quaternion (4) of every real pose as grid intervals."""
     precision = exponent + 128
-    decided: list[list[Interval | None]] = [[None] * 16 for _ in range(count)]
+    decided: list[list[Interval | None]] = [[None] * size for _ in range(count)]
     late = 0
     while left := [index for index, row in enumerate(decided) if None in row]:
         fine = True
@@ -202,9 +207,9 @@ def _key(pose: Pose) -> list[tuple[Fraction, Fraction]]:
     return [(interval.lo, interval.hi) for interval in box]
 
 
-def _are_disjoint(cells: Sequence[Sequence[Interval]]) -> bool:
+def _are_disjoint(cells: Sequence[Sequence[Interval]], apart: int) -> bool:
     return all(
-        any(not a.overlaps(b) for a, b in zip(cells[i][:12], cells[j][:12], strict=True))
+        any(not a.overlaps(b) for a, b in zip(cells[i][:apart], cells[j][:apart], strict=True))
         for i in range(len(cells))
         for j in range(i)
     )

@@ -15,12 +15,15 @@ from pkm_exact.certify.checker.mechanism_document import MechanismDocument, read
 from pkm_exact.certify.checker.mechanism_solutions import check_solutions
 from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
 from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
+from pkm_exact.certify.checker.system_document import read_system_document
+from pkm_exact.certify.checker.system_verdicts import check_system
 from pkm_exact.certify.checker.tolerance_checks import check_tolerances
 from pkm_exact.certify.checker.tolerance_document import read_tolerances
 from pkm_exact.certify.checker.verdict import malformed
 
 POSES: Final = "pkm_exact certificate"
 TOLERANCES: Final = "pkm_exact tolerance certificate"
+SYSTEMS: Final = "pkm_exact system certificate"
 
 
 @dataclass(frozen=True)
@@ -84,4 +87,5 @@ KINDS: Final = (
     CertificateKind(POSES, 1, lambda body: _checks(read_document(body))),
     CertificateKind(POSES, 2, lambda body: _mechanism_checks(read_mechanism_document(body))),
     CertificateKind(TOLERANCES, 1, lambda body: check_tolerances(read_tolerances(body))),
+    CertificateKind(SYSTEMS, 1, lambda body: check_system(read_system_document(body))),
 )

@@ -9,9 +9,9 @@ How multiple, the algebra of all poses says: see ``multiplicities``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 from flint import fmpq_poly, fmpz_poly, nmod_mat, nmod_poly
 
@@ -76,17 +76,41 @@ def multiplicities(
 def multiplicities_of(
     algebra: Algebra, representation: Representation, metric: Metric, places: Sequence[int]
 ) -> list[tuple[fmpz_poly, int]] | None:
+    """Those of poses, the unknowns being the coordinates at these places."""
+
+    def value(modulus: nmod_poly, weights: Sequence[int], p: int) -> nmod_poly | None:
+        x = [
+            Residue(modulo(numerator, p) % modulus, modulus)
+            for numerator in (*representation.quaternion, *representation.translation)
+        ]
+        placed = motion(x[:4], x[4:], metric)
+        rotation = [entry for row in placed.rotation for entry in row]
+        ordered = [*placed.turned, *placed.position, placed.square, *rotation]
+        divisor, inverse, _ = placed.norm.value.xgcd(modulus)
+        if divisor.degree() > 0:
+            return None
+        total = combination(list(weights), [ordered[place] for place in places]).value
+        found: nmod_poly = total * inverse % modulus
+        return found
+
+    return multiplicities_by(algebra, primitive_part(representation.eliminant), len(places), value)
+
+
+Value: TypeAlias = Callable[[nmod_poly, Sequence[int], int], "nmod_poly | None"]
+"""A combination of the unknowns at the roots of a polynomial modulo p, with given weights; None if it has no image."""
+
+
+def multiplicities_by(algebra: Algebra, h0: fmpz_poly, size: int, value: Value) -> list[tuple[fmpz_poly, int]] | None:
     """The irreducible factors f of h, each with the multiplicity of the solutions at its roots; None if not found.
 
     Over Q, multiplication by u has the characteristic polynomial prod_f g_f^m, with g_f the product of X - u(t) over
     the roots t of f. It has so modulo p too, and if the g_f are coprime there, m can be read off.
     """
-    h0 = primitive_part(representation.eliminant)
     factors = irreducible_factors(h0)
     for p, base in ((p, base) for base in BASES for p in primes_for(h0)):
-        weights = {place: pow(base, power, p) for power, place in enumerate(places)}
-        whole = algebra.characteristic_polynomial(list(weights.values()), p)
-        parts = [_part(factor, representation, metric, weights, p) for factor in factors]
+        weights = [pow(base, power, p) for power in range(size)]
+        whole = algebra.characteristic_polynomial(weights, p)
+        parts = [_part(factor, value, weights, p) for factor in factors]
         known = [part for part in parts if part is not None]
         if whole is None or len(known) < len(parts) or any(a.gcd(b).degree() > 0 for a, b in combinations(known, 2)):
             continue
@@ -94,25 +118,13 @@ def multiplicities_of(
     return None
 
 
-def _part(
-    factor: fmpz_poly, representation: Representation, metric: Metric, weights: Mapping[int, int], p: int
-) -> nmod_poly | None:
-    """g_f modulo p; None if f has not its degree there, or N(e) is not a unit."""
+def _part(factor: fmpz_poly, value: Value, weights: Sequence[int], p: int) -> nmod_poly | None:
+    """g_f modulo p; None if f has not its degree there, or the value no image."""
     charge(3 * 10**6 + 100 * int(factor.length()) ** 3)
     modulus = modulo(factor, p)
-    if modulus.degree() < factor.degree():
+    u = None if modulus.degree() < factor.degree() else value(modulus, weights, p)
+    if u is None:
         return None
-    x = [
-        Residue(modulo(value, p) % modulus, modulus)
-        for value in (*representation.quaternion, *representation.translation)
-    ]
-    placed = motion(x[:4], x[4:], metric)
-    rotation = [entry for row in placed.rotation for entry in row]
-    ordered = [*placed.turned, *placed.position, placed.square, *rotation]
-    divisor, inverse, _ = placed.norm.value.xgcd(modulus)
-    if divisor.degree() > 0:
-        return None
-    u = combination(list(weights.values()), [ordered[place] for place in weights]).value * inverse % modulus
     size = int(modulus.degree())
     rows = []
     for _ in range(size):

@@ -40,13 +40,13 @@ def check_real_poses(
     """The poses listed are all the real ones, each with the intervals that it must have, no two in the same box."""
     h = primitive_part(representation.eliminant)
     roots = real_roots(h)
-    cells, fineness = _parameter_cells(h, roots)
+    cells, fineness = parameter_cells(h, roots)
     if len(poses) != len(cells):
         raise rejected(f"real poses: {len(poses)} listed, the eliminant has {len(cells)} real roots")
     boxes = root_boxes(representation, metric, exponent, roots)
     order = in_order(boxes)
     for number, (pose, root) in enumerate(zip(poses, order, strict=True), 1):
-        if pose.parameter != _ends(*cells[root], fineness):
+        if pose.parameter != cell_ends(*cells[root], fineness):
             raise rejected(f"real poses: pose {number} does not have the isolating interval of real root {root + 1}")
     yield f"real poses: {len(poses)}, one for each real root of the eliminant"
     yield from _check_boxes([boxes[root] for root in order], exponent, poses)
@@ -60,7 +60,7 @@ def root_boxes(
     def enclose(precision: int) -> list[list[arb]]:
         return [_at_root(representation, metric, root.ball(precision), precision) for root in roots]
 
-    return _box_cells(enclose, exponent)
+    return box_cells(enclose, exponent)
 
 
 def in_order(boxes: Sequence[Sequence[Cell]]) -> list[int]:
@@ -86,7 +86,7 @@ def check_isolated_poses(
             return None
         return [ordinary_coordinates(point[:4], point[4:], metric, precision) for point in found]
 
-    boxes = _box_cells(enclose, exponent)
+    boxes = box_cells(enclose, exponent)
     if in_order(boxes) != list(range(len(boxes))):
         raise rejected("real poses: not listed in the order of their boxes")
     yield from _check_boxes(boxes, exponent, poses)
@@ -97,7 +97,7 @@ def _check_boxes(boxes: Sequence[Sequence[Cell]], exponent: int, poses: Sequence
     words = limbs(max((int(abs(end).bit_length()) for box in boxes for cell in box for end in cell), default=0))
     charge(len(poses) * (32 * (10000 + words * (2000 + 10 * words)) + 10000 * len(poses)))
     for number, (pose, box) in enumerate(zip(poses, boxes, strict=True), 1):
-        if pose.box != tuple(_ends(low, high, exponent) for low, high in box):
+        if pose.box != tuple(cell_ends(low, high, exponent) for low, high in box):
             raise rejected(f"boxes: the box of pose {number} is not that of its solution")
     yield f"boxes: all {16 * len(poses)} intervals are those of the solutions, on the grid 2^-{exponent}"
     for (i, one), (j, other) in combinations(enumerate(boxes, 1), 2):
@@ -106,7 +106,8 @@ def _check_boxes(boxes: Sequence[Sequence[Cell]], exponent: int, poses: Sequence
     yield "boxes: pairwise disjoint in position or rotation"
 
 
-def _ends(low: fmpz, high: fmpz, exponent: int) -> Ends:
+def cell_ends(low: fmpz, high: fmpz, exponent: int) -> Ends:
+    """The ends of a cell, as texts."""
     scale = fmpz(1) << exponent
     return str(fmpq(low, scale)), str(fmpq(high, scale))
 
@@ -117,7 +118,7 @@ def _scaled(ball: arb, exponent: int) -> tuple[fmpq, fmpq]:
     return fmpq(*dyadic(ball.mid())) * scale, fmpq(*dyadic(ball.rad())) * scale
 
 
-def _parameter_cells(h: fmpz_poly, roots: Sequence[RealRoot]) -> tuple[list[Cell], int]:
+def parameter_cells(h: fmpz_poly, roots: Sequence[RealRoot]) -> tuple[list[Cell], int]:
     """The isolating intervals on the coarsest grid from 2^-32 on where each holds one root only, and its exponent."""
     for exponent in range(PARAMETER_EXPONENT, MAX_BOX_EXPONENT + 1):
         cells = [root.cell(exponent) for root in roots]
@@ -133,15 +134,15 @@ def _holds_one_root(h: fmpz_poly, cell: Cell, exponent: int) -> bool:
     return bool(low == 0) if cell[0] == cell[1] else bool(low * high < 0)
 
 
-def _box_cells(enclose: Callable[[int], list[list[arb]] | None], exponent: int) -> list[list[Cell]]:
-    """For each real pose the cells of its 16 ordinary coordinates on the grid 2^-exponent.
+def box_cells(enclose: Callable[[int], list[list[arb]] | None], exponent: int, size: int = 16) -> list[list[Cell]]:
+    """For each real pose the cells of its 16 ordinary coordinates, or of another number, on the grid 2^-exponent.
 
     ``enclose`` gives enclosures at a precision, or None if it does not suffice.
     """
     precision, doublings = exponent + 256, 0
     while precision <= MAX_PRECISION:
         values = enclose(precision)
-        charge(16 * len(values or ()) * (20000 + 200 * limbs(precision)))
+        charge(size * len(values or ()) * (20000 + 200 * limbs(precision)))
         if values is not None and all(_is_fine(value, exponent) for row in values for value in row):
             boxes = [[_coordinate_cell(value, exponent, doublings >= DOUBLINGS) for value in row] for row in values]
             decided = [[cell for cell in box if cell is not None] for box in boxes]

@@ -170,9 +170,9 @@ def _stacked(rows: Sequence[_Fractions]) -> _Fractions:
     return _reduced(fmpz_mat(len(rows), width, entries), common)
 
 
-def quotient_algebra(elimination: Elimination) -> Algebra | None:
+def quotient_algebra(elimination: Elimination, most: int = GREATEST_NUMBER) -> Algebra | None:
     """The algebra of all poses, or None if the matrices do not commute or an element is not 0 in it."""
-    basis = elimination.standard(GREATEST_NUMBER)
+    basis = elimination.standard(most)
     algebra = Algebra(tuple(basis), tuple(_Reduction(elimination, basis).matrices()))
     return algebra if algebra.commutes() and algebra.vanish(elimination.elements) else None
 

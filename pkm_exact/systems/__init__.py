@@ -1,0 +1,1 @@
+"""Any polynomial systems: read, solved with proofs, and what was found."""

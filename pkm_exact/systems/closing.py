@@ -1,0 +1,177 @@
+"""Proofs that a verified list of solutions is all there is, or that there is none: the ways in the order of their
+costs.
+
+What is proved in each way, and why, is in ``docs/certificates-systems.md``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+
+from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
+from pkm_exact.algebra.exact_quotient import exact_quotient
+from pkm_exact.algebra.groebner import OutOfReachError, Trace, UnluckyPrimeError
+from pkm_exact.algebra.modular_elimination import Elimination
+from pkm_exact.algebra.quotient import standard_monomials
+from pkm_exact.algebra.representation import UnivariateRepresentation
+from pkm_exact.algebra.system import PolynomialSystem
+from pkm_exact.failures.contradiction import require
+from pkm_exact.policy import Policy
+from pkm_exact.stages import Watch
+from pkm_exact.systems.algebra_multiplicities import algebra_multiplicities
+from pkm_exact.systems.bezout import groups_with, product_of_degrees, total_degrees
+from pkm_exact.systems.falling_degrees import with_falls_only
+from pkm_exact.systems.points_at_infinity import filling_points
+from pkm_exact.systems.regularity import Weights, derivatives, has_full_rank, total_weight, weights_at
+from pkm_exact.systems.system_claims import SystemRoute
+from pkm_exact.systems.system_solution import ListProof, Steps
+from pkm_exact.systems.top_forms import elements_of, is_empty_in_space, number_of, room_for
+
+
+@dataclass(frozen=True)
+class ListedSolutions:
+    """A verified list, and what is known of its members one by one.
+
+    Attributes
+    ----------
+    representation : UnivariateRepresentation
+    weights : Weights
+        Numbers that are at most the multiplicities of isolated solutions; empty if all are regular.
+    """
+
+    representation: UnivariateRepresentation
+    weights: Weights
+
+    @property
+    def is_regular(self) -> bool:
+        """Whether all solutions are proved isolated and simple."""
+        return not self.weights
+
+    @property
+    def weight(self) -> int:
+        """The sum of the weights."""
+        return total_weight(self.weights) if self.weights else self.representation.degree
+
+
+def listed(representation: UnivariateRepresentation, system: PolynomialSystem, policy: Policy) -> ListedSolutions:
+    """The list with the weights of its members."""
+    table = derivatives(system.polynomials, len(system.unknowns))
+    if has_full_rank(table, representation, policy):
+        return ListedSolutions(representation, ())
+    square = len(system.polynomials) == len(system.unknowns)
+    weights = weights_at(table, representation, policy, square=square)
+    return ListedSolutions(representation, () if all(weight == 1 for _, weight in weights) else weights)
+
+
+def prove_complete(
+    found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None = None
+) -> ListProof | None:
+    """A proof that the list is complete, or None if none of the ways known here closes.
+
+    Raises
+    ------
+    UnluckyPrimeError
+        If it is proved that there are more solutions.
+    """
+    proof = prove_by_bounds(found, system, policy)
+    return proof or prove_by_search(found, system, policy, watch)
+
+
+def prove_by_bounds(found: ListedSolutions, system: PolynomialSystem, policy: Policy) -> ListProof | None:
+    """A proof by degrees, or by ranks where nothing is at infinity."""
+    degree = found.representation.degree
+    if found.is_regular and degree == product_of_degrees(total_degrees(system), len(system.unknowns)):
+        return ListProof(SystemRoute.REFINED_BEZOUT, degree)
+    if room_for(system, found.weight, policy) == found.weight:
+        return ListProof(SystemRoute.MODULAR_RANK, found.weight, found.weights)
+    return None
+
+
+def prove_by_search(
+    found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None = None
+) -> ListProof | None:
+    """A proof for which something must be found first; errors as ``prove_complete``."""
+    degree = found.representation.degree
+    groups = groups_with(system, degree) if found.is_regular else None
+    if groups is not None:
+        return ListProof(SystemRoute.MULTIHOMOGENEOUS_BEZOUT, degree, groups=groups)
+    points = filling_points(system, found.weight, policy)
+    if points is not None:
+        return ListProof(SystemRoute.COUNTING_AT_INFINITY, found.weight, found.weights, infinity=points)
+    proofs = (_by_elimination(trace, found, system, policy, watch) for trace in _traces(system, policy))
+    return next((proof for proof in proofs if proof is not None), None)
+
+
+def prove_inconsistent(system: PolynomialSystem, policy: Policy, watch: Watch | None = None) -> ListProof | None:
+    """A proof that there is no complex solution, or None."""
+    if is_empty_in_space(system, policy):
+        return ListProof(SystemRoute.MODULAR_RANK, 0)
+    for trace in _traces(system, policy):
+        with suppress(UnluckyPrimeError):
+            basis = exact_basis(system, with_falls_only(trace, system.monomials), watch)
+            if 0 in basis.leading_monomials:
+                return ListProof(SystemRoute.EXACT_ELIMINATION, 0, elimination=_steps(basis))
+    return None
+
+
+def _traces(system: PolynomialSystem, policy: Policy) -> Iterator[Trace]:
+    """Eliminations modulo primes at which the solutions are finitely many, each that differs from those before once."""
+    elimination = Elimination(system, policy)
+    traces: list[Trace | None] = []
+    for _ in range(policy.attempts):
+        image = elimination.image(record=True)
+        trace = None if image.algebra is None else image.basis.trace
+        if trace in traces:
+            return
+        traces.append(trace)
+        if trace is not None:
+            yield trace
+
+
+def _by_elimination(
+    trace: Trace, found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None
+) -> ListProof | None:
+    """The proof by polynomials over Q that follow: where degrees fall, or else by the whole algebra."""
+    size, weight = len(system.unknowns), found.weight
+    try:
+        basis = exact_basis(system, with_falls_only(trace, system.monomials), watch)
+        room = number_of(size, elements_of(basis), policy.dimension_limit, policy, system.digest)
+        require(room is None or room >= weight, "there is room for fewer solutions than were verified", room=room or 0)
+        if room == weight:
+            return ListProof(SystemRoute.EXACT_ELIMINATION, weight, found.weights, elimination=_steps(basis))
+        return _by_algebra(exact_basis(system, trace, watch), found, policy)
+    except (UnluckyPrimeError, OutOfReachError) as error:
+        if isinstance(error, MoreSolutionsError):
+            raise
+        return None
+
+
+class MoreSolutionsError(UnluckyPrimeError):
+    """It is proved that there are more solutions than those that were found."""
+
+
+def _by_algebra(basis: ExactBasis, found: ListedSolutions, policy: Policy) -> ListProof | None:
+    """The proof by the trace form, which counts distinct solutions."""
+    representation = found.representation
+    left = standard_monomials(basis.ring, basis.leading_monomials, policy.dimension_limit)
+    if left is None:
+        return None
+    quotient = exact_quotient(basis, policy.dimension_limit)
+    if quotient is None:
+        return None
+    rank = quotient.distinct_solutions
+    if rank > representation.degree:
+        raise MoreSolutionsError(f"there are {rank} solutions, and {representation.degree} of them were found")
+    require(rank == representation.degree, "the trace form counts other solutions than were verified", rank=rank)
+    weights = algebra_multiplicities(representation, quotient, policy)
+    if weights is None:
+        return None
+    total = total_weight(weights)
+    require(total == len(left), "the multiplicities do not sum to the number of solutions", sum=total, left=len(left))
+    return ListProof(SystemRoute.EXACT_ELIMINATION, total, weights, elimination=_steps(basis))
+
+
+def _steps(basis: ExactBasis) -> Steps:
+    return tuple(tuple((index, basis.ring.unpack(monomial)) for index, monomial in step) for step in basis.steps)

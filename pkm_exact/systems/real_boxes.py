@@ -1,0 +1,121 @@
+"""The real solutions of a representation in boxes, pairwise disjoint."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from flint import arb, arb_poly, fmpq, fmpz, fmpz_poly
+
+from pkm_exact.algebra.representation import UnivariateRepresentation
+from pkm_exact.failures.contradiction import require
+from pkm_exact.poses.boxes import disjoint_cells
+from pkm_exact.precision import working_precision
+from pkm_exact.roots.counting import roots_in_gaps
+from pkm_exact.roots.interval import Interval
+from pkm_exact.roots.isolation import RealRoot, has_root, isolate_real_roots
+from pkm_exact.systems.regularity import Weights
+from pkm_exact.systems.system_solution import RealSolution
+
+_NEWTON_GUARD = 64
+
+
+def real_solutions(
+    representation: UnivariateRepresentation, multiplicities: Weights | None, width: Fraction
+) -> tuple[int, tuple[RealSolution, ...]]:
+    """The grid exponent and the real solutions, by their boxes from left to right.
+
+    Parameters
+    ----------
+    representation : UnivariateRepresentation
+        Verified.
+    multiplicities : Weights or None
+        Of the solutions at the roots of factors of the eliminant; empty if all are simple, None if they are not known.
+    width : Fraction
+        Greatest width of a box.
+    """
+    h = representation.primitive_polynomial
+    roots = isolate_real_roots(h)
+    intervals = [Interval(root.lo, root.hi) for root in roots]
+    require(True not in roots_in_gaps(h, intervals), "a second count finds further real roots", real=len(roots))
+    refined = [_Refined(h, root) for root in roots]
+
+    def enclose(precision: int, indices: Sequence[int]) -> Iterator[list[arb]]:
+        for index in indices:
+            root = refined[index].ball(precision)
+            with working_precision(precision):
+                slope = arb_poly(representation.polynomial.derivative())(root)
+                values = [arb_poly(numerator)(root) / slope for numerator in representation.numerator_polynomials]
+            yield values
+
+    count = len(representation.numerators)
+    exponent, cells = disjoint_cells(enclose, len(roots), width, size=count, apart=count)
+    found = [
+        RealSolution(interval, tuple(row), _multiplicity(interval, multiplicities))
+        for interval, row in zip(intervals, cells, strict=True)
+    ]
+    return exponent, tuple(sorted(found, key=lambda solution: [(value.lo, value.hi) for value in solution.values]))
+
+
+def _multiplicity(parameter: Interval, multiplicities: Weights | None) -> int | None:
+    if multiplicities is None:
+        return None
+    if not multiplicities:
+        return 1
+    return next(number for factor, number in multiplicities if has_root(fmpz_poly(list(factor)), parameter))
+
+
+class _Refined:
+    """A real root, enclosed as narrowly as asked for: by Newton's operator on intervals, or by halving."""
+
+    def __init__(self, h: fmpz_poly, root: RealRoot) -> None:
+        self.h, self.slope = h, h.derivative()
+        self.low, self.high = (fmpq(end.numerator, end.denominator) for end in (root.lo, root.hi))
+
+    def ball(self, precision: int) -> arb:
+        """The root to about so many bits after the point."""
+        if self.low == self.high:
+            with working_precision(precision):
+                return arb(self.low)
+        target = fmpq(1, fmpz(1) << precision)
+        bits = _NEWTON_GUARD
+        while self.high - self.low > target:
+            bits = min(2 * bits, 2 * precision + _NEWTON_GUARD + int(self.h.height_bits()))
+            if not self._narrowed(bits):
+                self._halve()
+        with working_precision(2 * precision + _NEWTON_GUARD):
+            return arb(self.low).union(arb(self.high))
+
+    def _narrowed(self, bits: int) -> bool:
+        with working_precision(bits):
+            place = arb(self.low).union(arb(self.high))
+            middle, slope = place.mid(), arb_poly(self.slope)(place)
+            if slope.contains(0):
+                return False
+            image = middle - arb_poly(self.h)(middle) / slope
+        low, high = _ends(image)
+        low, high = max(low, self.low), min(high, self.high)
+        if 2 * (high - low) > self.high - self.low:
+            return False
+        self.low, self.high = low, high
+        return True
+
+    def _halve(self) -> None:
+        middle = (self.low + self.high) / 2
+        value = self.h(middle)
+        if value == 0:
+            self.low = self.high = middle
+        elif (value > 0) == (self.h(self.low) > 0):
+            self.low = middle
+        else:
+            self.high = middle
+
+
+def _ends(ball: arb) -> tuple[fmpq, fmpq]:
+    middle, radius = (_exact(part) for part in (ball.mid(), ball.rad()))
+    return middle - radius, middle + radius
+
+
+def _exact(value: arb) -> fmpq:
+    mantissa, power = value.man_exp()
+    return fmpq(mantissa) * fmpq(2) ** int(power)
