@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pkm_exact.constraints.distance import Distance as Distance
     from pkm_exact.errors import InputError as InputError
     from pkm_exact.errors import PkmExactError as PkmExactError
+    from pkm_exact.following.follower import Followed as Followed
     from pkm_exact.geometry.problem import ForwardProblem as ForwardProblem
     from pkm_exact.geometry.robot import Configuration as Configuration
     from pkm_exact.geometry.tolerances import Tolerances as Tolerances
@@ -55,6 +56,7 @@ _HOME: Final = {
     "Claim": "claim",
     "CompletenessRoute": "claim",
     "Configuration": "geometry.robot",
+    "Followed": "following.follower",
     "ForwardProblem": "geometry.problem",
     "InputError": "errors",
     "Interval": "poses.pose",

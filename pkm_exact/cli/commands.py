@@ -7,6 +7,7 @@ from typing import Final
 import click
 
 from pkm_exact.cli.check_command import check
+from pkm_exact.cli.codegen import codegen
 from pkm_exact.cli.compare_commands import compare
 from pkm_exact.cli.formulation_commands import export, formulations
 from pkm_exact.cli.legs import legs
@@ -33,6 +34,7 @@ COMMANDS: Final = (
     sweep,
     plot,
     report,
+    codegen,
     selftest,
     completion,
 )

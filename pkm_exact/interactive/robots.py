@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 import pkm_exact.geometry.mechanism as mechanisms
@@ -18,6 +19,8 @@ from pkm_exact.interactive.facade import Question, options, posed
 from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
+    from pkm_exact.following.follower import Followed
+    from pkm_exact.following.leg_tables import Array, LegTables
     from pkm_exact.geometry.mechanism import LockedValues
     from pkm_exact.geometry.robot import Configuration
     from pkm_exact.interactive.answers import Solution
@@ -157,6 +160,51 @@ class Asked(Machine):
 class Robot(Asked, robots.Robot):
     __doc__ = robots.Robot.__doc__
 
+    def follow(
+        self, values: Sequence[float] | Array, start: Followed | Pose | tuple[Sequence[float], Sequence[float]]
+    ) -> Followed:
+        """The pose to which the robot moves from a start when its actuators move evenly to the joint values given.
+
+        For control loops, in doubles: Newton's iteration, and a proof afterwards, every rounding bounded, that the pose
+        is the only one near and of the same assembly mode as the last (``following.follower``).
+
+        Parameters
+        ----------
+        values : sequence of float
+            One per leg, each exactly the double that it is: lengths, angles of cranks in radians, positions of slides.
+        start : Followed, Pose, or position and quaternion
+            What this method returned last; or where to begin: a pose of a solution, or a position (3 numbers, 2 in the
+            plane) with a quaternion of any norm, scalar first, both in ordinary coordinates.
+
+        Returns
+        -------
+        Followed
+            With ``is_proved`` and ``same_mode``: what was proved. If ``is_proved`` is False, the numbers are a guess.
+
+        Raises
+        ------
+        InputError
+            If the values do not fit the robot, or the start is no pose.
+
+        Examples
+        --------
+        >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
+        >>> pose = robot.follow([7.08, 5.1, 5.0], robot.solve().poses[1])
+        >>> pose = robot.follow([7.09, 5.11, 5.01], pose)
+        >>> pose.same_mode, pose.position.round(3).tolist()[:2], pose.position_bound < 1e-9
+        (True, [5.027, 5.0], True)
+        """
+        from pkm_exact.following.follower import Followed
+        from pkm_exact.following.starts import first_pose, follow_to, study_point
+
+        given = _checked_values(self, values)
+        if isinstance(start, Followed) and start.tables.robot is self:
+            return follow_to(start, given)
+        tables = _tables(self)
+        place, turn = start if isinstance(start, tuple) else (start.position, start.quaternion)
+        point = study_point(tables, [float(x) for x in place], [float(x) for x in turn])
+        return first_pose(tables, given, point)
+
 
 @dataclass(frozen=True, repr=False)
 class Mechanism(Asked, mechanisms.Mechanism):
@@ -174,6 +222,25 @@ def read_robot(path: str | os.PathLike[str]) -> Robot | Mechanism:
     found = reader.read_robot(path)
     data = {entry.name: getattr(found, entry.name) for entry in fields(found)}
     return Mechanism(**data) if isinstance(found, mechanisms.Mechanism) else Robot(**data)
+
+
+def _checked_values(robot: Robot, values: Sequence[float] | Array) -> Array:
+    import numpy as np
+
+    found: Array = np.array(values, dtype=float)
+    count = len(robot.actuated)
+    if found.shape != (count,) or not np.all(np.isfinite(found)):
+        raise InputError(
+            f"values: {printable(str(values)[:80])} are no joint values; give {count} numbers, one per leg"
+        )
+    return found
+
+
+@lru_cache(maxsize=8)
+def _tables(robot: Robot) -> LegTables:
+    from pkm_exact.following.leg_tables import leg_tables
+
+    return leg_tables(robot)
 
 
 def _shown(progress: Callable[[str], None] | bool | None) -> Any:

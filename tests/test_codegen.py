@@ -1,0 +1,140 @@
+"""C code written for a robot: it compiles without a warning, and says what the Python code says."""
+
+import ctypes
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from following_tools import Array, precise_pose
+from samples import solved
+
+from pkm_exact import Robot
+from pkm_exact.cli.main import main
+from pkm_exact.following.c_files import c_files
+from pkm_exact.following.follower import Followed, next_pose
+from pkm_exact.following.starts import joint_values
+
+MODELS = Path(__file__).parent.parent / "models"
+COMPILER = shutil.which("cc") or ""
+Capture = pytest.CaptureFixture[str]
+FLAGS = ["-std=c99", "-O2", "-Wall", "-Wextra", "-pedantic", "-Werror"]
+needs_compiler = pytest.mark.skipif(not COMPILER, reason="no C compiler here")
+
+
+def _library(folder: Path, robot: Robot, home: Followed) -> ctypes.CDLL:
+    for name, text in c_files("r", home.tables, home, "a test").items():
+        (folder / name).write_text(text)
+    library = folder / "r.so"
+    subprocess.run([COMPILER, *FLAGS, "-shared", "-fPIC", "r.c", "-lm", "-o", library], cwd=folder, check=True)
+    return ctypes.CDLL(str(library))
+
+
+def _pose_type(legs: int, size: int) -> type[ctypes.Structure]:
+    double = ctypes.c_double
+
+    class Pose(ctypes.Structure):
+        _fields_ = [
+            ("position", double * 3),
+            ("rotation", double * 9),
+            ("quaternion", double * 4),
+            ("position_bound", double),
+            ("rotation_bound", double),
+            ("values", double * legs),
+            ("point", double * size),
+            ("radius", double),
+        ]
+
+    return Pose
+
+
+def _doubles(values: Array) -> ctypes.Array[ctypes.c_double]:
+    return (ctypes.c_double * len(values))(*map(float, values))
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", ["3-rpr-merlet-p", "3-rrr", "hexaglide", "hexa", "ssm-exact"])
+def test_the_code_says_what_python_says(name: str, tmp_path: Path) -> None:
+    robot = Robot.load(MODELS / f"{name}.toml")
+    home = robot.follow(joint_values(robot, robot.configuration()), solved(name).poses[-1])
+    library = _library(tmp_path, robot, home)
+    pose = _pose_type(len(home.values), len(home.point))()
+    start = [_doubles(x) for x in (home.values, home.position, home.quaternion)]
+    assert library.r_start(*start, ctypes.byref(pose)) == 1
+    rng = np.random.default_rng(5)
+    last = next_pose(home.tables, home.values, home)
+    claims = set()
+    for size in [1e-5] * 20 + [1e-3] * 20 + [1e-2] * 20:
+        unit = 1.0 if home.tables.is_cranked else home.tables.unit
+        values = home.values + size * unit * rng.uniform(-1, 1, len(home.values))
+        claim = library.r_follow(_doubles(values), ctypes.byref(pose))
+        found = next_pose(home.tables, values, last)
+        assert claim == found.is_proved + found.same_mode
+        claims.add(claim)
+        if claim:
+            last = found
+            assert pose.position_bound == pytest.approx(found.position_bound, rel=0.5)
+            off = np.max(np.abs(np.array(pose.position) - found.position))
+            assert off <= pose.position_bound + found.position_bound
+            off = np.max(np.abs(np.array(pose.rotation).reshape(3, 3) - found.rotation))
+            assert off <= pose.rotation_bound + found.rotation_bound
+            true = precise_pose(robot, values, found.position, found.quaternion)[0]
+            assert np.max(np.abs(np.array(pose.position) - true)) <= pose.position_bound * 1.000001
+            again = (ctypes.c_double * len(values))()
+            assert library.r_inverse(pose.position, pose.quaternion, _doubles(values), again) == 0
+            assert np.array(again) == pytest.approx(values, abs=1e-6 * unit)
+    assert 2 in claims
+
+
+@needs_compiler
+@pytest.mark.parametrize("name", ["3-prr", "mssm"])
+def test_the_command_writes_files_that_compile_and_pass_their_own_test(
+    name: str, tmp_path: Path, capsys: Capture
+) -> None:
+    folder = tmp_path / "code"
+    words = ["codegen", str(MODELS / f"{name}.toml"), "-o", str(folder), "--name", "arm"]
+    assert main(words) == 0
+    assert capsys.readouterr().out.startswith(f"{folder}: arm.h, arm.c, arm_example.c, arm_test.c\n")
+    for program in ("arm_test", "arm_example"):
+        command = [COMPILER, *FLAGS, f"{program}.c", "arm.c", "-lm", "-o", program]
+        subprocess.run(command, cwd=folder, check=True)
+    report = subprocess.run([folder / "arm_test"], check=True, capture_output=True, text=True).stdout
+    assert report.startswith("10000 poses: 10000 proved, ")
+    assert ", 0 wrong; " in report
+    lines = subprocess.run([folder / "arm_example"], check=True, capture_output=True, text=True).stdout.splitlines()
+    assert len(lines) == 10
+    assert main(words) == 2
+    assert "exists; give -o another folder, or --force" in capsys.readouterr().err
+    first = {path.name: path.read_bytes() for path in folder.glob("*.[ch]")}
+    assert main([*words, "--force"]) == 0
+    assert {path.name: path.read_bytes() for path in folder.glob("*.[ch]")} == first
+
+
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        (["delta.toml"], "codegen needs a robot with legs"),
+        (["3-rpr-merlet-p.toml", "--name", "9x"], "--name: '9x' is no name in C"),
+        (["3-rpr-merlet-p.toml", "--pose", "7"], "--pose: 7 is not among the 2 poses"),
+        (["3-rpr-merlet-p.toml", "--configuration", "x"], "configuration: 'x' is unknown"),
+        (["nowhere.toml"], "no such file"),
+    ],
+)
+def test_what_cannot_be_written_gives_one_sentence_and_no_file(
+    words: list[str], part: str, tmp_path: Path, capsys: Capture
+) -> None:
+    folder = tmp_path / "code"
+    assert main(["codegen", str(MODELS / words[0]), "-o", str(folder), *words[1:]]) == 2
+    _, err = capsys.readouterr()
+    assert part in err
+    assert err.count("\n") == 1
+    assert not folder.exists()
+
+
+def test_names_from_a_model_cannot_leave_their_comment() -> None:
+    robot = Robot.load(MODELS / "3-rpr-merlet-p.toml")
+    home = robot.follow(joint_values(robot, robot.configuration()), solved("3-rpr-merlet-p").poses[0])
+    text = c_files("r", home.tables, home, "x */ int main(void) { return 1; }\n#error \\")["r.h"]
+    assert text.count("*/") == c_files("r", home.tables, home, "x")["r.h"].count("*/")
+    assert "\n#error" not in text
