@@ -239,7 +239,7 @@ def handmade() -> dict[str, Content]:
             **complete("exact-elimination", 1, elimination=[["0", "1 1"]]),
         ),
         "some": listed("x,y", SQUARES, represented(CORNERS[1:], (1, 1))),
-        "some, multiple": listed("x,y", TANGENT, represented([(0, 0)], (1, 1)), multiplicities=None),
+        "multiple": listed("x,y", TANGENT, represented([(0, 0)], (1, 1)), multiplicities=None),
         "nothing": system_content("x,y", SQUARES),
         "detected": system_content("x,y", LINE, claim="positive-dimensional-detected"),
         "none, rank": system_content("x,y", ("x", "x-1", "y"), completeness_route="modular-rank", **none),
