@@ -31,6 +31,20 @@ if TYPE_CHECKING:
 @click.option("--modes", metavar="SIGNS", help="Working mode at --position: + or - for each slide or crank, as in ++-.")
 @click.option("--model", type=arguments.FilePath(), metavar="MODEL", help="The model file of CERT, for its drives.")
 @click.option(
+    "--load", metavar="FX,..,MZ", help="Force, or force and moment, on the platform: which actuator forces bear it."
+)
+@click.option(
+    "--load-at", metavar="X,Y,Z", help="Where the force acts, in the platform's frame.  [default: its origin]"
+)
+@click.option(
+    "--limits",
+    "limits",
+    multiple=True,
+    metavar="KEY=VALUES",
+    help="What actuators can do, or is wanted; can be repeated: speeds=1/2, forces=4.2, length=0.1, ..",
+)
+@click.option("--stiffness", metavar="K1,..", help="Of the actuators: the stiffness matrix of the platform.")
+@click.option(
     "--format",
     "layout",
     type=click.Choice(["table", "json"]),
@@ -47,10 +61,14 @@ def statics(
     configuration: str | None,
     modes: str | None,
     model: str | None,
+    load: str | None,
+    load_at: str | None,
+    limits: tuple[str, ...],
+    stiffness: str | None,
     layout: str,
     **turns: str | None,
 ) -> int:
-    """Print what a machine can do at a pose: wrenches, Jacobians, ranks and singularities.
+    """Print what a machine can do at a pose: wrenches, Jacobians, singularities, indices, forces.
 
     MODEL is a model file: the pose is given by --position and a rotation, exactly, or it is pose K of the solution of a
     configuration. CERT is a certificate, which is checked first; its poses are enclosed by its boxes.
@@ -59,6 +77,7 @@ def statics(
     Examples:
       certify-poses statics models/rolland-6-6.toml --position 0,0,650 --quaternion 9,1,0,-1
       certify-poses statics models/linapod-n.toml --position 0,0,0 --quaternion 1,0,0,0 --modes ++++++
+      certify-poses statics models/3-rpr-merlet-p.toml --pose 1 --limits speeds=0.2 --limits length=3 --load 0,-10
       certify-poses statics certs/3-rps.json --pose 2 --format json
     """
     given = None
@@ -80,11 +99,13 @@ def statics(
             raise click.UsageError("--model: is for a certificate.")
         found, used = _at_pose_of_model(source, number, given, configuration, modes)
     from pkm_exact.cli import statics_report
+    from pkm_exact.cli.statics_answers import answers
 
+    extra = answers(found, load, load_at, limits, stiffness)
     if layout == "json":
-        sys.stdout.write(json.dumps(statics_report.as_object(found, used), indent=1) + "\n")
+        sys.stdout.write(json.dumps(statics_report.as_object(found, used, extra), indent=1) + "\n")
     else:
-        sys.stdout.write(statics_report.as_text(found, used))
+        sys.stdout.write(statics_report.as_text(found, used, extra))
     return ExitCode.DONE
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
+from pkm_exact.cli.statics_answers import StaticsAnswers
 from pkm_exact.statics.at_pose import AtPose
 
 
-def as_object(at: AtPose, nearest: Fraction | None) -> dict[str, Any]:
+def as_object(at: AtPose, nearest: Fraction | None, extra: StaticsAnswers) -> dict[str, Any]:
     """The answer as a JSON object: of every enclosed number both ends, exact rationals as strings."""
     actuated = bool(at.actuated)
     given = [name for name, there in (("J_x", actuated), ("J_q", actuated), ("J", at.jacobian is not None)) if there]
@@ -30,10 +31,10 @@ def as_object(at: AtPose, nearest: Fraction | None) -> dict[str, Any]:
         "singular": list(at.singular),
         "singularities": [{"name": found.name, "constraints": list(found.constraints)} for found in at.singularities],
         "undecided": list(at.kinds.undecided),
-    }
+    } | extra.as_object()
 
 
-def as_text(at: AtPose, nearest: Fraction | None) -> str:
+def as_text(at: AtPose, nearest: Fraction | None, extra: StaticsAnswers) -> str:
     """The answer as a headline and tables."""
     lines = [f"{at.name}, {'exact pose' if at.is_exact else 'pose in a box'}, lengths in {at.unit}"]
     if nearest is not None:
@@ -51,4 +52,5 @@ def as_text(at: AtPose, nearest: Fraction | None) -> str:
         lines += ["", "J is not defined here: an entry of J_q is or may be 0; J_q:", str(at.J_q)]
     else:
         lines += ["", "no constraint is known to be actuated: there is no J (of a certificate, --model says which are)"]
+    lines += extra.lines()
     return "".join(f"{line}\n" for line in lines)

@@ -15,11 +15,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from flint import arb
 
-from pkm_exact.balls import hull
+from pkm_exact.balls import ball, hull
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.inverse import Matrix, Metric
 from pkm_exact.motions.motion import Motion
@@ -31,6 +31,12 @@ from pkm_exact.statics.ball_rows import BallPose, BallRow, enclosed
 from pkm_exact.statics.enclosed_matrix import EnclosedMatrix
 from pkm_exact.statics.exact_rows import ExactRow, column_squares, exact_row
 from pkm_exact.statics.singularity_kinds import Kinds, Singularity, kinds_at_rational_pose, kinds_in_balls
+
+if TYPE_CHECKING:
+    from pkm_exact.polytopes.polytope import Polytope
+    from pkm_exact.statics.forces import Forces
+    from pkm_exact.statics.largest_ellipsoid import LargestEllipsoid
+    from pkm_exact.statics.measures import Measures
 
 BITS: Final = 256
 """Of the balls that exact numbers are enclosed in."""
@@ -208,6 +214,87 @@ class AtPose:
     def _ball_rates(self) -> list[arb]:
         """The diagonal of J_q."""
         return [self.ball_rows[actuator.equation].rates[k] for k, actuator in enumerate(self.held.actuators)]
+
+    def indices(self, **limits: Any) -> dict[str, Interval]:
+        """The values of all indices that have one, enclosed (``statics.index_rows`` has definitions and units).
+
+        Parameters
+        ----------
+        limits
+            As for ``statics.limits_of_actuators``: speeds, forces, length, .., exact.
+
+        Raises
+        ------
+        InputError
+            If there is no J, or a limit cannot be used.
+
+        Examples
+        --------
+        >>> from pkm_exact import Robot
+        >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
+        >>> at = robot.at({"position": [5, "9/2"], "half_tangent": "1/3"})
+        >>> sorted(at.indices(speeds=1))
+        ['v_iso_p', 'w_iso_o']
+        >>> at.indices(length=4)["condition"].width < 1e-12
+        True
+        """
+        from pkm_exact.statics.index_rows import enclosed_indices
+
+        return enclosed_indices(self.measures(**limits))[0]
+
+    def measures(self, **limits: Any) -> Measures:
+        """What indices are computed from."""
+        from pkm_exact.statics.freedom import Freedom
+        from pkm_exact.statics.limits_of_actuators import ActuatorLimits
+        from pkm_exact.statics.measures import Measures
+
+        return Measures(Freedom(self), ActuatorLimits.of(limits, len(self.actuated)))
+
+    def velocity_polytope(self, speeds: Any) -> Polytope:
+        """The twists that actuators with these greatest speeds can follow; one number is that of all."""
+        from pkm_exact.statics.capability import velocity_polytope
+
+        measures = self.measures(speeds=speeds)
+        return velocity_polytope(measures.freedom, measures.known("speeds"))
+
+    def wrench_polytope(self, forces: Any, least: Any = None) -> Polytope:
+        """The wrenches that actuators with these greatest forces can exert; ``least`` ones are 0 for cables."""
+        from pkm_exact.statics.capability import wrench_polytope
+
+        given = {"forces": forces} if least is None else {"forces": forces, "least_forces": least}
+        measures = self.measures(**given)
+        low, high = measures.limits.force_ends or ((), ())
+        return wrench_polytope(measures.freedom, low, high)
+
+    def ellipsoid(self, speeds: Any, length: Any = None) -> LargestEllipsoid:
+        """The largest ellipsoid of twists in the velocity polytope, turns multiplied by the length."""
+        from pkm_exact.statics.largest_ellipsoid import largest_ellipsoid
+
+        measures = self.measures(**{"speeds": speeds} | ({} if length is None else {"length": length}))
+        measures.require_norms()
+        rows = measures.freedom.scaled(measures.limits.length, measures.known("speeds"))
+        return largest_ellipsoid(rows, self.twist)
+
+    def forces(self, load: Sequence[Any]) -> Forces:
+        """The actuator forces that bear a load on the platform, about its origin (``statics.forces``)."""
+        from pkm_exact.geometry.rational import parse_rational
+        from pkm_exact.statics.forces import forces
+
+        return forces(self, [parse_rational(x, f"load[{k}]") for k, x in enumerate(load, 1)])
+
+    def arm(self, point: Sequence[Fraction]) -> list[Any]:
+        """From the platform's origin to a point of the platform, in ordinary coordinates of base and platform.
+
+        Exact sums of square roots at an exact pose, else balls.
+        """
+        if self.is_exact:
+            g = self.metric
+            return [
+                sum((RootSum.root(Fraction(g[i], g[j])) * (row[j] * point[j]) for j in range(3)), RootSum())
+                for i, row in enumerate(self.rotation)
+            ]
+        with working_precision(BITS):
+            return [sum((_hull(row[j]) * ball(point[j]) for j in range(3)), arb(0)) for row in self.rotation]
 
     def __str__(self) -> str:
         rank = "not decided" if self.rank is None else str(self.rank)

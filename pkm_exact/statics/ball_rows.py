@@ -12,7 +12,7 @@ from pkm_exact.balls import ball
 from pkm_exact.constraints.constraint import SquareForm
 from pkm_exact.constraints.form import ordinary, value_at, wrench
 from pkm_exact.geometry.inverse import Metric
-from pkm_exact.radicals import RootSum
+from pkm_exact.polytopes.enclosures import ball_of
 from pkm_exact.statics.actuated_equations import AnyForm, Equation, Rate
 from pkm_exact.statics.exact_rows import ExactRow, column_squares
 
@@ -89,10 +89,3 @@ def enclosed(row: ExactRow, metric: Metric, twist: Sequence[int]) -> BallRow:
     columns = [ball(k).sqrt() for k in column_squares(metric, twist)]
     entries = tuple(ball_of(entry) * column * size for entry, column in zip(row.wrench, columns, strict=True))
     return BallRow(entries, {actuator: ball_of(rate) * size for actuator, rate in row.rates.items()})
-
-
-def ball_of(value: Any) -> arb:
-    """A ball around a rational number or a sum of roots, at the precision in force."""
-    if not isinstance(value, RootSum):
-        return ball(value)
-    return sum((ball(c) * arb(n).sqrt() for n, c in value.terms), arb(0))

@@ -11,32 +11,23 @@ import numpy as np
 from flint import arb
 from numpy.typing import NDArray
 
+from pkm_exact.polytopes.enclosures import BITS, interval_of
 from pkm_exact.radicals import RootSum
-from pkm_exact.roots.interval import Interval
+from pkm_exact.roots.interval import Interval, decimal
 
-_BITS = 64
+_LEAST = Fraction(1, 2 * 10**12)
 
 
-def interval(value: arb) -> Interval:
-    """An interval with short ends around a ball; exact if the ball is an exact number that is not long.
+def shown_number(value: Interval) -> str:
+    """The digits that are certain, 12 of them at most.
 
-    Examples
-    --------
-    >>> from flint import arb
-    >>> interval(arb(1) / 4)
-    [1/4]
-    >>> interval(arb(2).sqrt()).width < Fraction(1, 10**14)
-    True
+    >>> shown_number(Interval(Fraction(1, 3), Fraction(1, 3)))
+    '0.333333333333'
+    >>> shown_number(Interval(Fraction(0), Fraction(1, 10**30)))
+    '0.000000000000000'
     """
-    low, high = value.lower(), value.upper()
-    ends = []
-    for end, up in ((low, False), (high, True)):
-        mantissa, power = (int(part) for part in end.man_exp())
-        shift = max(0, mantissa.bit_length() - _BITS)
-        mantissa = -(-mantissa >> shift) if up else mantissa >> shift
-        power += shift
-        ends.append(Fraction(mantissa << power) if power >= 0 else Fraction(mantissa, 1 << -power))
-    return Interval(ends[0], ends[1])
+    room = max(abs(value.lo) * _LEAST, abs(value.hi) * _LEAST, _LEAST / 1000)
+    return decimal(Interval(value.lo - room, value.hi + room))
 
 
 @dataclass(frozen=True, repr=False)
@@ -62,13 +53,13 @@ class EnclosedMatrix:
         cls, rows: Sequence[str], columns: Sequence[str], values: Sequence[Sequence[RootSum]]
     ) -> EnclosedMatrix:
         """A matrix of sums of square roots."""
-        entries = tuple(tuple(Interval(*value.bounds(_BITS)) for value in row) for row in values)
+        entries = tuple(tuple(Interval(*value.bounds(BITS)) for value in row) for row in values)
         return cls(tuple(rows), tuple(columns), entries, tuple(tuple(map(str, row)) for row in values))
 
     @classmethod
     def of(cls, rows: Sequence[str], columns: Sequence[str], values: Sequence[Sequence[arb]]) -> EnclosedMatrix:
         """A matrix of balls."""
-        return cls(tuple(rows), tuple(columns), tuple(tuple(interval(value) for value in row) for row in values))
+        return cls(tuple(rows), tuple(columns), tuple(tuple(interval_of(value) for value in row) for row in values))
 
     def to_numpy(self) -> NDArray[np.float64]:
         """The entries in doubles, each the nearest to the middle of its interval.
@@ -97,7 +88,7 @@ class EnclosedMatrix:
 
     def __str__(self) -> str:
         cells = [["", *self.columns]]
-        cells += [[name, *(str(entry) for entry in row)] for name, row in zip(self.rows, self.entries, strict=True)]
+        cells += [[name, *map(shown_number, row)] for name, row in zip(self.rows, self.entries, strict=True)]
         widths = [max(len(row[k]) for row in cells) for k in range(len(cells[0]))]
         lines = ["  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in cells]
         return "\n".join(line.rstrip() for line in lines)

@@ -7,24 +7,10 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from flint import arb, arb_mat, fmpq, fmpq_mat
+from flint import arb_mat
 
+from pkm_exact.polytopes.rationals import as_fraction, rational_matrix
 from pkm_exact.radicals import RootSum
-
-
-def rational_matrix(rows: Sequence[Sequence[Fraction]]) -> fmpq_mat:
-    """The rows as a matrix of FLINT's.
-
-    >>> rational_matrix([[Fraction(1, 2), Fraction(3)]])
-    [1/2, 3]
-    """
-    entries = [fmpq(value.numerator, value.denominator) for row in rows for value in row]
-    return fmpq_mat(len(rows), len(rows[0]), entries)
-
-
-def as_fraction(value: fmpq) -> Fraction:
-    """A number of FLINT's as one of Python's."""
-    return Fraction(int(value.p), int(value.q))
 
 
 def rationalised(row: Sequence[Any]) -> list[Fraction] | None:
@@ -86,6 +72,12 @@ def proved_rank(matrix: arb_mat) -> int:
     return 0
 
 
+def pivots(matrix: arb_mat) -> list[int]:
+    """Columns of a minor that is far from 0, in floating point."""
+    middle = np.array([float(entry.mid()) for entry in matrix.entries()]).reshape(matrix.nrows(), matrix.ncols())
+    return _chosen(middle)[1]
+
+
 def _chosen(middle: np.ndarray[Any, Any]) -> tuple[list[int], list[int]]:
     """Pivots of an elimination with complete pivoting."""
     left, rows, columns = middle.copy(), [], []
@@ -115,8 +107,3 @@ def root_sum_rank(rows: Sequence[Sequence[Any]]) -> int:
             for row in left
         ]
     return rank
-
-
-def ball_matrix(rows: Sequence[Sequence[arb]]) -> arb_mat:
-    """Rows of balls as a matrix."""
-    return arb_mat([list(row) for row in rows])

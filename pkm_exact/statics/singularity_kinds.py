@@ -23,10 +23,11 @@ from pkm_exact.constraints.constraint import SquareForm
 from pkm_exact.digests import digest
 from pkm_exact.geometry.inverse import Metric, rotation_of
 from pkm_exact.motions.motion import Motion
+from pkm_exact.polytopes.rationals import rational_matrix
 from pkm_exact.statics.actuated_equations import Equation, Held
 from pkm_exact.statics.ball_rows import BallRow
 from pkm_exact.statics.exact_rows import ExactRow, exact_row
-from pkm_exact.statics.ranks import left_kernel, proved_rank, rational_matrix, rationalised, root_sum_rank
+from pkm_exact.statics.ranks import left_kernel, proved_rank, rationalised, root_sum_rank
 
 TYPE_1: Final = "type-1"
 TYPE_2: Final = "type-2"

@@ -1,0 +1,1 @@
+"""Convex polytopes in exact arithmetic: zonotopes, sections of boxes, vertices, facets, volumes."""

@@ -1,0 +1,208 @@
+"""Zonotopes, exactly: all sums of multiples c_k w_k g_k of generators, lo_k <= c_k <= hi_k, w_k > 0.
+
+The wrenches that actuators of limited force can exert are one (Bosscher and Ebert-Uphoff, 2004; Gouttefarde and Krut,
+2010). Its facets by hyperplane shifting: every n - 1 independent generators span a hyperplane, which, shifted as far as
+the others reach, is one. Directions g_k are integers, so whether generators lie in a hyperplane is decided exactly, and
+facets that more than n - 1 generators span are found once. Lengths w_k may be square roots: they do not change that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations, product
+from math import comb, gcd
+from typing import Any, Final
+
+from flint import fmpz_mat
+
+from pkm_exact.errors import InputError
+from pkm_exact.polytopes.enclosures import interval_of
+from pkm_exact.polytopes.polytope import Facet, Polytope
+from pkm_exact.radicals import RootSum
+from pkm_exact.roots.interval import Interval
+
+MOST_HYPERPLANES: Final = 200_000
+
+
+@dataclass(frozen=True)
+class Zonotope:
+    """A zonotope.
+
+    Attributes
+    ----------
+    generators : tuple of tuples of int
+        g_k, none of them 0.
+    weights : tuple of RootSum or Fraction
+        w_k, positive.
+    low, high : tuple of Fraction
+    squares : tuple of Fraction
+        Those of ``Polytope``.
+
+    Examples
+    --------
+    >>> one = Fraction(1)
+    >>> hexagon = Zonotope(((1, 0), (0, 1), (1, 1)), (one,) * 3, (-one,) * 3, (one,) * 3, (one, one))
+    >>> len(hexagon.facets), len(hexagon.vertices), hexagon.volume
+    (6, 6, [12])
+    >>> (hexagon + hexagon).volume
+    [48]
+    """
+
+    generators: tuple[tuple[int, ...], ...]
+    weights: tuple[Any, ...]
+    low: tuple[Fraction, ...]
+    high: tuple[Fraction, ...]
+    squares: tuple[Fraction, ...]
+
+    def __add__(self, other: Zonotope) -> Zonotope:
+        """The sum of Minkowski: all generators together."""
+        if self.squares != other.squares:
+            raise InputError("polytopes: are in different coordinates; add those of one machine")
+        return Zonotope(
+            self.generators + other.generators,
+            self.weights + other.weights,
+            self.low + other.low,
+            self.high + other.high,
+            self.squares,
+        )
+
+    @property
+    def dimension(self) -> int:
+        """Of the space."""
+        return len(self.squares)
+
+    @cached_property
+    def _table(self) -> fmpz_mat:
+        """The generators as columns."""
+        return fmpz_mat([list(column) for column in zip(*self.generators, strict=True)])
+
+    @cached_property
+    def hyperplanes(self) -> tuple[tuple[tuple[int, ...], tuple[int, ...]], ...]:
+        """The primitive normals N of all hyperplanes that generators span, and N.g_k for all of them, each once."""
+        n, count = self.dimension, len(self.generators)
+        if comb(count, n - 1) > MOST_HYPERPLANES:
+            raise InputError(f"polytope: {count} generators in {n} dimensions are too many")
+        if self._table.rank() < n:
+            raise InputError("polytope: the generators do not span the space, so that it has no interior")
+        normals: dict[tuple[int, ...], None] = {}
+        for chosen in combinations(self.generators, n - 1):
+            normal = _normal(chosen, n)
+            if normal is not None:
+                normals[normal] = None
+        products = (fmpz_mat([list(normal) for normal in normals]) * self._table).tolist()
+        return tuple(
+            (normal, tuple(int(value) for value in row)) for normal, row in zip(normals, products, strict=True)
+        )
+
+    @cached_property
+    def facets(self) -> tuple[tuple[tuple[int, ...], Any], ...]:
+        """Outer normals and offsets: normal.x <= offset."""
+        found = []
+        for normal, products in self.hyperplanes:
+            found.append((normal, self._reach(products)))
+            found.append((tuple(-x for x in normal), self._reach([-x for x in products])))
+        return tuple(found)
+
+    def _reach(self, products: Sequence[int]) -> Any:
+        """The greatest normal.x, from normal.g_k."""
+        total: Any = Fraction(0)
+        for value, weight, low, high in zip(products, self.weights, self.low, self.high, strict=True):
+            if value:
+                total = total + (value * (high if value > 0 else low)) * weight
+        return total
+
+    @cached_property
+    def _cells(self) -> tuple[tuple[int, ...], ...]:
+        """A vertex for each, as signs: at which end of its range each generator is."""
+        cells: set[tuple[int, ...]] = set()
+        for normal, products in self.hyperplanes:
+            for side in (1, -1):
+                flat = [index for index, value in enumerate(products) if value == 0]
+                fixed = [side if value > 0 else -side for value in products]
+                for signs in _cells_of([self.generators[index] for index in flat], normal):
+                    cell = fixed.copy()
+                    for index, sign in zip(flat, signs, strict=True):
+                        cell[index] = sign
+                    cells.add(tuple(cell))
+        return tuple(sorted(cells))
+
+    @cached_property
+    def vertices(self) -> tuple[tuple[Any, ...], ...]:
+        """All of them."""
+        return tuple(self._point(cell) for cell in self._cells)
+
+    def _point(self, cell: Sequence[int]) -> tuple[Any, ...]:
+        ends = [high if s > 0 else low for s, low, high in zip(cell, self.low, self.high, strict=True)]
+        lengths = [end * weight for end, weight in zip(ends, self.weights, strict=True)]
+        return tuple(
+            sum((length * g[j] for length, g in zip(lengths, self.generators, strict=True) if g[j]), Fraction(0))
+            for j in range(self.dimension)
+        )
+
+    @cached_property
+    def exact_volume(self) -> RootSum:
+        """In the coordinates x: the sum of the parallelepipeds of n generators."""
+        total = RootSum()
+        for chosen in combinations(range(len(self.generators)), self.dimension):
+            size = abs(int(fmpz_mat([list(self.generators[index]) for index in chosen]).det()))
+            if size:
+                part = RootSum.of(size)
+                for index in chosen:
+                    part = part * ((self.high[index] - self.low[index]) * self.weights[index])
+                total = total + part
+        return total
+
+    @property
+    def volume(self) -> Interval:
+        """In ordinary coordinates."""
+        scale = Fraction(1)
+        for square in self.squares:
+            scale *= square
+        return interval_of(self.exact_volume * RootSum.root(scale))
+
+    def polytope(self) -> Polytope:
+        """The same by vertices and facets."""
+        cells = self._cells
+        facets = []
+        for normal, products in self.hyperplanes:
+            for side in (1, -1):
+                on = [
+                    index
+                    for index, cell in enumerate(cells)
+                    if all(s == (side if v > 0 else -side) for s, v in zip(cell, products, strict=True) if v)
+                ]
+                outer = tuple(side * x for x in normal)
+                facets.append(Facet(outer, self._reach([side * v for v in products]), tuple(on)))
+        return Polytope(self.vertices, tuple(facets), self.squares)
+
+
+def _normal(rows: Sequence[Sequence[int]], n: int) -> tuple[int, ...] | None:
+    """The primitive normal of a hyperplane, its first entry that is not 0 positive; None if the rows are dependent."""
+    if n == 1:
+        return (1,)
+    space, rank = fmpz_mat([list(row) for row in rows]).nullspace()
+    if rank != 1:
+        return None
+    entries = [int(space[j, 0]) for j in range(n)]
+    divisor = gcd(*entries)
+    if next(x for x in entries if x) < 0:
+        divisor = -divisor
+    return tuple(x // divisor for x in entries)
+
+
+def _cells_of(generators: Sequence[tuple[int, ...]], normal: Sequence[int]) -> list[tuple[int, ...]]:
+    """The cells of the zonotope of generators that span the hyperplane with this normal."""
+    n = len(normal) - 1
+    if len(generators) == n:
+        return list(product((-1, 1), repeat=n))
+    dropped = next(j for j, x in enumerate(normal) if x)
+    flat = tuple(g[:dropped] + g[dropped + 1 :] for g in generators)
+    if n == 1:
+        signs = tuple(1 if g[0] > 0 else -1 for g in flat)
+        return [signs, tuple(-s for s in signs)]
+    one = Fraction(1)
+    count = len(flat)
+    return list(Zonotope(flat, (one,) * count, (-one,) * count, (one,) * count, (one,) * n)._cells)

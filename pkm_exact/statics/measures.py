@@ -1,0 +1,176 @@
+"""Numbers from J that several indices share, each computed once, in balls.
+
+A is J on an orthonormal basis of the allowed twists, turns times the length L. J^+ = (J^T J)^-1 J^T maps actuator
+speeds to twists; actuator forces J^+T f of least norm bear the wrench f (Shayya et al., IROS 2014, equations 1 to 9).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from flint import arb, arb_mat
+
+from pkm_exact.errors import InputError
+from pkm_exact.polytopes.enclosures import ball_of
+from pkm_exact.polytopes.polytope import Polytope
+from pkm_exact.precision import working_precision
+from pkm_exact.statics.at_pose import BITS
+from pkm_exact.statics.capability import velocity_polytope
+from pkm_exact.statics.eigenvalues import eigenvalues
+from pkm_exact.statics.freedom import Freedom
+from pkm_exact.statics.limits_of_actuators import ActuatorLimits
+
+
+class RefusedError(InputError):
+    """An index that has no meaning, or needs data that were not given; the message says which."""
+
+
+@dataclass(frozen=True, eq=False)
+class Measures:
+    """J of a machine at a pose with limits of its actuators, and what follows.
+
+    Attributes
+    ----------
+    freedom : Freedom
+    limits : ActuatorLimits
+    """
+
+    freedom: Freedom
+    limits: ActuatorLimits = field(default_factory=ActuatorLimits)
+
+    @property
+    def unit(self) -> str:
+        """Of length."""
+        return self.freedom.at.unit
+
+    def require_norms(self) -> None:
+        """Refuse norms of twists and actuator speeds that add what has different units."""
+        if self.freedom.has_both and self.limits.length is None:
+            raise RefusedError(
+                "mixes translations and turns: give a length, or greatest speeds of the platform (twist)"
+            )
+        if len(self.freedom.units) > 1 and self.limits.speeds is None:
+            raise RefusedError("mixes actuators of different units: give their greatest speeds")
+
+    @cached_property
+    def scaled(self) -> arb_mat:
+        """A, its rows divided by greatest speeds where actuators have different units."""
+        self.require_norms()
+        speeds = self.limits.speeds if len(self.freedom.units) > 1 else None
+        return self.freedom.scaled(self.limits.length, speeds)
+
+    @cached_property
+    def singular_values(self) -> list[arb]:
+        """Of A, in increasing order."""
+        matrix = self.scaled
+        if matrix.nrows() < matrix.ncols():
+            raise RefusedError("has no meaning with fewer actuators than freedoms")
+        with working_precision(BITS):
+            found = eigenvalues(matrix.transpose() * matrix)
+            if found is None or not found[0] > 0:
+                raise RefusedError("is not decided: J is singular, or the pose is not enclosed narrowly enough")
+            return [value.sqrt() for value in found]
+
+    @cached_property
+    def unscaled(self) -> arb_mat:
+        """J, of a machine all of whose constraints are actuated."""
+        if self.freedom.at.held.structural:
+            raise RefusedError("is for machines all of whose constraints are actuated")
+        return self.freedom.ball_jacobian
+
+    @cached_property
+    def inverse(self) -> arb_mat:
+        """J^+ = (J^T J)^-1 J^T."""
+        matrix = self.unscaled
+        if matrix.nrows() < matrix.ncols():
+            raise RefusedError("has no meaning with fewer actuators than freedoms")
+        with working_precision(BITS):
+            transpose = matrix.transpose()
+            try:
+                return matrix.inv() if matrix.nrows() == matrix.ncols() else (transpose * matrix).inv() * transpose
+            except ZeroDivisionError:
+                raise RefusedError(
+                    "is not decided: J is singular, or the pose is not enclosed narrowly enough"
+                ) from None
+
+    def columns(self, *, turning: bool) -> list[int]:
+        """Which components of a twist are translations, or turns."""
+        found = [j for j, k in enumerate(self.freedom.at.motion.twist) if (k >= 3) == turning]
+        if not found:
+            raise RefusedError(f"has no meaning for a motion without {'turns' if turning else 'translations'}")
+        return found
+
+    def isotropic_speed(self, columns: Sequence[int], spin: Sequence[Any] | None = None) -> arb:
+        """The speed that is reached in every direction of these components, the others 0 or an imposed spin."""
+        speeds = self.known("speeds")
+        matrix = self.unscaled
+        with working_precision(BITS):
+            least: arb | None = None
+            for i, speed in enumerate(speeds):
+                norm = sum((matrix[i, j] * matrix[i, j] for j in columns), arb(0)).sqrt()
+                left = ball_of(speed)
+                if spin is not None:
+                    turning = self.columns(turning=True)
+                    left -= abs(sum((matrix[i, j] * ball_of(w) for j, w in zip(turning, spin, strict=True)), arb(0)))
+                    left = left.max(arb(0))
+                if norm.contains(0):
+                    if not norm.is_zero():
+                        raise RefusedError("is not decided: the pose is not enclosed narrowly enough")
+                    if left > 0:
+                        continue
+                found = left / norm if not norm.is_zero() else arb(0)
+                least = found if least is None else least.min(found)
+        if least is None:
+            raise RefusedError("is infinite: no actuator takes part in these motions")
+        return least
+
+    def isotropic_force(self, rows: Sequence[int]) -> arb:
+        """The force that is borne in every direction of these components, actuator forces of least norm."""
+        forces, matrix = self.known("forces"), self.inverse
+        if self.limits.least_forces is not None:
+            raise RefusedError("is for forces that are limited both ways alike; see the wrench polytope")
+        with working_precision(BITS):
+            least: arb | None = None
+            for i, force in enumerate(forces):
+                norm = sum((matrix[j, i] * matrix[j, i] for j in rows), arb(0)).sqrt()
+                if norm.contains(0):
+                    if not norm.is_zero():
+                        raise RefusedError("is not decided: the pose is not enclosed narrowly enough")
+                    continue
+                found = ball_of(force) / norm
+                least = found if least is None else least.min(found)
+        if least is None:
+            raise RefusedError("is infinite: no actuator takes part in these forces")
+        return least
+
+    def known(self, name: str) -> Any:
+        """A limit that must have been given."""
+        value = getattr(self.limits, name)
+        if value is None:
+            raise RefusedError(f"needs limits: {name}")
+        return value
+
+    @cached_property
+    def error_polytope(self) -> Polytope:
+        """The twists that errors of the actuators within their resolutions are."""
+        return velocity_polytope(self.freedom, self.known("resolutions"))
+
+    def greatest_error(self, columns: Sequence[int]) -> arb:
+        """The greatest norm of these components over all errors: at a vertex, as it is convex."""
+        polytope = self.error_polytope
+        with working_precision(BITS):
+            found = arb(0)
+            for vertex in polytope.vertices:
+                square = sum((ball_of(polytope.squares[j]) * ball_of(vertex[j]) ** 2 for j in columns), arb(0))
+                found = found.max(square)
+            return found.sqrt()
+
+    @cached_property
+    def wanted(self) -> dict[str, Fraction | None]:
+        """What is wanted of the platform."""
+        names = ("speed", "turn", "force", "moment")
+        return {name: getattr(self.limits, name) for name in names}
