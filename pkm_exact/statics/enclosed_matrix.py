@@ -24,7 +24,7 @@ def shown_number(value: Interval) -> str:
     >>> shown_number(Interval(Fraction(1, 3), Fraction(1, 3)))
     '0.333333333333'
     >>> shown_number(Interval(Fraction(0), Fraction(1, 10**30)))
-    '0.000000000000000'
+    '0.00000000000000'
     """
     room = max(abs(value.lo) * _LEAST, abs(value.hi) * _LEAST, _LEAST / 1000)
     return decimal(Interval(value.lo - room, value.hi + room))
