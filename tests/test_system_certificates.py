@@ -21,7 +21,7 @@ from pkm_exact.certify.check import check_bytes
 
 MADE = handmade()
 
-OPEN = ("multiple", "nothing", "detected", "none", "few", "many")
+OPEN = ("algebra", "multiple", "nothing", "detected", "none", "few", "many")
 """First words of the names of certificates of which less is proved."""
 
 FREE = (

@@ -95,8 +95,9 @@ def _rank(table: Table, points: Points, factor: fmpz_poly) -> int:
     words = max(limbs(int(value.height_bits())) for value in (points.eliminant, *points.numerators))
     words += int(points.eliminant.degree()) * limbs(int(factor.height_bits()))
     degree = max((sum(monomial) for row in table for entry in row for monomial in entry), default=0)
-    products = sum(len(entry) for row in table for entry in row) * 2 + columns * columns * len(table)
-    charge(products * 4 * polynomials_cost(2 * int(factor.length()), 2 * (degree + 1) * columns * words))
+    length, terms = 2 * int(factor.length()), sum(len(entry) for row in table for entry in row)
+    charge(2 * terms * polynomials_cost(length, (degree + 1) * words))
+    charge(2 * columns * columns * len(table) * polynomials_cost(length, (degree + 1) * columns * words))
     inverse = fmpq_poly(points.eliminant.derivative()).xgcd(modulus)[1]
     x = [fmpq_poly(value) * inverse % modulus for value in points.numerators]
     left = _evaluated(table, x, modulus, fmpq_poly([1]))
