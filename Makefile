@@ -77,7 +77,7 @@ docs: $(VENV)/.installed-docs
 
 fuzz: $(VENV)/.installed-test
 	@$(PIP) install --editable '.[fuzz]'
-	@for target in model path lengths certificate checkers command; do \
+	@for target in model path lengths system certificate checkers command; do \
 		$(BIN)/python fuzz/fuzz.py $$target --seconds $(SECONDS) || exit 1; \
 	done
 

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from targets import PLAIN, ROOT
 
-from pkm_exact import Robot, Tolerances, certificate, read_robot, solve, solve_krawczyk, tolerance_boxes
+from pkm_exact import Robot, Tolerances, certificate, read_robot, solve, solve_krawczyk, solve_system, tolerance_boxes
 from pkm_exact.certify.build import canonical_bytes
 from pkm_exact.certify.tolerance_build import tolerance_certificate
 
 SMALL = 12_000
 """Bytes of golden certificates that serve as seeds: quick to check."""
+SMALL_SYSTEM = 200
+"""The same of systems."""
+SYSTEMS = (
+    b"x,y\n0\nx^2+y^2-4,\nx*y-1\n",
+    b"x\n0\n7/3*x^3-x\n",
+    b"x, y\r\n0\r\n-x*y+1,\r\nx-1/2*y^2\r\n",
+    b"x,y\n0\nx-1,\nx-2\n",
+    b"x,y\n0\nx*y-x,\nx^2-x\n",
+)
 SMALL_TOLERANCES = Tolerances.uniform("1/1000000")
 
 
@@ -25,6 +34,9 @@ def seeds(target: str) -> list[bytes]:
             b"7,5,5\r\n,,\r\n15/2,x,5\r\n",
             b"\xef\xbb\xbfl1,l2,l3\n\n7,5\n",
         ]
+    if target == "system":
+        files = sorted((ROOT / "tests" / "systems").glob("*.ms"))
+        return [*(path.read_bytes() for path in files if path.stat().st_size < SMALL_SYSTEM), *SYSTEMS]
     if target == "command":
         return [bytes([255 - 1 - index]) for index in range(len(PLAIN))] + [bytes([index]) for index in range(64)]
     found = [path.read_bytes() for path in sorted((ROOT / "certs").glob("*.json")) if path.stat().st_size < SMALL]
@@ -32,7 +44,7 @@ def seeds(target: str) -> list[bytes]:
 
 
 def _other_certificates() -> list[bytes]:
-    """Of the kinds that no golden file has: Krawczyk's operator, a robot that moves, and tolerances."""
+    """Of the kinds that no golden file has: Krawczyk's operator, a robot that moves, tolerances, polynomial systems."""
     robot = read_robot(ROOT / "models" / "3-rpr-merlet-p.toml")
     configuration = robot.configuration()
     problem = robot.problem(configuration)
@@ -42,4 +54,6 @@ def _other_certificates() -> list[bytes]:
         certificate(parallelogram, None, solve(parallelogram.problem([25, 25, 25]))),
         tolerance_certificate(robot, configuration.name, tolerance_boxes(problem, SMALL_TOLERANCES, solve(problem))),
     ]
-    return [canonical_bytes(document) for document in documents]
+    systems = (["x^2 + y^2 - 4", "x*y - 1"], ["x^2", "y^2 - 1"], ["x*y - 1", "x*y - 2"], ["x*y - x", "x^2 - x"])
+    solved = [solve_system(polynomials).certificate().data for polynomials in systems]
+    return [*(canonical_bytes(document) for document in documents), *solved]

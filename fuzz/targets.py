@@ -9,17 +9,20 @@ import shutil
 import sys
 from collections.abc import Callable, Mapping
 from contextlib import redirect_stderr, redirect_stdout
+from math import prod
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from pkm_exact.certify import pure
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.cli.main import ExitCode, main
-from pkm_exact.errors import InputError
+from pkm_exact.errors import InputError, PkmExactError
 from pkm_exact.geometry.path_reader import read_path
 from pkm_exact.geometry.reader import read_robot, robot_from_toml
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.interactive.system_answers import solve_system
 from pkm_exact.sweep.lengths import LengthRow, problem_of, read_lengths
+from pkm_exact.systems.system_sources import read_system
 
 ROOT = Path(__file__).parent.parent
 QUICK = ROOT / "models" / "3-rpr-merlet-p.toml"
@@ -95,6 +98,34 @@ def _try_row(robot: Robot, row: LengthRow, names: tuple[str, ...]) -> None:
         return
     if any(leg.length_squared <= 0 for leg in problem.distances):
         raise Finding(f"lengths that are none: {row}")
+
+
+SMALL_DEGREES = 12
+"""Systems with a greater product of degrees are read only."""
+
+
+def fuzz_system(data: bytes) -> None:
+    """A system is read, or refused in one sentence; what is small is solved, and both checkers accept what is said."""
+    with TemporaryDirectory() as name:
+        file = Path(name) / "system.ms"
+        file.write_bytes(data)
+        try:
+            system = read_system(file)
+        except InputError as error:
+            _require_sentence(str(error))
+            return
+    degrees = prod(max(int(polynomial.total_degree()), 1) for polynomial in system.polynomials)
+    if degrees > SMALL_DEGREES or len(data) > 500:
+        return
+    try:
+        found = solve_system(system)
+    except PkmExactError as error:
+        _require_sentence(str(error))
+        return
+    certificate = found.certificate().data
+    for verdict in (check_bytes(certificate), pure.check_bytes(certificate)):
+        if str(verdict.status) != "accepted":
+            raise Finding(f"{found}: {verdict.lines[-1]}")
 
 
 FILES = ("r.toml", "c.json", "p.csv", "none.toml", ".", "", "o.json", "/dev/null", "-", "no/o.json")
@@ -192,6 +223,7 @@ TARGETS: Mapping[str, Callable[[bytes], None]] = {
     "checkers": fuzz_checkers,
     "path": fuzz_path,
     "lengths": fuzz_lengths,
+    "system": fuzz_system,
     "command": fuzz_command,
 }
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 FOLDER = Path(__file__).parent.parent / "fuzz"
-NAMES = ("model", "path", "lengths", "certificate", "checkers", "command")
+NAMES = ("model", "path", "lengths", "system", "certificate", "checkers", "command")
 
 
 @pytest.fixture
