@@ -15,6 +15,7 @@ import pytest
 from certificate_subjects import subject
 from forged_mechanisms import MECHANISMS
 from forged_motions import MOTIONS
+from forged_neighbours import NEIGHBOURS
 
 import pkm_exact.certify.check as first
 from pkm_exact.certify import pure as plain
@@ -98,8 +99,8 @@ def collect(target: Path) -> int:
         for mutation in mutations.sampled(list(mutations.mutations(subject(name))), most, name):
             if isinstance(mutation.content, dict):
                 first.check_bytes(canonical_bytes(sealed(mutation.content)))
-    for name, (make, _) in (MECHANISMS | MOTIONS).items():
-        collector.test = f"version 2: {name}"
+    for name, (make, _) in (MECHANISMS | MOTIONS | NEIGHBOURS).items():
+        collector.test = f"forged: {name}"
         first.check_bytes(canonical_bytes(sealed(make())))
     target.parent.mkdir(parents=True, exist_ok=True)
     with ZipFile(target.with_suffix(".part"), "w", ZIP_DEFLATED) as archive:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import importlib
 import os
+import re
 import resource
 import signal
 import sys
@@ -111,7 +112,8 @@ class Reach:
             lines = {(str(mutant.path), line) for line in mutant.lines}
             guarded = {(str(mutant.path), line) for line in mutant.guarded}
         else:
-            lines = guarded = uses(mutant.checker, mutant.was.partition(":")[0].partition(" ")[0])
+            names = re.findall(r"\w+", re.split("[:=]", mutant.was)[0])
+            lines = guarded = {line for name in names for line in uses(mutant.checker, name)}
         found = {number for line in lines for number in self.by_line.get(line, ())}
         there = sorted(found & {number for line in guarded for number in self.refused.get(line, ())})
         accepted = [number for number in sorted(found) if self.examples[number].answer[0] == "accepted"]
