@@ -69,15 +69,15 @@ def fit_real_poses(content: dict[str, Any], multiplicity: int | None) -> None:
     )
     metric = tuple(int(g) for g in content["robot"]["metric"])
     roots = real_roots(representation.eliminant)
-    cells, fineness = realposes._parameter_cells(representation.eliminant, roots)
+    cells, fineness = realposes.parameter_cells(representation.eliminant, roots)
     boxes = realposes.root_boxes(representation, metric, content["box_exponent"], roots)  # type: ignore[arg-type]
     poses = []
     for root in realposes.in_order(boxes):
         (low, high), box = cells[root], boxes[root]
-        ends = [list(realposes._ends(a, b, content["box_exponent"])) for a, b in box]
+        ends = [list(realposes.cell_ends(a, b, content["box_exponent"])) for a, b in box]
         poses.append(
             {
-                "parameter": list(realposes._ends(low, high, fineness)),
+                "parameter": list(realposes.cell_ends(low, high, fineness)),
                 "position": ends[:3],
                 "rotation": [ends[3:6], ends[6:9], ends[9:12]],
                 "quaternion": ends[12:],

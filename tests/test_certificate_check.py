@@ -303,7 +303,7 @@ def test_standard_monomials() -> None:
 
 def test_isolating_intervals_are_the_cells_of_the_coarsest_grid() -> None:
     close = fmpz_poly([-1, 3]) * fmpz_poly([-1, 3 * 2**40]) * fmpz_poly([0, 1]) * fmpz_poly([-2, 0, 1])
-    cells, exponent = realposes._parameter_cells(close, real_roots(close))
+    cells, exponent = realposes.parameter_cells(close, real_roots(close))
     assert exponent == 42  # 1/(3 2^40) = (4/3) 2^-42: first cell without 0
     assert cells[1:3] == [(0, 0), (1, 2)]
     for (low, high), root in zip(cells, _ROOTS, strict=True):
@@ -316,7 +316,7 @@ _ROOTS = (-(2**0.5), 0, 1 / (3 * 2**40), 1 / 3, 2**0.5)
 def test_no_interval_touches_a_root_that_it_does_not_hold() -> None:
     """-(1/3) 2^-32 lies in the cell [-1, 0] of the grid 2^-32, but so does the root 0."""
     h = fmpz_poly([0, 1]) * fmpz_poly([1, 3 * 2**32])
-    assert realposes._parameter_cells(h, real_roots(h)) == ([(-2, -1), (0, 0)], 34)
+    assert realposes.parameter_cells(h, real_roots(h)) == ([(-2, -1), (0, 0)], 34)
 
 
 @given(st.lists(st.tuples(st.integers(-20, 20), st.integers(-20, 20), st.integers(1, 20)), min_size=1, max_size=5))
@@ -326,7 +326,7 @@ def test_solver_and_checker_isolate_alike(factors: list[tuple[int, int, int]]) -
         h *= fmpz_poly(list(factor))
     for factor, power in h.factor_squarefree()[1]:
         h //= factor ** (power - 1)
-    cells, exponent = realposes._parameter_cells(h, real_roots(h))
+    cells, exponent = realposes.parameter_cells(h, real_roots(h))
     roots = isolate_real_roots(h)
     assert [(root.cell, root.cell + (not root.is_exact)) for root in roots] == cells
     assert all(root.exponent == exponent for root in roots)
@@ -334,7 +334,7 @@ def test_solver_and_checker_isolate_alike(factors: list[tuple[int, int, int]]) -
 
 def test_complex_roots_near_the_real_axis_are_not_taken_for_real() -> None:
     near = fmpz_poly([1, 0, 2**200]) * fmpz_poly([-5, 1])
-    assert realposes._parameter_cells(near, real_roots(near)) == ([(5 << 32, 5 << 32)], 32)
+    assert realposes.parameter_cells(near, real_roots(near)) == ([(5 << 32, 5 << 32)], 32)
 
 
 @pytest.mark.parametrize(

@@ -252,7 +252,7 @@ def test_both_isolate_alike(factors: list[tuple[int, int, int]]) -> None:
         h *= fmpz_poly(list(factor))
     for factor, power in h.factor_squarefree()[1]:
         h //= factor ** (power - 1)
-    cells, exponent = realposes._parameter_cells(h, real_roots(h))
+    cells, exponent = realposes.parameter_cells(h, real_roots(h))
     roots = pure.isolated(pure.primitive_part([int(c) for c in h.coeffs()]))
     assert [(root.m, root.m + (not root.exact)) for root in roots] == cells
     assert all(root.k == exponent for root in roots)
@@ -269,7 +269,7 @@ def test_roots_close_to_each_other_to_a_grid_point_and_to_the_axis() -> None:
         h = fmpz_poly([1])
         for factor in factors:
             h *= fmpz_poly(factor)
-        cells, exponent = realposes._parameter_cells(h, real_roots(h))
+        cells, exponent = realposes.parameter_cells(h, real_roots(h))
         roots = pure.isolated([int(c) for c in h.coeffs()])
         assert [(root.m, root.m + (not root.exact)) for root in roots] == cells
         assert all(root.k == exponent for root in roots)
