@@ -30,7 +30,9 @@ if TYPE_CHECKING:
     from pkm_exact.errors import InputError as InputError
     from pkm_exact.errors import PkmExactError as PkmExactError
     from pkm_exact.following.follower import Followed as Followed
+    from pkm_exact.geometry.linkage import Linkage as Linkage
     from pkm_exact.geometry.problem import ForwardProblem as ForwardProblem
+    from pkm_exact.geometry.reader import read_linkage as read_linkage
     from pkm_exact.geometry.robot import Configuration as Configuration
     from pkm_exact.geometry.tolerances import Tolerances as Tolerances
     from pkm_exact.interactive.answers import Solution as Solution
@@ -43,11 +45,18 @@ if TYPE_CHECKING:
     from pkm_exact.interactive.robots import read_robot as read_robot
     from pkm_exact.interactive.system_answers import SystemSolution as SystemSolution
     from pkm_exact.interactive.system_answers import solve_system as solve_system
+    from pkm_exact.mobility.analysis import LinkageMobility as LinkageMobility
+    from pkm_exact.mobility.analysis import mobility_of as mobility_of
+    from pkm_exact.mobility.platform_mobility import PlatformMobility as PlatformMobility
+    from pkm_exact.mobility.platform_mobility import platform_mobility as platform_mobility
     from pkm_exact.numeric.trajectory import track_branch as track_branch
     from pkm_exact.policy import Policy as Policy
     from pkm_exact.poses.pose import Interval as Interval
     from pkm_exact.poses.pose import Pose as Pose
     from pkm_exact.recomputation import recompute as recompute
+    from pkm_exact.screws.free_motions import FreeMotions as FreeMotions
+    from pkm_exact.screws.screw import Screw as Screw
+    from pkm_exact.screws.screw_system import ScrewSystem as ScrewSystem
 
 __version__: Final = "0.1.0"
 
@@ -57,16 +66,22 @@ _HOME: Final = {
     "CompletenessRoute": "claim",
     "Configuration": "geometry.robot",
     "Followed": "following.follower",
+    "Distance": "constraints.distance",
     "ForwardProblem": "geometry.problem",
+    "FreeMotions": "screws.free_motions",
     "InputError": "errors",
     "Interval": "poses.pose",
-    "Distance": "constraints.distance",
+    "Linkage": "geometry.linkage",
+    "LinkageMobility": "mobility.analysis",
     "ManySolutions": "batch.many",
     "Mechanism": "interactive.robots",
     "PkmExactError": "errors",
+    "PlatformMobility": "mobility.platform_mobility",
     "Policy": "policy",
     "Pose": "poses.pose",
     "Robot": "interactive.robots",
+    "Screw": "screws.screw",
+    "ScrewSystem": "screws.screw_system",
     "Solution": "interactive.answers",
     "SystemSolution": "interactive.system_answers",
     "ToleranceResult": "interactive.answers",
@@ -75,6 +90,9 @@ _HOME: Final = {
     "certificate": "certify.build",
     "check": "certify.certificate",
     "check_bytes": "certify.check",
+    "mobility_of": "mobility.analysis",
+    "platform_mobility": "mobility.platform_mobility",
+    "read_linkage": "geometry.reader",
     "read_robot": "interactive.robots",
     "recompute": "recomputation",
     "solve": "interactive.questions",

@@ -172,12 +172,13 @@ class Session:
     def _toml(self, block: Block) -> None:
         content = tomllib.loads(block.text)
         if "schema" in content:
-            from pkm_exact import InputError, read_robot
+            from pkm_exact import InputError
+            from pkm_exact.geometry.reader import read_any
 
             path = Path("sample-of-the-page.toml")
             path.write_text(block.text, encoding="utf-8")
             try:
-                read_robot(path)
+                read_any(path)
             except InputError as error:
                 raise ValueError(f"no robot: {error}") from None
 

@@ -11,6 +11,7 @@ from pkm_exact.cli.codegen import codegen
 from pkm_exact.cli.compare_commands import compare
 from pkm_exact.cli.formulation_commands import export, formulations
 from pkm_exact.cli.legs import legs
+from pkm_exact.cli.mobility_command import mobility
 from pkm_exact.cli.new import new
 from pkm_exact.cli.plot import plot
 from pkm_exact.cli.report_command import report
@@ -29,6 +30,7 @@ COMMANDS: Final = (
     export,
     legs,
     statics,
+    mobility,
     compare,
     track,
     sweep,

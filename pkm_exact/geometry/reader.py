@@ -21,6 +21,8 @@ from pkm_exact.geometry.inverse import UNIT_METRIC
 from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
+from pkm_exact.geometry.linkage import CHAINS_KIND, Linkage
+from pkm_exact.geometry.linkage_reader import read_linkage_tables
 from pkm_exact.geometry.machine import CONSTRAINTS_KIND
 from pkm_exact.geometry.machines.machine_kinds import MACHINES
 from pkm_exact.geometry.machines.machine_reader import read_machine
@@ -86,21 +88,66 @@ def read_jointed_robot(path: str | os.PathLike[str], question: str) -> Robot:
         raise InputError(f"{printable(os.fspath(path))}: {error}") from None
 
 
+def read_any(path: str | os.PathLike[str]) -> Robot | Mechanism | Linkage:
+    """What a model file describes, of whatever kind: a robot, or a mechanism of bodies and joints.
+
+    Raises
+    ------
+    InputError
+        As ``read_robot``.
+    """
+    name = os.fspath(path)
+    try:
+        return any_from_toml(_text(_bytes(name)))
+    except InputError as error:
+        raise InputError(f"{printable(name)}: {error}") from None
+
+
+def read_linkage(path: str | os.PathLike[str]) -> Linkage:
+    """The mechanism of bodies and joints that a model file of kind "chains" describes.
+
+    Raises
+    ------
+    InputError
+        As ``read_robot``, and if the file is of another kind.
+    """
+    found = read_any(path)
+    if not isinstance(found, Linkage):
+        raise InputError(
+            f"{printable(os.fspath(path))}: kind: {found.kind} is not a mechanism of bodies and joints; give a file of "
+            f"kind {CHAINS_KIND}"
+        )
+    return found
+
+
 def robot_from_toml(text: str) -> Robot | Mechanism:
     """The robot that the text of a model file describes."""
+    found = any_from_toml(text)
+    if isinstance(found, Linkage):
+        raise InputError(
+            f"kind: {CHAINS_KIND} is a mechanism of bodies and joints in one configuration, which has no forward "
+            "kinematics here; ask certify-poses mobility how it can move"
+        )
+    return found
+
+
+def any_from_toml(text: str) -> Robot | Mechanism | Linkage:
+    """What the text of a model file describes."""
     table = _parse(text)
     schema = required(table, "schema", "")
     if isinstance(schema, bool) or schema != SCHEMA:
         raise InputError(f"schema: {shown(schema)} is unknown; write schema = {SCHEMA}")
     kind_name = label(table, "kind", "")
-    if kind_name not in KINDS and kind_name not in MACHINES and kind_name != CONSTRAINTS_KIND:
-        known = ", ".join((*KINDS, *MACHINES, CONSTRAINTS_KIND))
-        raise InputError(f"kind: {shown(kind_name)} is unknown; use one of: {known}")
+    known = (*KINDS, *MACHINES, CONSTRAINTS_KIND, CHAINS_KIND)
+    if kind_name not in known:
+        raise InputError(f"kind: {shown(kind_name)} is unknown; use one of: {', '.join(known)}")
     head = {
         "name": label(table, "name", ""),
         "unit": label(table, "unit", ""),
         "source": label(table, "source", "", limit=_MAX_TEXT),
     }
+    if kind_name == CHAINS_KIND:
+        return read_linkage_tables(table, head)
     if kind_name == CONSTRAINTS_KIND:
         return read_mechanism(table, head)
     if kind_name in MACHINES:

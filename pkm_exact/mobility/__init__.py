@@ -1,0 +1,1 @@
+"""How a mechanism can move: instantaneous and finite mobility, actuation, and identities for every pose."""

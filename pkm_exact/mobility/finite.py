@@ -1,0 +1,137 @@
+"""Finite mobility: the dimension of the configurations near the given one, where it can be proved.
+
+Rank alone tells no more than an upper bound. The dimension d at the configuration is proved by one of these arguments
+(``docs/mobility.md`` has the proofs):
+
+    regular The motions along each loop lie in the group that its joints generate. If the rank of the loops' equations
+    is the sum of the dimensions of these groups, the equations are regular and d is the instantaneous mobility.
+    subgroups Each leg by itself moves the platform within a group, or within a product of two, and reaches a
+    neighbourhood there (equal dimensions). If these manifolds are transversal, groups counted as their intersection and
+    equal ones once, d is the instantaneous mobility. second-order d is at most the dimension of the cone of those
+    speeds for which the accelerations can be chosen to fit. From below, it is at least what one of the other arguments
+    proves with some freedoms locked; or the loops ask one thing more than their rank says, a quadratic form in the
+    second order, whose signature decides. The bounds agree.
+
+Otherwise there are bounds: the dimension of the cone from above, and what is proved with some freedoms locked from
+below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import chain, combinations
+from typing import Final
+
+from pkm_exact.geometry.linkage import Linkage
+from pkm_exact.mobility.instantaneous import Instantaneous, instantaneous
+from pkm_exact.mobility.reachable import legs_are_transversal
+from pkm_exact.mobility.second_order import cone_dimension, obstructions, signature
+from pkm_exact.screws.screw import Screw
+from pkm_exact.screws.screw_system import ScrewSystem
+
+MOST_LOCKED_TOGETHER: Final = 2
+MOST_TRIALS: Final = 200
+
+
+class Argument(StrEnum):
+    """By which argument a finite mobility is proved."""
+
+    REGULAR = "regular"
+    SUBGROUPS = "subgroups"
+    SECOND_ORDER = "second-order"
+    NONE = "not known"
+
+
+@dataclass(frozen=True)
+class Finite:
+    """What is proved of the configurations near the given one.
+
+    Attributes
+    ----------
+    least, most : int
+        Bounds of the dimension of the real configurations there.
+    argument : Argument
+        ``NONE`` unless the bounds agree.
+    platform_least, platform_most : int
+        Bounds of the dimension of the platform's poses there.
+    locked : tuple of str
+        The freedoms whose locking leaves the motion that the lower bound is proved by.
+
+    Examples
+    --------
+    >>> from pkm_exact.geometry.reader import read_linkage
+    >>> found = finite(instantaneous(read_linkage("models/chains/3-pprr.toml")))
+    >>> found.least, found.most, str(found.argument)
+    (4, 4, 'subgroups')
+    """
+
+    least: int
+    most: int
+    argument: Argument
+    platform_least: int
+    platform_most: int
+    locked: tuple[str, ...] = ()
+
+    @property
+    def is_known(self) -> bool:
+        """Whether the dimension is proved."""
+        return self.least == self.most
+
+
+def finite(found: Instantaneous) -> Finite:
+    """The finite mobility of a mechanism at its configuration."""
+    argument = smooth_argument(found.linkage, found.locked)
+    total, platform = found.total, found.platform.rank
+    if argument is not Argument.NONE:
+        # The platform's poses have constant rank if legs are submersions, or if the rank is as large as it can be.
+        certain = argument is Argument.SUBGROUPS or platform == min(total, 6)
+        return Finite(total, total, argument, platform, platform if certain else min(total, 6))
+    least, most = 0, cone_dimension(found)
+    left = group_dimensions(found, found.locked) - found.rank
+    forms = obstructions(found)
+    if left == 1 and forms:
+        least, smaller = signature(forms[0], total).bounds()
+        most = min(most, smaller)
+    if least == most:
+        return Finite(least, most, Argument.SECOND_ORDER, 0, min(most, 6))
+    least, platform_least, locked = _with_freedoms_locked(found, most)
+    known = Argument.SECOND_ORDER if least == most else Argument.NONE
+    return Finite(least, most, known, platform_least, min(most, 6), locked)
+
+
+def smooth_argument(linkage: Linkage, locked: Collection[str]) -> Argument:
+    """Which argument proves that the finite mobility is the instantaneous one, if any."""
+    found = instantaneous(linkage, locked)
+    if found.rank == group_dimensions(found, locked):
+        return Argument.REGULAR
+    return Argument.SUBGROUPS if legs_are_transversal(found) else Argument.NONE
+
+
+def group_dimensions(found: Instantaneous, locked: Collection[str]) -> int:
+    """The sum of the dimensions of the groups that the loops generate: so many equations there are."""
+    free = set(found.linkage.freedoms) - set(locked)
+    return sum(_group_of(found, loop, free) for loop in range(len(found.loops.loops)))
+
+
+def _group_of(found: Instantaneous, loop: int, free: Collection[str]) -> int:
+    """The dimension of the group that the joints of a loop generate."""
+    names, twists = found.linkage.freedoms, found.loops.twists
+    along = [twists[index] for index, _ in found.loops.loops[loop] if names[index] in free]
+    return ScrewSystem.span(map(Screw.from_coordinates, along)).algebra().rank
+
+
+def _with_freedoms_locked(found: Instantaneous, most: int) -> tuple[int, int, tuple[str, ...]]:
+    """The largest mobility, that of the platform, and the freedoms with which locked so much is proved to be left."""
+    names = [name for name in found.linkage.freedoms if name not in found.locked]
+    trials = chain.from_iterable(combinations(names, count) for count in range(1, MOST_LOCKED_TOGETHER + 1))
+    best: tuple[int, int, tuple[str, ...]] = (0, 0, ())
+    for _, chosen in zip(range(MOST_TRIALS), trials, strict=False):
+        if best[0] == most:
+            break
+        locked = (*found.locked, *chosen)
+        left = instantaneous(found.linkage, locked)
+        if left.total > best[0] and smooth_argument(found.linkage, locked) is not Argument.NONE:
+            best = left.total, left.platform.rank, chosen
+    return best

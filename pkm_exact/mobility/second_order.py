@@ -1,0 +1,187 @@
+"""The second order of the equations of loops: speeds for which no accelerations fit are speeds of no motion.
+
+Along a loop with twists S_i, signs s_i and joint values q_i near 0 the product of exp(s_i q_i S_i) is 1, so that by the
+formula of Baker, Campbell and Hausdorff, with x_i = s_i q_i S_i,
+
+    sum x_i + 1/2 sum over i < j of [x_i, x_j] + terms of third order = 0.
+
+For a curve q(t) = q_k t^k + .. the terms of order k and 2 k give M q_k = 0 and u.Q(q_k) = 0 for every u with u M = 0, Q
+the quadratic terms. So every branch of configurations has a tangent cone in the cone of these q_k, and no more
+dimensions than it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations_with_replacement
+from math import comb
+from typing import Final, TypeAlias
+
+from pkm_exact.mobility.instantaneous import Instantaneous
+from pkm_exact.screws.exact_matrix import Row, null_space, rank
+from pkm_exact.screws.screw import Screw
+
+Quadratic: TypeAlias = dict[tuple[int, int], Fraction]
+"""Coefficients of y_i y_j, i <= j."""
+
+MOST_MONOMIALS: Final = 500
+"""Bounds the matrices that are looked at."""
+
+
+def cone_dimension(found: Instantaneous) -> int:
+    """An upper bound, proved, of the dimension of the cone of speeds that have accelerations; often the dimension.
+
+    Sections of the cone with fewer and fewer linear forms are looked at: if d forms leave 0 alone, it has at most d.
+
+    Examples
+    --------
+    >>> from pkm_exact.geometry.reader import read_linkage
+    >>> from pkm_exact.mobility.instantaneous import instantaneous
+    >>> found = instantaneous(read_linkage("models/chains/seven-link-oblique.toml"))
+    >>> found.total, cone_dimension(found)
+    (2, 1)
+    """
+    quadratics = obstructions(found)
+    best = found.total
+    for dimension in range(found.total - 1, -1, -1):
+        if not _only_zero([_section(form, found.total, dimension) for form in quadratics], found.total - dimension):
+            break
+        best = dimension
+    return best
+
+
+@dataclass(frozen=True)
+class Signature:
+    """Numbers of positive, negative and zero squares of a real quadratic form."""
+
+    positive: int
+    negative: int
+    zero: int
+
+    def bounds(self) -> tuple[int, int]:
+        """Least and greatest dimension of the real configurations, if the form is all that the loops still ask.
+
+        Examples
+        --------
+        >>> Signature(1, 1, 0).bounds(), Signature(0, 2, 0).bounds(), Signature(1, 0, 2).bounds()
+        ((1, 1), (0, 0), (0, 2))
+        """
+        count = self.positive + self.negative + self.zero
+        if self.positive and self.negative:
+            return count - 1, count - 1
+        return 0, self.zero
+
+
+def signature(form: Quadratic, count: int) -> Signature:
+    """The signature of a form, by congruence over the rational numbers.
+
+    Examples
+    --------
+    >>> signature({(0, 1): Fraction(1)}, 3)
+    Signature(positive=1, negative=1, zero=1)
+    """
+    matrix = [[Fraction(0)] * count for _ in range(count)]
+    for (i, j), value in form.items():
+        matrix[i][j] += value / 2
+        matrix[j][i] += value / 2
+    signs: list[int] = []
+    while matrix:
+        size = len(matrix)
+        place = next((k for k in range(size) if matrix[k][k]), None)
+        if place is None:
+            pair = next(((i, j) for i in range(size) for j in range(i) if matrix[i][j]), None)
+            if pair is None:
+                break
+            # y_i + y_j in place of y_i has a square.
+            i, j = pair
+            matrix[i] = [a + b for a, b in zip(matrix[i], matrix[j], strict=True)]
+            for row in matrix:
+                row[i] += row[j]
+            place = i
+        pivot = matrix[place]
+        signs.append(1 if pivot[place] > 0 else -1)
+        kept = [k for k in range(size) if k != place]
+        matrix = [[matrix[i][j] - pivot[i] * pivot[j] / pivot[place] for j in kept] for i in kept]
+    return Signature(signs.count(1), signs.count(-1), count - len(signs))
+
+
+def obstructions(found: Instantaneous) -> list[Quadratic]:
+    """The quadratic forms u.Q on the motions, one for each u of a basis of those with u M = 0."""
+    matrix = found.loops.matrix
+    if not matrix or not found.speeds:
+        return []
+    shut = {found.linkage.freedoms.index(name) for name in found.locked}
+    free = [[value for k, value in enumerate(row) if k not in shut] for row in matrix]
+    dependent = null_space(list(zip(*free, strict=True)), len(free)) if free[0] else ()
+    brackets = [_second_order(found, loop) for loop in range(len(found.loops.loops))]
+    forms = []
+    for factors in dependent:
+        form: Quadratic = {}
+        for loop, terms in enumerate(brackets):
+            weights = factors[6 * loop : 6 * loop + 6]
+            for pair, twist in terms.items():
+                value = sum((a * b for a, b in zip(weights, twist, strict=True)), Fraction(0))
+                form[pair] = form.get(pair, Fraction(0)) + value
+        forms.append(form)
+    return [form for form in forms if any(form.values())]
+
+
+def _second_order(found: Instantaneous, loop: int) -> dict[tuple[int, int], Row]:
+    """The coefficients of y_i y_j in the sum of [x_i, x_j], for speeds that are combinations y of the motions."""
+    along = found.loops.loops[loop]
+    count = len(found.speeds)
+    twists = [Screw.from_coordinates(found.loops.twists[index]) for index, _ in along]
+    speeds = [[sign * row[index] for row in found.speeds] for index, sign in along]
+    terms: dict[tuple[int, int], list[Fraction]] = {}
+    for second in range(len(along)):
+        for first in range(second):
+            if not any(speeds[first]) or not any(speeds[second]):
+                continue
+            bracket = twists[first].bracket(twists[second]).coordinates
+            for i in range(count):
+                for j in range(count):
+                    factor = speeds[first][i] * speeds[second][j]
+                    if factor:
+                        entry = terms.setdefault((min(i, j), max(i, j)), [Fraction(0)] * 6)
+                        for k, value in enumerate(bracket):
+                            entry[k] += factor * value
+    return {pair: tuple(entry) for pair, entry in terms.items()}
+
+
+def _section(form: Quadratic, count: int, dimension: int) -> Quadratic:
+    """The form where y_k for the last ``dimension`` places is a combination of the others, with small coefficients."""
+    kept = count - dimension
+
+    def expanded(place: int) -> dict[int, int]:
+        if place < kept:
+            return {place: 1}
+        return {i: (i + 2) ** (place - kept + 1) + place for i in range(kept)}
+
+    found: Quadratic = {}
+    for (i, j), value in form.items():
+        for a, x in expanded(i).items():
+            for b, y in expanded(j).items():
+                pair = (min(a, b), max(a, b))
+                found[pair] = found.get(pair, Fraction(0)) + value * x * y
+    return found
+
+
+def _only_zero(forms: Sequence[Quadratic], count: int) -> bool:
+    """Whether it is proved that the forms have no common zero but 0, real or complex: all monomials are multiples.
+
+    If they have none, the forms generate all monomials of degree count + 1, by Macaulay's bound.
+    """
+    degree = count + 1
+    if comb(count + degree - 1, degree) > MOST_MONOMIALS:
+        return False
+    monomials = {m: k for k, m in enumerate(combinations_with_replacement(range(count), degree))}
+    rows = []
+    for form in forms:
+        for factor in combinations_with_replacement(range(count), degree - 2):
+            row = [Fraction(0)] * len(monomials)
+            for pair, value in form.items():
+                row[monomials[tuple(sorted((*pair, *factor)))]] += value
+            rows.append(row)
+    return rank(rows, len(monomials)) == len(monomials)

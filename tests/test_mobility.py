@@ -1,0 +1,324 @@
+"""How mechanisms can move: the examples of the sources, corrected where they are wrong."""
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from pkm_exact import Screw, ScrewSystem, mobility_of, read_linkage
+from pkm_exact.cli.main import main
+from pkm_exact.geometry.joint_types import JointGeometry
+from pkm_exact.geometry.linkage import Joint, Linkage
+from pkm_exact.mobility.actuation import actuation
+from pkm_exact.mobility.analysis import LinkageMobility
+from pkm_exact.mobility.finite import Argument, finite
+from pkm_exact.mobility.instantaneous import instantaneous
+from pkm_exact.mobility.second_order import cone_dimension
+
+ROOT = Path(__file__).parent.parent
+CHAINS = ROOT / "models" / "chains"
+
+
+@cache
+def found(name: str) -> LinkageMobility:
+    """The mobility of a shipped mechanism."""
+    return mobility_of(read_linkage(CHAINS / f"{name}.toml"))
+
+
+def _hinges(points: list[tuple[object, ...]], axes: list[tuple[object, ...]], cut: int | None = None) -> Linkage:
+    """A closed loop of hinges; the platform is the body behind as many of them."""
+    count = len(points)
+    bodies = tuple(f"b{k}" for k in range(count))
+    joints = tuple(
+        Joint(
+            f"j{k}",
+            "R",
+            (bodies[k], bodies[(k + 1) % count]),
+            JointGeometry(tuple(map(Fraction, points[k])), (tuple(map(Fraction, axes[k])),)),
+        )
+        for k in range(count)
+    )
+    return Linkage("loop", "1", "a test", bodies, joints, "b0", bodies[cut or count // 2])
+
+
+@pytest.mark.parametrize(
+    ("name", "rank", "total", "counted", "platform", "argument"),
+    [
+        ("3-pprr", 8, 4, 0, "1 translation along (0, 0, 1)", "subgroups"),
+        ("sarrus", 5, 1, 0, "1 translation along (0, 0, 1)", "subgroups"),
+        ("seven-link", 5, 2, 1, "1 translation along (0, 0, 1)", "subgroups"),
+        ("peaucellier", 9, 1, -8, "1 rotation about an axis along (0, 0, 1) through (96/37, 6, 0)", "regular"),
+        ("3-prrr", 9, 3, 0, "3 translations in all directions", "subgroups"),
+        ("3-upu", 12, 3, 3, "3 translations in all directions", "regular"),
+        (
+            "5-rrr-rr",
+            20,
+            5,
+            1,
+            "2 translations perpendicular to (0, 0, 1), 3 rotations about axes in all directions through (0, 0, 0)",
+            "subgroups",
+        ),
+    ],
+)
+def test_mobilities_of_the_shipped_mechanisms(
+    name: str, rank: int, total: int, counted: int, platform: str, argument: str
+) -> None:
+    free, proved = found(name).free, found(name).finite
+    assert (free.rank, free.total, free.counted) == (rank, total, counted)
+    assert str(free.platform.free_motions()) == platform
+    assert (proved.least, proved.most, proved.argument) == (total, total, argument)
+    assert proved.platform_least == proved.platform_most == free.platform.rank
+
+
+# 3-PPRR: the source's equations (16) to (24).
+
+
+@pytest.mark.parametrize(
+    ("actuated", "mobility", "platform"),
+    [
+        (["A1"], 3, 1),
+        (["A1", "B2"], 2, 1),
+        (["A1", "RB1"], 3, 1),
+        (["A1", "A2", "A3"], 1, 1),
+        (["A1", "B1"], 2, 0),
+        (["A2", "B2"], 2, 0),
+        (["A1", "A2", "A3", "B1"], 0, 0),
+        (["A1", "A2", "A3", "B3"], 0, 0),
+    ],
+)
+def test_actuators_of_3_pprr(actuated: list[str], mobility: int, platform: int) -> None:
+    done = actuation(found("3-pprr").free, actuated)
+    assert (done.left, done.left_of_platform) == (mobility, platform)
+
+
+def test_the_platform_of_3_pprr_is_held_by_its_common_slide_and_another_joint_of_the_leg() -> None:
+    sets = found("3-pprr").hold_platform
+    assert sets.is_complete
+    assert {frozenset(names) for names in sets.sets} == {
+        frozenset((f"B{leg}", f"{other}{leg}")) for leg in (1, 2, 3) for other in ("A", "RB", "RC")
+    }
+    every = found("3-pprr").hold_mechanism
+    assert every.is_complete
+    assert {len(names) for names in every.sets} == {4}
+    assert ("A1", "A2", "A3", "B1") in {tuple(sorted(names)) for names in every.sets}
+
+
+def test_the_constraints_of_a_leg_of_3_pprr_are_those_of_the_source() -> None:
+    leg = found("3-pprr").legs[0]
+    e_a, e_b = (1, 0, 0), (0, 0, 1)
+    assert (leg.freedoms, leg.twists.rank) == (4, 3)
+    expected = [Screw.couple(e_a), Screw.couple(e_b), Screw.line((20, 0, 10), (0, 1, 0))]
+    assert leg.constraints == ScrewSystem.span(expected)
+
+
+# Sarrus's six-bar and the seven-link mechanism.
+
+
+def test_sarrus_has_passive_freedoms_nowhere_and_any_joint_holds_it() -> None:
+    sarrus = found("sarrus")
+    assert sarrus.free.passive == ()
+    assert sarrus.free.overconstraint == 1
+    assert sarrus.hold_platform.sets == (("A",), ("B",), ("C",), ("F",), ("E",), ("D",))
+    assert sarrus.counted_with_common == 1
+
+
+def test_parallel_chains_are_no_sarrus_linkage() -> None:
+    """At alpha = 0 the mechanism is planar: mobility 3."""
+    x = (1, 0, 0)
+    points = [(0, 3, 0), (0, 5, 2), (0, 3, 4), (4, -3, 4), (8, -6, 2), (4, -3, 0)]
+    assert instantaneous(_hinges(points, [x] * 6)).total == 3
+
+
+def test_the_seven_link_mechanism_turns_to_the_first_order_only() -> None:
+    oblique = found("seven-link-oblique")
+    assert (oblique.free.total, oblique.free.platform.rank) == (2, 2)
+    proved = oblique.finite
+    assert (proved.least, proved.most, proved.argument, proved.locked) == (1, 1, Argument.SECOND_ORDER, ("G",))
+    assert found("seven-link").free.passive == (("F", "E", "D", "G"),)
+
+
+# 5-RRR(RR): chapter 22.
+
+
+def test_five_legs_with_a_common_force() -> None:
+    spine = found("5-rrr-rr")
+    assert str(spine.common.constraints()) == "1 force along (0, 0, 1) through (0, 0, 0)"
+    assert (spine.common.rank, spine.counted_with_common) == (1, 5)
+    assert (spine.locked.total, spine.locked.platform.rank) == (0, 0)
+
+
+def test_legs_that_are_alike_leave_two_freedoms_when_locked() -> None:
+    alike = found("5-rrr-rr-alike")
+    assert alike.free.platform.rank == 5
+    # The wrenches that five locked legs transmit have rank 4.
+    assert alike.locked.platform.reciprocal().rank == 4
+    lines = ScrewSystem(())
+    for leg in alike.legs:
+        locked = mobility_of(leg.linkage, [leg.linkage.joints[0].name]).locked
+        lines = lines | locked.platform.reciprocal()
+    assert lines.rank == 4
+    assert (alike.actuation.degree, alike.actuation.redundancy) == (3, 2)
+
+
+def test_sets_that_are_too_many_are_not_called_all() -> None:
+    assert not found("5-rrr-rr").hold_platform.is_complete
+    some = mobility_of(read_linkage(CHAINS / "5-rrr-rr.toml"), among=["R11", "R21", "R31", "R41", "R51", "R12"])
+    assert some.hold_platform.is_complete
+    assert ("R11", "R21", "R31", "R41", "R51") in some.hold_platform.sets
+
+
+# Finite mobility where rank alone says nothing.
+
+
+def test_two_bars_in_a_line_are_rigid() -> None:
+    """A triangle without height: one freedom to the first order, none in truth."""
+    z = (0, 0, 1)
+    line = _hinges([(0, 0, 0), (1, 0, 0), (3, 0, 0)], [z] * 3)
+    assert (instantaneous(line).total, cone_dimension(instantaneous(line))) == (1, 0)
+    proved = finite(instantaneous(line))
+    assert (proved.least, proved.most, proved.argument) == (0, 0, Argument.SECOND_ORDER)
+    triangle = _hinges([(0, 0, 0), (1, 0, 0), (3, 1, 0)], [z] * 3)
+    assert finite(instantaneous(triangle)).argument == Argument.REGULAR
+
+
+def test_a_flat_parallelogram_has_a_motion_of_one_freedom() -> None:
+    """It has two motions, as parallelogram and as contraparallelogram, through the same configuration."""
+    z = (0, 0, 1)
+    flat = instantaneous(_hinges([(0, 0, 0), (1, 0, 0), (4, 0, 0), (3, 0, 0)], [z] * 4))
+    proved = finite(flat)
+    assert flat.total == 2
+    assert (proved.least, proved.most, proved.argument) == (1, 1, Argument.SECOND_ORDER)
+    longest = instantaneous(_hinges([(0, 0, 0), (1, 0, 0), (3, 0, 0), (6, 0, 0)], [z] * 4))
+    assert longest.total == 2
+    assert finite(longest).least == finite(longest).most == 0
+
+
+@cache
+def bennett() -> Linkage:
+    """Bennett's linkage: a square folded about a diagonal, each hinge perpendicular to its two links."""
+    points = [(1, 0, 0), (0, 1, 1), (-1, 0, 0), (0, -1, 1)]
+    axes = []
+    for k in range(4):
+        before, here, after = (points[(k + j) % 4] for j in (-1, 0, 1))
+        u, v = ([a - b for a, b in zip(other, here, strict=True)] for other in (before, after))
+        axes.append((u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]))
+    return _hinges(points, axes)
+
+
+def test_bennett_s_linkage_is_bounded_but_not_decided() -> None:
+    """It moves, and no argument here says so; nor does any say that it does not."""
+    found = instantaneous(bennett())
+    assert (found.total, found.counted) == (1, -2)
+    proved = finite(found)
+    assert (proved.least, proved.most, proved.argument, proved.is_known) == (0, 1, Argument.NONE, False)
+
+
+def test_a_joint_that_cannot_move_is_named() -> None:
+    line = _hinges([(0, 0, 0), (1, 0, 0), (3, 1, 0)], [(0, 0, 1)] * 3)
+    assert instantaneous(line).still == ("j0", "j1", "j2")
+
+
+def test_a_serial_chain_has_the_mobility_of_its_joints() -> None:
+    leg = found("3-upu").legs[0].linkage
+    alone = mobility_of(leg)
+    assert (alone.free.total, alone.free.counted, alone.free.platform.rank) == (5, 5, 5)
+    assert alone.finite.argument == Argument.REGULAR
+
+
+# Invariance: results do not depend on how the mechanism is written down.
+
+
+@pytest.mark.parametrize("name", ["3-pprr", "seven-link-oblique", "5-rrr-rr-alike", "peaucellier"])
+def test_order_and_direction_of_joints_do_not_matter(name: str) -> None:
+    linkage = read_linkage(CHAINS / f"{name}.toml")
+    turned = tuple(
+        replace(joint, bodies=joint.bodies[::-1]) if k % 2 and len(joint.twists) == 1 else joint
+        for k, joint in enumerate(linkage.joints[::-1])
+    )
+    one, other = found(name).free, instantaneous(replace(linkage, joints=turned))
+    assert (one.rank, one.total, one.platform) == (other.rank, other.total, other.platform)
+    assert finite(other).least == found(name).finite.least
+
+
+@pytest.mark.parametrize("name", ["3-pprr", "sarrus", "seven-link-oblique"])
+def test_a_rigid_motion_moves_everything_along(name: str) -> None:
+    linkage = read_linkage(CHAINS / f"{name}.toml")
+
+    def turned(v: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
+        x, y, z = v
+        return ((2 * x - y + 2 * z) / 3, (2 * x + 2 * y - z) / 3, (-x + 2 * y + 2 * z) / 3)
+
+    def moved(v: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
+        x, y, z = turned(v)
+        return (x + 5, y - 7, z + Fraction(1, 3))
+
+    joints = tuple(
+        replace(joint, geometry=JointGeometry(moved(joint.geometry.point), tuple(map(turned, joint.geometry.axes))))
+        for joint in linkage.joints
+    )
+    other = instantaneous(replace(linkage, joints=joints))
+    one = found(name)
+    assert (other.rank, other.total, other.platform.rank) == (one.free.rank, one.free.total, one.free.platform.rank)
+    assert finite(other).argument == one.finite.argument
+    motions, before = other.platform.free_motions(), one.free.platform.free_motions()
+    assert len(motions.translations) == len(before.translations)
+
+
+# The command.
+
+
+def test_the_command_says_it_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    code = main(["mobility", str(CHAINS / "3-pprr.toml"), "--actuated", "A1,B1", "--json"])
+    answer = json.loads(capsys.readouterr().out)
+    assert code == 0
+    assert answer["instantaneous"]["mobility"] == 4
+    assert answer["finite"] == {
+        "mobility": 4,
+        "least": 4,
+        "most": 4,
+        "argument": "subgroups",
+        "locked": [],
+        "platform": {"least": 1, "most": 1},
+    }
+    assert answer["actuation"]["locked"]["platform"]["number"] == 0
+    assert answer["actuator_sets"]["platform"]["complete"]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["chains/sarrus.toml", "--at", "0,0,0,1,0,0,0"], "--at: a mechanism of bodies and joints stands as its file"),
+        (["chains/sarrus.toml", "--actuated", "Q"], "actuated: 'Q' is not the name of a joint"),
+        (["chains/sarrus.toml", "--among", "Q"], "among: 'Q' is not the name of a joint"),
+        (["mssm.toml", "--among", "leg 1"], "--among: belongs to mechanisms of bodies and joints"),
+        (["mssm.toml", "--actuated", "leg 7"], "actuated: 'leg 7' is not one of the model's"),
+        (["mssm.toml", "--at", "0,0,1"], "--at: 3 numbers given; give 7"),
+        (["mssm.toml", "--at", "0,0,1,0,0,0,0"], "all four numbers are 0"),
+        (["3-rps.toml", "--at", "5,5,5,1,1,1,1"], "does not hold at this pose"),
+        (["hexa.toml", "--at", "0,0,1,1,0,0,0"], "has not its length at this pose"),
+        (["h4.toml", "--at", "0,0,1,1,1,0,0"], "is not among the translations, and turns about the third axis"),
+    ],
+)
+def test_bad_questions_are_refused_in_one_sentence(
+    words: list[str], sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["mobility", str(ROOT / "models" / words[0]), *words[1:]]) == 2
+    captured = capsys.readouterr()
+    assert sentence in captured.err
+    assert captured.err.count("\n") == 1
+    assert captured.out == ""
+
+
+def test_what_is_not_known_has_an_exit_code_of_its_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = 'schema = 1\nname = "folded"\nkind = "chains"\nunit = "1"\nsource = "a test"\n'
+    text += "".join(f'[[bodies]]\nname = "{body}"\n' for body in bennett().bodies)
+    for joint in bennett().joints:
+        point, axis = ([int(x) for x in v] for v in (joint.geometry.point, joint.geometry.axes[0]))
+        text += f'[[joints]]\nname = "{joint.name}"\ntype = "R"\nbodies = {json.dumps(joint.bodies)}\n'
+        text += f"point = {point}\naxis = {axis}\n"
+    (tmp_path / "flat.toml").write_text(text)
+    assert main(["mobility", str(tmp_path / "flat.toml")]) == 3
+    assert "not known, 0 to 1" in capsys.readouterr().out
