@@ -15,7 +15,7 @@ from math import gcd
 from flint import fmpz_mat
 
 from pkm_exact.algebra.groebner import Trace, UnluckyPrimeError
-from pkm_exact.algebra.monomials import MonomialRing
+from pkm_exact.algebra.monomials import MonomialRing, divides, exponent_fields
 from pkm_exact.algebra.reduction import Row
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.stages import Amount, Watch
@@ -68,8 +68,9 @@ def exact_basis(system: PolynomialSystem, trace: Trace, watch: Watch | None = No
         if watch is not None:
             watch(Amount(done, len(trace.steps), "exact matrices", detail=f"{len(step.rows)} rows"))
         rows = [multiple(elements[index], monomial) for index, monomial in step.rows]
-        known = [ring.unpack(element[0][0]) for element in elements]
-        new = [row for row in echelon_form(rows) if not any_divides(known, ring.unpack(row[0][0]))]
+        known = [_fields(ring, element) for element in elements]
+        found = ((row, _fields(ring, row)) for row in echelon_form(rows))
+        new = [row for row, fields in found if not any(divides(lead, fields) for lead in known)]
         _require_leading(new, step.new)
         elements += new
         steps.append(step.rows)
@@ -81,9 +82,9 @@ def _require_leading(elements: Sequence[ExactPolynomial], expected: Sequence[int
         raise UnluckyPrimeError("over Q other leading monomials appear than modulo the prime of the trace")
 
 
-def any_divides(divisors: Sequence[tuple[int, ...]], exponents: tuple[int, ...]) -> bool:
-    """Whether one of the monomials divides the last one, all given by exponents."""
-    return any(all(a <= b for a, b in zip(divisor, exponents, strict=True)) for divisor in divisors)
+def _fields(ring: MonomialRing, polynomial: ExactPolynomial) -> int:
+    """The leading monomial, for ``divides``."""
+    return exponent_fields(ring.unpack(polynomial[0][0]))
 
 
 def multiple(polynomial: ExactPolynomial, monomial: int) -> ExactPolynomial:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 from typing import TypeAlias
 
@@ -46,8 +47,8 @@ def pairs(size: int) -> list[tuple[int, int]]:
     return [(i, j) for i in range(size) for j in range(i, size)]
 
 
-Chosen: TypeAlias = dict[int, list[int]]
-"""By degree the numbers of relations from which the others follow."""
+Chosen: TypeAlias = dict[int, "_NormalForms"]
+"""By degree what tells from which relations the others follow."""
 
 
 def graded_parts(
@@ -116,13 +117,13 @@ def hilbert_function(
 def _second(size: int, quadrics: Sequence[Sequence[int]], prime: int, chosen: Chosen | None) -> Degree:
     columns = pairs(size)
     place = {pair: number for number, pair in enumerate(columns)}
-    wanted = range(len(quadrics)) if chosen is None else chosen.get(2, range(len(quadrics)))
+    wanted = range(len(quadrics)) if chosen is None or 2 not in chosen else chosen[2].independent
     relations = [[(number, value) for number, value in enumerate(quadrics[k]) if value] for k in wanted]
     normal = _NormalForms(relations, len(columns), prime)
     if chosen is not None and 2 not in chosen:
-        chosen[2] = normal.independent()
-    tables = ([normal.row(place[min(i, j), max(i, j)]) for j in range(size)] for i in range(size))
-    return Degree(2, normal.dimension, tuple(_matrix(table, normal.dimension, prime) for table in tables))
+        chosen[2] = normal
+    symbols = ([place[min(i, j), max(i, j)] for j in range(size)] for i in range(size))
+    return Degree(2, normal.dimension, tuple(map(normal.coordinates, symbols)))
 
 
 def _following(size: int, part: Degree, prime: int, chosen: Chosen | None, first: int | None) -> Degree:
@@ -136,7 +137,7 @@ def _following(size: int, part: Degree, prime: int, chosen: Chosen | None, first
     used = size if first is None else first
     products = [(i, j, c) for i, j in combinations(range(size), 2) if i < used for c in range(below)]
     if chosen is not None and degree in chosen:
-        products = [products[number] for number in chosen[degree]]
+        products = [products[number] for number in chosen[degree].independent]
     relations = [
         [(i * count + place, value) for place, value in rows[j][c]]
         + [(j * count + place, -value) for place, value in rows[i][c]]
@@ -144,10 +145,9 @@ def _following(size: int, part: Degree, prime: int, chosen: Chosen | None, first
     ]
     normal = _NormalForms(relations, size * count, prime)
     if chosen is not None and degree not in chosen:
-        chosen[degree] = normal.independent()
-    tables = ([normal.row(i * count + a) for a in range(count)] for i in range(size))
-    matrices = tuple(_matrix(table, normal.dimension, prime) for table in tables)
-    return Degree(degree, normal.dimension, matrices)
+        chosen[degree] = normal
+    symbols = (range(i * count, (i + 1) * count) for i in range(size))
+    return Degree(degree, normal.dimension, tuple(map(normal.coordinates, symbols)))
 
 
 class _NormalForms:
@@ -159,21 +159,28 @@ class _NormalForms:
             for column, value in relation:
                 matrix[row, column] = value
         self._matrix = matrix
-        self._echelon, pivots = row_echelon(matrix)
+        echelon, pivots = row_echelon(matrix)
         self._pivots = {pivot: row for row, pivot in enumerate(pivots)}
-        self._free = [column for column in range(size) if column not in self._pivots]
-        self.dimension = len(self._free)
+        free = [column for column in range(size) if column not in self._pivots]
+        self._free = {column: number for number, column in enumerate(free)}
+        self.dimension = len(free)
+        chosen = nmod_mat(size, len(free), prime)
+        for number, column in enumerate(free):
+            chosen[column, number] = 1
+        self._normal = -(echelon * chosen)
 
+    @cached_property
     def independent(self) -> list[int]:
         """Numbers of relations that are a basis of all."""
         return row_echelon(self._matrix.transpose())[1]
 
-    def row(self, symbol: int) -> list[int]:
-        if symbol in self._pivots:
-            row = self._pivots[symbol]
-            return [-int(self._echelon[row, column]) for column in self._free]
-        return [int(column == symbol) for column in self._free]
-
-
-def _matrix(rows: Sequence[Sequence[int]], columns: int, prime: int) -> nmod_mat:
-    return nmod_mat(len(rows), columns, [value % prime for row in rows for value in row], prime)
+    def coordinates(self, symbols: Sequence[int]) -> nmod_mat:
+        """A row for each of some symbols."""
+        prime, height = self._normal.modulus(), self._normal.nrows()
+        bound, free = nmod_mat(len(symbols), height, prime), nmod_mat(len(symbols), self.dimension, prime)
+        for row, symbol in enumerate(symbols):
+            if symbol in self._pivots:
+                bound[row, self._pivots[symbol]] = 1
+            else:
+                free[row, self._free[symbol]] = 1
+        return bound * self._normal + free

@@ -67,18 +67,21 @@ class Elimination:
             If a limit of the policy is met, or there is no further prime of its size.
         """
         prime = self._next_prime()
-        ring = self.system.monomials
-        basis = groebner.learn(
-            self.system.modulo(prime),
-            ring,
-            prime,
-            degree_limit=self.policy.degree_limit,
-            record=record,
-            watch=self.watch,
-        )
+        basis = self._learned(prime, record=record)
         if record:
             self._trace = basis.trace
         return self._finished(prime, basis)
+
+    def trace(self) -> groebner.Trace | None:
+        """The trace of an elimination at the next prime; None if the staircase is infinite there.
+
+        Raises
+        ------
+        OutOfReachError
+            As ``image``.
+        """
+        basis = self._learned(self._next_prime(), record=True)
+        return basis.trace if basis.is_zero_dimensional else None
 
     def following(self) -> ModularImage:
         """The image at the next lucky prime, along the recorded trace; a trace that no prime follows is recorded anew.
@@ -99,6 +102,11 @@ class Elimination:
                 continue
             return self._finished(prime, basis)
         return self.image(record=True)
+
+    def _learned(self, prime: int, *, record: bool) -> groebner.GroebnerBasis:
+        limit = self.policy.degree_limit
+        system, ring = self.system.modulo(prime), self.system.monomials
+        return groebner.learn(system, ring, prime, degree_limit=limit, record=record, watch=self.watch)
 
     def _next_prime(self) -> int:
         prime = next(self._primes, None)

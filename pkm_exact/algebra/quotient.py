@@ -14,7 +14,7 @@ from operator import mul
 from flint import nmod, nmod_mat
 
 from pkm_exact.algebra.groebner import GroebnerBasis, OutOfReachError
-from pkm_exact.algebra.monomials import MonomialRing
+from pkm_exact.algebra.monomials import MonomialRing, divides, exponent_fields
 from pkm_exact.algebra.reduction import row_echelon
 from pkm_exact.algebra.system import ModularPolynomial
 
@@ -175,19 +175,21 @@ def standard_monomials(ring: MonomialRing, leading_monomials: Sequence[int], lim
     pure = {exponents.index(max(exponents)) for exponents in leading if sum(map(bool, exponents)) == 1}
     if len(pure) < ring.size:
         return None
+    barred = [exponent_fields(exponents) for exponents in leading]
+    unknowns = [exponent_fields(tuple(int(i == index) for i in range(ring.size))) for index in range(ring.size)]
+    packed = [ring.unknown(index) for index in range(ring.size)]
     found = [0]
-    layer = [(0,) * ring.size]
+    layer = [(0, 0, 0)]
     while layer:
-        following: dict[tuple[int, ...], None] = {}
-        for exponents in layer:
-            # Each monomial is reached once: only unknowns not before the last one present are raised.
-            last = max((i for i, exponent in enumerate(exponents) if exponent), default=0)
-            for index in range(last, ring.size):
-                raised = (*exponents[:index], exponents[index] + 1, *exponents[index + 1 :])
-                if not any(all(a <= b for a, b in zip(lead, raised, strict=True)) for lead in leading):
-                    following[raised] = None
-        layer = list(following)
-        found += [ring.pack(exponents) for exponents in layer]
+        # Each monomial is reached once: only unknowns not before the last one present are raised.
+        layer = [
+            (raised, monomial + packed[index], index)
+            for fields, monomial, last in layer
+            for index in range(last, ring.size)
+            for raised in (fields + unknowns[index],)
+            if not any(divides(lead, raised) for lead in barred)
+        ]
+        found += [monomial for _, monomial, _ in layer]
         if len(found) > limit:
             raise OutOfReachError(f"more than {limit} solutions")
     return tuple(sorted(found))

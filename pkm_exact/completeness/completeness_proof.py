@@ -178,8 +178,7 @@ def bases(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -
     elimination = Elimination(system, policy)
     traces: list[Trace | None] = []
     for _ in range(policy.attempts):
-        image = elimination.image(record=True)
-        trace = None if image.algebra is None else image.basis.trace
+        trace = elimination.trace()
         if trace in traces:
             return
         traces.append(trace)

@@ -21,7 +21,7 @@ from pkm_exact.algebra.lifting import lift_by_primes
 from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.algebra.rur import ModularRepresentation, squarefree_part
 from pkm_exact.completeness.conditions import Conditions
-from pkm_exact.completeness.rigid_motions import Quadric, boundary_quadrics, restricted, variety_quadrics, zero_space
+from pkm_exact.completeness.rigid_motions import IntegerSection, Quadric, boundary_quadrics, variety_quadrics
 from pkm_exact.constraints.form import SIZE
 from pkm_exact.digests import digest
 from pkm_exact.errors import ReconstructionError
@@ -36,6 +36,8 @@ MOST_POINTS = 40
 """More than that many points, with multiplicity, are none of use: the section has no more, finite ones included."""
 MISSES = 12
 """Primes without an image of the points, one after another, after which the first one is taken for unlucky."""
+FEW = 3
+"""Unknowns whose relations the quick way takes."""
 _HORIZON = (0,) * (SIZE - 1) + (1,)
 
 
@@ -63,7 +65,9 @@ class PointsAtInfinity:
         return self.univariate.degree + self.singular
 
 
-def points_at_infinity(conditions: Conditions, primes: Iterator[int], limit_bits: int) -> PointsAtInfinity | None:
+def points_at_infinity(
+    conditions: Conditions, primes: Iterator[int], limit_bits: int, *, is_quick: bool = False
+) -> PointsAtInfinity | None:
     """All points at infinity on the conditions, verified over Q; None if there are none or too many, or at a limit.
 
     Parameters
@@ -73,9 +77,15 @@ def points_at_infinity(conditions: Conditions, primes: Iterator[int], limit_bits
         To compute with.
     limit_bits : int
         Of the product of the primes used.
+    is_quick : bool
+        Whether few relations are taken, which nearly always suffice.
     """
     chosen: Chosen = {}
-    section = _Section.at(conditions, next(primes), chosen)
+    first = FEW if is_quick else None
+    boundary = IntegerSection.of(
+        [*boundary_quadrics(conditions.metric), *conditions.quadrics], [*conditions.forms, _HORIZON]
+    )
+    section = _Section.at(boundary, next(primes), chosen, first)
     if section is None or not section.dimension:
         return None
     random = Random(conditions.digest)
@@ -86,15 +96,15 @@ def points_at_infinity(conditions: Conditions, primes: Iterator[int], limit_bits
             form = _random_form(random, terms)
             image = section.representation(chart, form)
             if image is not None and image.degree == distinct:
-                return _lifted(conditions, primes, (chart, form, image), chosen, limit_bits)
+                along = (_Section.at(boundary, prime, chosen, first) for prime in primes)
+                return _lifted(conditions, along, (chart, form, image), limit_bits)
     return None
 
 
 def _lifted(
     conditions: Conditions,
-    primes: Iterator[int],
+    sections: Iterator[_Section | None],
     start: tuple[tuple[int, ...], tuple[int, ...], ModularRepresentation],
-    chosen: Chosen,
     limit_bits: int,
 ) -> PointsAtInfinity | None:
     chart, form, first = start
@@ -102,8 +112,7 @@ def _lifted(
     def images() -> Iterator[ModularRepresentation]:
         yield first
         misses = 0
-        for prime in primes:
-            section = _Section.at(conditions, prime, chosen)
+        for section in sections:
             image = None if section is None else section.representation(chart, form)
             misses = 0 if image is not None else misses + 1
             if image is not None:
@@ -176,14 +185,15 @@ class _Section:
     part: Degree
 
     @classmethod
-    def at(cls, conditions: Conditions, prime: int, chosen: Chosen) -> _Section | None:
+    def at(cls, boundary: IntegerSection, prime: int, chosen: Chosen, first: int | None) -> _Section | None:
         """None if the dimension does not settle."""
-        forms = [*conditions.forms, _HORIZON]
-        quadrics = [*boundary_quadrics(conditions.metric), *conditions.quadrics]
-        size, equations = restricted(quadrics, forms, prime)
-        basis = zero_space(forms, prime)
+        reduced = boundary.modulo(prime)
+        if reduced is None:
+            return None
+        basis, equations = reduced
         below = -1
-        for part in islice(graded_parts(size, equations, prime, chosen), LAST_DEGREE):
+        quadrics = [[int(value) for value in row] for row in equations.tolist()]
+        for part in islice(graded_parts(basis.ncols(), quadrics, prime, chosen, first), LAST_DEGREE):
             if part.degree > 1 and part.dimension == below:
                 return cls(prime, basis, part)
             if part.dimension > MOST_POINTS or (part.degree > SETTLED and part.dimension > below):

@@ -7,12 +7,13 @@ a product of isotropic vectors, C is a multiple of v and G u one of w (``docs/co
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
-from math import lcm
+from math import gcd, lcm
 from types import MappingProxyType
 from typing import TypeAlias
 
-from flint import fmpq_mpoly, nmod_mat
+from flint import fmpq_mpoly, fmpz, fmpz_mat, nmod_mat
 
 from pkm_exact.algebra.graded_quotient import pairs
 from pkm_exact.algebra.reduction import row_echelon
@@ -84,6 +85,53 @@ def restricted(quadrics: Sequence[Quadric], forms: Sequence[IntegerForm], prime:
         entries = (transposed * table * basis).tolist()
         found.append([int(entries[i][j]) + (int(entries[j][i]) if i != j else 0) for i, j in pairs(size)])
     return size, found
+
+
+@dataclass(frozen=True)
+class IntegerSection:
+    """Quadrics on the common zeros of integer forms, over the integers, to be taken modulo any number of primes.
+
+    Attributes
+    ----------
+    basis : fmpz_mat
+        As columns the 17 coordinates by those that are free, each column times what makes it integral.
+    quadrics : fmpz_mat
+        A row each, on ``pairs`` of the free coordinates.
+    """
+
+    basis: fmpz_mat
+    quadrics: fmpz_mat
+
+    @staticmethod
+    def of(quadrics: Sequence[Quadric], forms: Sequence[IntegerForm]) -> IntegerSection:
+        """The section of independent or dependent forms."""
+        rows, denominator, rank = fmpz_mat([list(form) for form in forms]).rref()
+        table = rows.tolist()
+        pivots = [next(column for column in range(SIZE) if table[row][column]) for row in range(rank)]
+        free = [column for column in range(SIZE) if column not in pivots]
+        columns = []
+        for column in free:
+            values = [fmpz(0)] * SIZE
+            values[column] = denominator
+            for row, pivot in enumerate(pivots):
+                values[pivot] = -table[row][column]
+            content = gcd(*map(int, values))
+            columns.append([value // content for value in values])
+        transposed = fmpz_mat(columns)
+        basis = transposed.transpose()
+        found = []
+        for quadric in quadrics:
+            square = fmpz_mat(SIZE, SIZE)
+            for (i, j), value in quadric.items():
+                square[i, j] = value
+            entries = (transposed * square * basis).tolist()
+            found.append([entries[i][j] + (entries[j][i] if i != j else 0) for i, j in pairs(len(free))])
+        return IntegerSection(basis, fmpz_mat(found))
+
+    def modulo(self, prime: int) -> tuple[nmod_mat, nmod_mat] | None:
+        """Basis and quadrics modulo a prime; None if the basis is none there."""
+        basis = nmod_mat(self.basis, prime)
+        return (basis, nmod_mat(self.quadrics, prime)) if basis.rank() == basis.ncols() else None
 
 
 def zero_space(forms: Sequence[IntegerForm], prime: int) -> nmod_mat:

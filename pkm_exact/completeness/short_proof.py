@@ -64,18 +64,16 @@ def short_proof(conditions: Conditions, distinct: int, total: int, policy: Polic
         return ShortProof(CompletenessRoute.MODULAR_RANK)
     if conditions.motion != SPATIAL or not _is_square(conditions):
         return None
-    # "No" may be the fault of primes: it is asked twice.
-    if not any(is_finite(conditions, next(primes), is_quick=is_quick) for is_quick in (True, False)):
-        return None
+    # "No" may be the fault of primes or of too few relations: it is asked twice.
     bits = min(policy.lifting_bits, LIFTING_BITS)
-    tried = (points_at_infinity(conditions, primes, bits) for _ in range(2))
+    tried = (points_at_infinity(conditions, primes, bits, is_quick=is_quick) for is_quick in (True, False))
     found = next(filter(None, tried), None)
-    if found is None:
+    if found is None or total + found.multiplicity < bound.degree:
+        return None
+    if not any(is_finite(conditions, next(primes), is_quick=is_quick) for is_quick in (True, False)):
         return None
     counts = {"listed": total, "infinity": found.multiplicity}
     require(total + found.multiplicity <= bound.degree, "more solutions than the degree of the motions", **counts)
-    if total + found.multiplicity < bound.degree:
-        return None
     return ShortProof(CompletenessRoute.COUNTING_AT_INFINITY, found)
 
 
