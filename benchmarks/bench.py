@@ -18,21 +18,26 @@ from typing import Any
 from growth import batches, digits, exponent
 from machine import machine
 from programs import programs
-from report import draw, markdown
+from report import draw, markdown, share_of
 from side_by_side import formulations, warm_engines, whole_processes
+from symmetric import beside_msolve, proof_shares
 
 MODELS = Path(__file__).parent.parent / "models"
 GENERAL = ("rolland-6-6", "dietmaier", "mourrain-l", "similar-planar-s", "3-rpr-merlet-p")
 FAMILY = ("6-6p", "6-6pp", "ssm-exact", "ssm-rounded", "tssm", "mssm", "hexa", "hexaglide")
 """The other robots of the reference chapter's Table 5, each on our two engines and msolve only."""
 SIDE = ("exact", "krawczyk", "msolve", "msolve-2")
-PARTS = ("programs", "engines", "formulations", "digits", "batches")
+PARTS = ("programs", "engines", "formulations", "digits", "batches", "symmetric", "proofs")
+SYMMETRIC = ("ssm-rounded", "hexaglide", "ssm-exact", "mssm", "tssm", "linuxcnc-hexapod")
+"""Robots with much symmetry, on which the modular elimination of msolve costs little."""
 DIGITS = (3, 6, 12, 24, 48)
 BATCHES = (1, 10, 100, 1000)
 MOST_EXACT = 100
 """Rows of the largest batch for the exact engine, which a row costs the same however many there are."""
 QUICK_RATIO, SLOW_RATIO, SECONDS = 1.0, 2.0, 10.0
 """Limits: of the exact engine to msolve, of a formulation to msolve on the same system, or in seconds."""
+SYMMETRIC_RATIO, SYMMETRIC_SECONDS, SHIPPED_SECONDS, SHARE = 2.0, 0.5, 1.5, 0.5
+"""Limits: of a solve to msolve on symmetric robots, or in seconds; of any shipped robot; of a proof in its solve."""
 STEEPEST, ROW_RATIO, MEGABYTES = 2.0, 0.5, 500
 """Limits: of the growth with digits (2: quadratic), of a row in a large batch to a single solve, of memory."""
 
@@ -67,6 +72,12 @@ def main() -> int:
         limit = 100 * arguments.limit
         sizes = {"krawczyk": arguments.batches, "exact": [size for size in arguments.batches if size <= MOST_EXACT]}
         results["batches"] = batches(robots[0], sizes, (1, 2), limit, log)
+    if "symmetric" in arguments.parts:
+        some = [MODELS / f"{name}.toml" for name in arguments.symmetric]
+        results["symmetric"] = beside_msolve(some, arguments.runs, arguments.limit, log)
+    if "proofs" in arguments.parts:
+        shipped = [path for path in sorted(MODELS.glob("*.toml")) if path.stem in (arguments.shipped or [path.stem])]
+        results["proofs"] = proof_shares(shipped, arguments.runs, log)
     results["limits"] = _limits(results)
     (arguments.output / "report.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
     text = markdown(results)
@@ -93,6 +104,8 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--parts", nargs="+", choices=PARTS, default=PARTS, help="what to measure (default all)")
     parser.add_argument("--robots", nargs="+", default=GENERAL, metavar="NAME", help="models for all programs")
     parser.add_argument("--family", nargs="*", default=FAMILY, metavar="NAME", help="models for msolve and us alone")
+    parser.add_argument("--symmetric", nargs="*", default=SYMMETRIC, metavar="NAME", help="models with much symmetry")
+    parser.add_argument("--shipped", nargs="*", metavar="NAME", help="models whose proofs are timed (default all)")
     parser.add_argument("--digits", nargs="+", type=int, default=DIGITS, metavar="N", help="sizes of the data")
     parser.add_argument("--batches", nargs="+", type=int, default=BATCHES, metavar="N", help="sizes of the sweeps")
     return parser.parse_args()
@@ -100,7 +113,7 @@ def _arguments() -> argparse.Namespace:
 
 def _limits(results: Mapping[str, Any]) -> list[dict[str, Any]]:
     """What was promised, against what was measured; only what was measured."""
-    named = [*_engine_limits(results), *_formulation_limits(results), *_growth_limits(results)]
+    named = [*_engine_limits(results), *_formulation_limits(results), *_growth_limits(results), *_proof_limits(results)]
     return [{"what": what, "value": value, "limit": limit, "kept": value <= limit} for what, value, limit in named]
 
 
@@ -139,6 +152,18 @@ def _growth_limits(results: Mapping[str, Any]) -> Iterator[tuple[str, float, flo
         )
     if done:
         yield "sweep: peak memory of all processes, MB", max(each["memory"] for each in done) / 1e6, MEGABYTES
+
+
+def _proof_limits(results: Mapping[str, Any]) -> Iterator[tuple[str, float, float]]:
+    for robot, entry in results.get("symmetric", {}).items():
+        seconds, msolve = median(entry["seconds"]), median(entry["msolve"] or [0.0])
+        if SYMMETRIC_RATIO * msolve <= SYMMETRIC_SECONDS:
+            yield f"{robot}: exact engine in process, seconds", seconds, SYMMETRIC_SECONDS
+        else:
+            yield f"{robot}: exact engine in process / msolve", seconds / msolve, SYMMETRIC_RATIO
+    for robot, entry in results.get("proofs", {}).items():
+        yield f"{robot}: processor seconds", median(entry["processor"]), SHIPPED_SECONDS
+        yield f"{robot}: share of the proof of completeness", share_of(entry), SHARE
 
 
 if __name__ == "__main__":

@@ -27,6 +27,8 @@ def markdown(results: Mapping[str, Any]) -> str:
         "formulations": _formulations,
         "digits": _digits,
         "batches": _batches,
+        "symmetric": _symmetric,
+        "proofs": _proofs,
     }
     parts += [write(results[key]) for key, write in writers.items() if results.get(key)]
     return "\n\n".join(parts) + "\n"
@@ -63,6 +65,29 @@ def _spread(values: Sequence[float]) -> str:
 
 def _seconds(value: float) -> str:
     return f"{value:.3f}" if value < 1 else f"{value:.2f}" if value < 100 else f"{value:.0f}"
+
+
+def share_of(entry: Mapping[str, Any]) -> float:
+    """The median share of the proof in a solve."""
+    return median(proof / whole for proof, whole in zip(entry["proof"], entry["processor"], strict=True))
+
+
+def _symmetric(part: Mapping[str, Any]) -> str:
+    rows = []
+    for robot, entry in part.items():
+        ratio = f"{median(entry['seconds']) / median(entry['msolve']):.2f}" if entry["msolve"] else ""
+        rows.append([robot, _spread(entry["seconds"]), _spread(entry["msolve"]), ratio])
+    text = "## Robots with much symmetry\n\nThe exact engine in this process, msolve as a whole process, in turn.\n\n"
+    return text + _table(["robot", "exact, seconds", "msolve, seconds", "ratio"], rows)
+
+
+def _proofs(part: Mapping[str, Any]) -> str:
+    rows = [
+        [robot, entry["route"] or "none", _spread(entry["processor"]), f"{share_of(entry):.2f}"]
+        for robot, entry in part.items()
+    ]
+    text = "## Proofs of completeness\n\nProcessor time of the exact engine, and the share of the proof in it.\n\n"
+    return text + _table(["robot", "route", "processor seconds", "share of the proof"], rows)
 
 
 def _whole_processes(part: Mapping[str, Any]) -> str:

@@ -32,6 +32,18 @@ def test_engines_in_process(tmp_path: Path) -> None:
     assert (tmp_path / "engines.svg").stat().st_size > 1000
 
 
+def test_symmetric_robots_beside_msolve_and_shares_of_proofs(tmp_path: Path) -> None:
+    words = ["--runs", "1", "--symmetric", "3-rpr-merlet-p", "--shipped", "3-rpr-merlet-p", "--parts"]
+    done = _run("bench.py", "--output", str(tmp_path), *words, "symmetric", "proofs")
+    results = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    entry = results["symmetric"]["3-rpr-merlet-p"]
+    assert entry["seconds"][0] > 0, done.stderr
+    (whole,), (proof,) = (results["proofs"]["3-rpr-merlet-p"][key] for key in ("processor", "proof"))
+    assert 0 < proof < whole
+    assert len(results["limits"]) == len(("beside msolve", "seconds", "share"))
+    assert "| 3-rpr-merlet-p | exact-elimination | " in (tmp_path / "report.md").read_text(encoding="utf-8")
+
+
 @pytest.mark.slow
 def test_programs_side_by_side(tmp_path: Path) -> None:
     words = ["--runs", "1", "--limit", "20", "--robots", "3-rpr-merlet-p", "--family"]
