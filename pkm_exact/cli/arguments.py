@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import click
 
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 LONGEST_TIME: Final = 10**8
 MOST_LENGTHS: Final = 64
+JointWord: TypeAlias = tuple[Fraction, bool]
+"""A joint value, and whether it is an angle in degrees."""
 
 
 def width(context: click.Context, _option: click.Parameter, value: str) -> Fraction:
@@ -50,6 +52,36 @@ def lengths(context: click.Context, _option: click.Parameter, value: str | None)
     if len(words) > MOST_LENGTHS:
         raise click.UsageError(f"--lengths: {len(words)} given, at most {MOST_LENGTHS} are possible.", context)
     return tuple(_number(context, word.strip(), f"--lengths, number {i}") for i, word in enumerate(words, 1))
+
+
+def near(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[Fraction, ...] | None:
+    """The numbers that --near denotes; the robot says how many there must be."""
+    return None if value is None else _any_numbers(context, value, "--near")
+
+
+def joints(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[JointWord, ...] | None:
+    """What --joints denotes: a number each, and whether it is one of degrees."""
+    if value is None:
+        return None
+    words = [word.strip() for word in value.split(",")]
+    bare = [word.removesuffix("deg").rstrip() for word in words]
+    numbers = _any_numbers(context, ",".join(bare), "--joints")
+    return tuple((number, word != text) for number, word, text in zip(numbers, words, bare, strict=True))
+
+
+def _any_numbers(context: click.Context, text: str, where: str) -> tuple[Fraction, ...]:
+    from pkm_exact.geometry.rational import NumberText, parse_rational
+
+    words = [word.strip() for word in text.split(",")]
+    if len(words) > MOST_LENGTHS:
+        raise click.UsageError(f"{where}: {len(words)} given, at most {MOST_LENGTHS} are possible.", context)
+    try:
+        return tuple(
+            parse_rational(word if "/" in word else NumberText(word), f"{where}, number {i}")
+            for i, word in enumerate(words, 1)
+        )
+    except InputError as error:
+        raise click.UsageError(str(error), context) from None
 
 
 def timeout(context: click.Context, _option: click.Parameter, value: str) -> float:
@@ -203,4 +235,10 @@ lengths_option = click.option(
     callback=lengths,
     metavar="L1,..,L6",
     help="Leg lengths instead, exact: 1250 or 12.5 or 25/2. Three if planar.",
+)
+joints_option = click.option(
+    "--joints",
+    callback=joints,
+    metavar="Q1,..,Qn",
+    help="Joint values instead: lengths, positions of slides, half tangents of cranks, or their angles as 30deg.",
 )

@@ -28,6 +28,8 @@ class ShownPoses:
         The limits of the robot.
     notes : tuple of str
         How many poses are not listed, and why.
+    nearest : tuple of int
+        Numbers of the poses nearest to the nominal one.
     """
 
     poses: tuple[Pose, ...]
@@ -35,20 +37,22 @@ class ShownPoses:
     verdicts: tuple[Mapping[str, LimitVerdict], ...]
     names: tuple[str, ...]
     notes: tuple[str, ...] = ()
+    nearest: tuple[int, ...] = ()
 
     @staticmethod
     def of(robot: Machine, configuration: str | None, solution: Solution, *, feasible_only: bool = False) -> ShownPoses:
         """The poses to list."""
         numbers = tuple(range(1, len(solution.poses) + 1))
+        nearest = _nearest(robot, solution)
         if robot.limits is None:
-            return ShownPoses(solution.poses, numbers, tuple({} for _ in numbers), ())
+            return ShownPoses(solution.poses, numbers, tuple({} for _ in numbers), (), nearest=nearest)
         from pkm_exact.poses.limit_checks import LimitVerdict, limit_verdicts, together
 
         locked = None if configuration is None else robot.configuration(configuration)
         verdicts = limit_verdicts(robot, locked, solution.problem, solution.poses)
         names = robot.limits.names
         if not feasible_only:
-            return ShownPoses(solution.poses, numbers, tuple(verdicts), names)
+            return ShownPoses(solution.poses, numbers, tuple(verdicts), names, nearest=nearest)
         found = [together(verdict.values()) for verdict in verdicts]
         kept = [place for place, verdict in enumerate(found) if verdict is LimitVerdict.YES]
         return ShownPoses(
@@ -57,7 +61,13 @@ class ShownPoses:
             tuple(verdicts[place] for place in kept),
             names,
             (_left_out(found.count(LimitVerdict.NO), found.count(LimitVerdict.UNDECIDED)),),
+            nearest,
         )
+
+    def label(self, place: int) -> str:
+        """The number of a pose, marked if it is the nearest to the nominal one."""
+        number = self.numbers[place]
+        return f"{number}*" if (number,) == self.nearest else str(number)
 
     @property
     def headings(self) -> tuple[str, ...]:
@@ -93,6 +103,15 @@ class ShownPoses:
         feasible, *others = self.fields(place)
         limits = dict(zip(self.names, others, strict=True))
         return {"number": self.numbers[place], "feasible": feasible, "limits": limits}
+
+
+def _nearest(robot: Machine, solution: Solution) -> tuple[int, ...]:
+    if robot.nominal is None:
+        return ()
+    from pkm_exact.poses.nearest_pose import nearest_pose
+
+    found = nearest_pose(solution.poses, robot.nominal)
+    return () if found is None else found.numbers
 
 
 def _left_out(broken: int, undecided: int) -> str:

@@ -65,6 +65,7 @@ def as_object(
         "real_poses": len(solution.poses),
         "poses": [_pose(pose, solution.problem.motion) | shown.entry(place) for place, pose in enumerate(shown.poses)],
         "assembly_modes": assembly_modes(shown.poses),
+        **({"nearest_to_nominal": list(shown.nearest)} if robot.nominal is not None else {}),
         "notes": [*answer_notes(robot, configuration, solution), *shown.notes],
     }
 

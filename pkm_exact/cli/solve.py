@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from pkm_exact.formulations.registry import formulation_codes
 @click.argument("model", type=arguments.FilePath())
 @arguments.configuration_option
 @arguments.lengths_option
+@arguments.joints_option
 @click.option(
     "--method",
     type=click.Choice(METHODS),
@@ -66,12 +68,20 @@ from pkm_exact.formulations.registry import formulation_codes
     show_default=True,
     help="What to print: decimals, or exact bounds as json or csv.",
 )
+@click.option(
+    "--near",
+    callback=arguments.near,
+    metavar="X,Y,Z,R,P,Y",
+    help="Mark the pose nearest to this one: position, and roll, pitch, yaw in degrees or a quaternion. X,Y,DEGREES if "
+    "planar.  [default: the model's nominal pose]",
+)
 @click.option("--feasible", is_flag=True, help="List only the poses that are proved to keep all limits of the model.")
 @click.option("-v", "--verbose", is_flag=True, help="Say more: method, box widths, stages on a terminal.")
 def solve(
     model: str,
     configuration: str | None,
     lengths: tuple[Fraction, ...] | None,
+    joints: tuple[arguments.JointWord, ...] | None,
     method: str,
     formulation: str,
     start: tuple[float, ...] | None,
@@ -80,6 +90,7 @@ def solve(
     tolerance: Fraction | str | None,
     output: str | None,
     layout: str,
+    near: tuple[Fraction, ...] | None,
     feasible: bool,
     verbose: bool,
 ) -> int:
@@ -95,17 +106,25 @@ def solve(
       certify-poses solve models/hexa.toml --configuration level --time-limit 10
       certify-poses solve models/rolland-6-6.toml --method newton --start 0,0,800,1,0,0,0
     """
-    if configuration is not None and lengths is not None:
-        raise click.UsageError("--configuration and --lengths exclude each other.")
+    given = [("--configuration", configuration), ("--lengths", lengths), ("--joints", joints)]
+    names = [name for name, value in given if value is not None]
+    if len(names) > 1:
+        raise click.UsageError(f"{names[0]} and {names[1]} exclude each other.")
     require_fitting(click.get_current_context(), method)
     tolerance_report.require_fitting(click.get_current_context(), tolerance, method, layout)
+    from pkm_exact.cli.joint_words import joint_configuration
     from pkm_exact.cli.model_reading import announced_model
+    from pkm_exact.geometry.nominal_pose import nominal_from_numbers
     from pkm_exact.geometry.robot import jointed
 
     robot = announced_model(model)
+    if near is not None:
+        robot = replace(robot, nominal=nominal_from_numbers(near, "--near", robot.motion))
     if feasible and (robot.limits is None or tolerance is not None or method == "newton"):
         what = "the model has no limits; add a table [limits]" if robot.limits is None else "it is for certified poses"
         raise InputError(f"{model}: --feasible: {what}, or leave the option out")
+    if joints is not None:
+        robot, configuration = joint_configuration(robot, joints)
     chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     name = chosen.name if chosen else None
     tolerances = (

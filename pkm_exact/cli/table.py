@@ -38,8 +38,8 @@ def print_table(
         return
     planar = solution.problem.motion.is_planar
     rows = [
-        pose_cells(number, pose, solution.problem.motion) + shown.cells(place)
-        for place, (number, pose) in enumerate(zip(shown.numbers, shown.poses, strict=True))
+        (shown.label(place), *pose_cells(0, pose, solution.problem.motion)[1:], *shown.cells(place))
+        for place, pose in enumerate(shown.poses)
     ]
     rotation = "angle [degrees]" if planar else "unit quaternion (scalar first)"
     # A redundant mechanism has no determinant: its Jacobian has more rows than columns.

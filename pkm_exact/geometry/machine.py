@@ -11,6 +11,7 @@ from typing import Any, Final
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.limits import Limits
+from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import printable, shown
@@ -49,6 +50,8 @@ class Machine(ABC):
         Locked actuators under names; the first one is the default.
     limits : Limits or None
         How far actuators, passive joints, legs and platform may go.
+    nominal : NominalPose or None
+        The pose in which it is meant to be.
     """
 
     name: str
@@ -58,6 +61,7 @@ class Machine(ABC):
     metric: Metric
     configurations: tuple[Any, ...]
     limits: Limits | None
+    nominal: NominalPose | None
 
     @property
     @abstractmethod

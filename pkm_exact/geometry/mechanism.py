@@ -20,6 +20,7 @@ from pkm_exact.geometry.drives import Drive
 from pkm_exact.geometry.inverse import UNIT_METRIC, Matrix, Metric
 from pkm_exact.geometry.limits import Limits
 from pkm_exact.geometry.machine import CONSTRAINTS_KIND, Machine
+from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_rational
 from pkm_exact.motions.motion import Motion
@@ -71,6 +72,8 @@ class Mechanism(Machine):
         The first one is the default.
     limits : Limits or None
         Of actuators, legs and position, if there are any.
+    nominal : NominalPose or None
+        The pose in which it is meant to be.
     kind : str
         "constraints", or the name of the recipe that it was made by (``machines.machine_kinds``).
     drives : tuple of Drive
@@ -103,6 +106,7 @@ class Mechanism(Machine):
     configurations: tuple[LockedValues, ...] = ()
     kind: str = CONSTRAINTS_KIND
     limits: Limits | None = None
+    nominal: NominalPose | None = None
     drives: tuple[Drive, ...] = ()
     stand_ins: tuple[StandIn, ...] = ()
 

@@ -28,6 +28,7 @@ from pkm_exact.geometry.machines.machine_kinds import MACHINES
 from pkm_exact.geometry.machines.machine_reader import read_machine
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.mechanism_reader import read_mechanism
+from pkm_exact.geometry.nominal_pose import read_nominal
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
 from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.geometry.tolerances import read_tolerances
@@ -134,6 +135,17 @@ def robot_from_toml(text: str) -> Robot | Mechanism:
 def any_from_toml(text: str) -> Robot | Mechanism | Linkage:
     """What the text of a model file describes."""
     table = _parse(text)
+    nominal = table.pop("nominal", None)
+    found = _described(table)
+    if nominal is None:
+        return found
+    if isinstance(found, Linkage):
+        raise InputError(f"nominal: a file of kind {CHAINS_KIND} has no pose to choose; take the table out")
+    return replace(found, nominal=read_nominal(nominal, found.motion, found.metric))
+
+
+def _described(table: dict[str, Any]) -> Robot | Mechanism | Linkage:
+    """The same but for the nominal pose, which robots of all kinds may have."""
     schema = required(table, "schema", "")
     if isinstance(schema, bool) or schema != SCHEMA:
         raise InputError(f"schema: {shown(schema)} is unknown; write schema = {SCHEMA}")

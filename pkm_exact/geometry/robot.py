@@ -13,6 +13,7 @@ from pkm_exact.geometry.joints import in_plane, parse_joints, parse_metric, refu
 from pkm_exact.geometry.kinds import KINDS, Joints, gough_legs, knees
 from pkm_exact.geometry.limits import Limits
 from pkm_exact.geometry.machine import Machine
+from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational
 from pkm_exact.geometry.tolerances import Tolerances
@@ -78,6 +79,8 @@ class Robot(Machine):
         Of its data, if they are known.
     limits : Limits or None
         Of actuators, passive joints, legs and position, if there are any.
+    nominal : NominalPose or None
+        The pose in which it is meant to be.
     written_digit : Fraction or None
         Unit of the last decimal of joints, cranks, slides and rods in the model file; None without decimals.
 
@@ -100,6 +103,7 @@ class Robot(Machine):
     chains: tuple[Chain, ...] = ()
     tolerances: Tolerances | None = None
     limits: Limits | None = None
+    nominal: NominalPose | None = None
     written_digit: Fraction | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:

@@ -27,7 +27,32 @@ def answer_notes(robot: Machine | None, configuration: str | None, solution: Sol
         *solution.notes,
         *stand_in_notes(robot, configuration),
         *digit_notes(solution.problem, solution.poses, digit),
+        *nominal_notes(robot, solution.poses),
+        *(() if solution.poses or robot is None else _why_none(solution.problem, robot.unit)),
     )
+
+
+def _why_none(problem: ForwardProblem, unit: str) -> tuple[str, ...]:
+    from pkm_exact.poses.unreachable_legs import unreachable_notes
+
+    return unreachable_notes(problem, unit)
+
+
+def nominal_notes(robot: Machine | None, poses: Sequence[Pose]) -> tuple[str, ...]:
+    """Which pose is the nearest to the one in which the robot is meant to be, if that is known."""
+    if robot is None or robot.nominal is None:
+        return ()
+    from pkm_exact.poses.nearest_pose import nearest_pose
+
+    found = nearest_pose(poses, robot.nominal)
+    if found is None:
+        return ()
+    first, *others = found.numbers
+    off = f"its position is {found.position_off:.4g} {robot.unit}, its rotation {found.degrees_off:.3g} degrees from it"
+    if others:
+        as_near = ", ".join(map(str, others))
+        return (f"pose {first} is nearest to the nominal pose ({off}), or as near as its box tells: {as_near}",)
+    return (f"pose {first} is the nearest to the nominal pose: {off}",)
 
 
 def stand_in_notes(robot: Machine | None, configuration: str | None) -> tuple[str, ...]:

@@ -1,0 +1,144 @@
+"""Which pose is meant, joint values of all actuators on the command line, and words where lengths fit no pose."""
+
+import json
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from samples import model, solved
+
+from pkm_exact.cli.main import main
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.nominal_pose import NominalPose
+from pkm_exact.geometry.reader import robot_from_toml
+from pkm_exact.poses.nearest_pose import nearest_pose
+from pkm_exact.poses.unreachable_legs import unreachable_notes
+
+MODELS = Path(__file__).parent.parent / "models"
+PLANAR, ARMS, SLIDES, DELTA = (str(MODELS / f"{name}.toml") for name in ("3-rpr-merlet-p", "3-rrr", "3-prr", "delta"))
+Capture = pytest.CaptureFixture[str]
+
+
+def _json(words: Sequence[str], capsys: Capture) -> dict[str, object]:
+    assert main([*words, "--format", "json"]) == 0
+    found: dict[str, object] = json.loads(capsys.readouterr().out)
+    return found
+
+
+@pytest.mark.parametrize("name", ["3-rrr", "mssm"])
+def test_every_pose_is_the_nearest_to_itself(name: str) -> None:
+    poses = solved(name).poses
+    for number, pose in enumerate(poses, 1):
+        x, y, z = (entry.lo for entry in pose.position)
+        rows = [tuple(entry.hi for entry in row) for row in pose.rotation]
+        found = nearest_pose(poses, NominalPose((x, y, z), (rows[0], rows[1], rows[2])))  # type: ignore[arg-type]
+        assert found is not None
+        assert found.numbers == (number,)
+        assert found.position_off < 1e-8
+
+
+def test_poses_that_are_equally_near_are_all_named() -> None:
+    poses = solved("3-rrr").poses
+    x, y, z = (entry.lo for entry in poses[1].position)
+    rows = [tuple(entry.hi for entry in row) for row in poses[1].rotation]
+    meant = NominalPose((x, y, z), (rows[0], rows[1], rows[2]))  # type: ignore[arg-type]
+    found = nearest_pose((poses[1], poses[0], poses[1]), meant)
+    assert found is not None
+    assert sorted(found.numbers) == [1, 3]
+
+
+def test_the_model_s_nominal_pose_is_marked_everywhere(tmp_path: Path, capsys: Capture) -> None:
+    path = tmp_path / "meant.toml"
+    path.write_text(Path(PLANAR).read_text() + "\n[nominal]\nposition = [5, 4]\ndegrees = 5\n")
+    assert main(["solve", str(path)]) == 0
+    out = capsys.readouterr().out
+    assert "note: pose 2 is the nearest to the nominal pose: its position is 1 1, its rotation 5 degrees from it" in out
+    assert "\n2*  " in out
+    answer = _json(["solve", str(path)], capsys)
+    assert answer["nearest_to_nominal"] == [2]
+    far = _json(["solve", str(path), "--near", "-1,3,-170"], capsys)
+    assert far["nearest_to_nominal"] == [1]
+    assert "nearest_to_nominal" not in _json(["solve", PLANAR], capsys)
+
+
+@pytest.mark.parametrize(
+    ("table", "part"),
+    [
+        ("position = [5]\ndegrees = 5", "nominal.position"),
+        ("position = [5, 4]", "nominal: no angle given"),
+        ("position = [5, 4]\nquaternion = [1, 0, 0, 0]", "quaternion"),
+    ],
+)
+def test_a_nominal_pose_that_is_none_is_refused(table: str, part: str) -> None:
+    with pytest.raises(InputError, match=part):
+        robot_from_toml(Path(PLANAR).read_text() + f"\n[nominal]\n{table}\n")
+
+
+def test_joint_values_of_all_kinds(capsys: Capture) -> None:
+    legs = _json(["solve", PLANAR, "--joints", "7.1,26/5,5"], capsys)
+    assert legs["poses"] == _json(["solve", PLANAR, "--lengths", "7.1,26/5,5"], capsys)["poses"]
+    for path, key in ((SLIDES, "slides"), (ARMS, "half_tangents")):
+        numbers = next(line for line in Path(path).read_text().splitlines() if line.startswith(f"{key} ="))
+        words = numbers.partition("[")[2].partition("]")[0].replace('"', "").replace(" ", "")
+        assert _json(["solve", path, "--joints", words], capsys)["poses"] == _json(["solve", path], capsys)["poses"]
+    right = _json(["solve", ARMS, "--joints", "90deg,0deg,-90deg"], capsys)
+    assert right["poses"] == _json(["solve", ARMS, "--joints", "1,0,-1"], capsys)["poses"]
+    assert _json(["solve", DELTA, "--joints", "0,1/7,1/5"], capsys)["claim"] == "complete"
+
+
+def test_an_angle_that_is_not_rational_is_not_rounded_in_silence(capsys: Capture) -> None:
+    assert main(["solve", ARMS, "--joints", "37deg,0,0"]) == 0
+    assert "37 degrees, whose cosine and sine are not both rational here" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "part"),
+    [
+        (["--joints", "1,2"], "--joints: 2 values; give 3, for leg 1, leg 2, leg 3"),
+        (["--joints", "1,2,30deg"], "--joints, leg 3: is no angle"),
+        (["--joints", "1,2,0"], "--joints, leg 3: 0 is no length"),
+        (["--joints", "1,2,x"], "--joints, number 3: x is not a number"),
+        (["--joints", "1,2,3", "--lengths", "1,2,3"], "--lengths and --joints exclude each other"),
+        (["--near", "1,2"], "--near: 2 numbers; give X,Y,DEGREES"),
+        (["--near", "1,2,1e9"], "out of range; give degrees"),
+    ],
+)
+def test_words_that_do_not_fit_give_one_sentence(words: list[str], part: str, capsys: Capture) -> None:
+    assert main(["solve", PLANAR, *words]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert part in err
+
+
+def test_lengths_in_another_unit_or_exchanged_are_recognised(capsys: Capture) -> None:
+    rolland = str(MODELS / "rolland-6-6.toml")
+    assert main(["solve", rolland, "--lengths", "1.25,1.25,1.25,1.25,1.25,1.25"]) == 0
+    out = capsys.readouterr().out
+    assert "leg 1 is 1.25 mm long, but with the others as they are it could be no shorter than 790.7 mm" in out
+    assert "lengths 1000 times these would not contradict each other" in out
+    robot = model("mourrain-l")
+    squares = [leg.length_squared for leg in robot.problem(robot.configuration()).distances]
+    assert unreachable_notes(robot.problem(squares), "mm") == ()
+
+
+@given(st.lists(st.integers(1, 60), min_size=3, max_size=3))
+def test_nothing_is_said_where_a_pose_exists(lengths: list[int]) -> None:
+    """Legs from joints to a platform placed somewhere never contradict each other."""
+    robot = model("3-rpr-merlet-p")
+    at = [Fraction(x, 4) for x in lengths]
+    joints = zip(robot.base_joints, robot.platform_joints, strict=True)
+    squares = [(at[0] + b[0] - a[0]) ** 2 + (at[1] + b[1] - a[1]) ** 2 for a, b in joints]
+    if all(squares):
+        assert unreachable_notes(robot.problem(squares), "mm") == ()
+
+
+def test_two_lengths_that_were_exchanged_are_named() -> None:
+    robot = model("3-rpr-merlet-p")
+    notes = unreachable_notes(robot.problem_at([Fraction(1), Fraction(12), Fraction(7, 2)]), "mm")
+    if notes:
+        assert notes[0].startswith("no pose: ")
+    wrong = unreachable_notes(robot.problem_at([Fraction(50), Fraction(5), Fraction(7)]), "mm")
+    assert wrong[0].startswith("no pose: leg 1 is 50 mm long")
