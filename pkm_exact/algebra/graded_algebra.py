@@ -27,7 +27,8 @@ MOST_ENTRIES = 1 << 22
 def graded_dimensions(size: int, forms: Sequence[Form], prime: int, last: int, most: int) -> tuple[int, ...] | None:
     """The dimensions of A_0, A_1, .. up to the last one that is not 0; () if 1 is a generator.
 
-    None if that of degree ``last`` is not 0, if they sum to more than ``most``, or a matrix would be too large.
+    None if that of degree ``last`` is not 0, if they sum to more than ``most``, or a matrix would be too large; and at
+    once if some part is larger than one of general forms of the greatest degrees: then there are always some left.
 
     Examples
     --------
@@ -43,14 +44,44 @@ def graded_dimensions(size: int, forms: Sequence[Form], prime: int, last: int, m
             by_degree.setdefault(sum(next(iter(image))), []).append(image)
     if 0 in by_degree:
         return ()
+    degrees = [degree for degree, images in by_degree.items() for _ in images]
+    general = general_dimensions(size, degrees)
+    if general is None:
+        return None
     algebra = _Growing(size, by_degree.get(1, ()), prime)
     dimensions = [1]
     while algebra.dimension:
         dimensions.append(algebra.dimension)
-        if algebra.degree == last or sum(dimensions) > most or algebra.entries() > MOST_ENTRIES:
+        room = general[algebra.degree] if algebra.degree < len(general) else 0
+        if algebra.degree == last or sum(dimensions) > most or algebra.dimension > room:
+            return None
+        if algebra.entries() > MOST_ENTRIES:
             return None
         algebra.grow(by_degree.get(algebra.degree + 1, ()))
     return tuple(dimensions)
+
+
+def general_dimensions(size: int, degrees: Sequence[int]) -> list[int] | None:
+    """The dimensions that general forms of the greatest degrees leave, one for each unknown; None if they are fewer.
+
+    If forms leave finitely many dimensions, general combinations of them with these degrees are a regular sequence, and
+    leave no less than all: prod (1 + z + .. + z^(d - 1)).
+
+    Examples
+    --------
+    >>> general_dimensions(2, [1, 2, 3]), general_dimensions(2, [5])
+    ([1, 2, 2, 1], None)
+    """
+    if len(degrees) < size:
+        return None
+    series = [1]
+    for degree in sorted(degrees, reverse=True)[:size]:
+        longer = [0] * (len(series) + degree - 1)
+        for place, value in enumerate(series):
+            for step in range(degree):
+                longer[place + step] += value
+        series = longer
+    return series
 
 
 class _Growing:

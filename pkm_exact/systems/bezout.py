@@ -12,8 +12,6 @@ from itertools import islice
 from math import prod
 from typing import Final, TypeAlias
 
-from flint import fmpz_mpoly
-
 from pkm_exact.algebra.system import PolynomialSystem
 
 Groups: TypeAlias = tuple[tuple[int, ...], ...]
@@ -47,18 +45,42 @@ def multihomogeneous_number(system: PolynomialSystem, groups: Groups) -> int:
     >>> multihomogeneous_number(PolynomialSystem(("x", "y"), (x * y - 1, x * y + x + y)), ((0,), (1,)))
     2
     """
-    sizes = tuple(map(len, groups))
-    counts = {(0,) * len(groups): 1}
-    for polynomial in system.polynomials:
-        degrees = _degrees(polynomial, groups)
-        following: dict[tuple[int, ...], int] = {}
-        for key, value in counts.items():
-            for place, degree in enumerate(degrees):
-                if degree and key[place] < sizes[place]:
-                    larger = (*key[:place], key[place] + 1, *key[place + 1 :])
-                    following[larger] = following.get(larger, 0) + value * degree
-        counts = following
-    return counts.get(sizes, 0)
+    return _Degrees(system).number(groups)
+
+
+class _Degrees:
+    """Degrees of a system's polynomials in groups of variables, each found once."""
+
+    def __init__(self, system: PolynomialSystem) -> None:
+        self.exponents = [[tuple(map(int, key)) for key in polynomial.to_dict()] for polynomial in system.polynomials]
+        self.known: dict[tuple[int, ...], list[int]] = {}
+
+    def of(self, group: tuple[int, ...]) -> list[int]:
+        """The degree of each polynomial in a group."""
+        if group not in self.known:
+            self.known[group] = [max(sum(key[k] for k in group) for key in keys) for keys in self.exponents]
+        return self.known[group]
+
+    def number(self, groups: Groups) -> int:
+        """The multihomogeneous number."""
+        sizes = tuple(map(len, groups))
+        counts = {(0,) * len(groups): 1}
+        for degrees in zip(*map(self.of, groups), strict=True):
+            counts = _joined(counts, degrees, sizes)
+        return counts.get(sizes, 0)
+
+
+def _joined(
+    counts: dict[tuple[int, ...], int], degrees: Sequence[int], sizes: Sequence[int]
+) -> dict[tuple[int, ...], int]:
+    """A product of linear forms, by exponents, times one more; powers above ``sizes`` are left out."""
+    following: dict[tuple[int, ...], int] = {}
+    for key, value in counts.items():
+        for place, degree in enumerate(degrees):
+            if degree and key[place] < sizes[place]:
+                larger = (*key[:place], key[place] + 1, *key[place + 1 :])
+                following[larger] = following.get(larger, 0) + value * degree
+    return following
 
 
 def groups_with(system: PolynomialSystem, number: int) -> Groups | None:
@@ -66,8 +88,9 @@ def groups_with(system: PolynomialSystem, number: int) -> Groups | None:
     size = len(system.unknowns)
     if len(system.polynomials) != size:
         return None
+    degrees = _Degrees(system)
     for groups in islice(partitions(size), MOST_PARTITIONS):
-        if len(groups) > 1 and multihomogeneous_number(system, groups) == number:
+        if len(groups) > 1 and degrees.number(groups) == number:
             return groups
     return None
 
@@ -97,8 +120,3 @@ def _into(size: int, count: int, groups: Groups) -> Iterator[Groups]:
         yield from _into(size, count, (*groups[:place], (*group, number), *groups[place + 1 :]))
     if len(groups) < count:
         yield from _into(size, count, (*groups, (number,)))
-
-
-def _degrees(polynomial: fmpz_mpoly, groups: Groups) -> list[int]:
-    exponents = [tuple(map(int, key)) for key in polynomial.to_dict()]
-    return [max(sum(key[k] for k in group) for key in exponents) for group in groups]

@@ -71,6 +71,7 @@ class _Refined:
     def __init__(self, h: fmpz_poly, root: RealRoot) -> None:
         self.h, self.slope = h, h.derivative()
         self.low, self.high = (fmpq(end.numerator, end.denominator) for end in (root.lo, root.hi))
+        self.starts_positive = bool(h(self.low) > 0)
 
     def ball(self, precision: int) -> arb:
         """The root to about so many bits after the point."""
@@ -78,11 +79,11 @@ class _Refined:
             with working_precision(precision):
                 return arb(self.low)
         target = fmpq(1, fmpz(1) << precision)
-        bits = _NEWTON_GUARD
+        bits = precision + _NEWTON_GUARD
         while self.high - self.low > target:
-            bits = min(2 * bits, 2 * precision + _NEWTON_GUARD + int(self.h.height_bits()))
             if not self._narrowed(bits):
-                self._halve()
+                bits = min(2 * bits, 2 * precision + _NEWTON_GUARD + 2 * int(self.h.height_bits()))
+                self._halve(bits)
         with working_precision(2 * precision + _NEWTON_GUARD):
             return arb(self.low).union(arb(self.high))
 
@@ -100,12 +101,17 @@ class _Refined:
         self.low, self.high = low, high
         return True
 
-    def _halve(self) -> None:
+    def _halve(self, bits: int) -> None:
         middle = (self.low + self.high) / 2
-        value = self.h(middle)
-        if value == 0:
+        with working_precision(bits):
+            ball = arb_poly(self.h)(arb(middle))
+            sign = 0 if ball.contains(0) else 1 if ball > 0 else -1
+        if not sign:
+            value = self.h(middle)
+            sign = (value > 0) - (value < 0)
+        if not sign:
             self.low = self.high = middle
-        elif (value > 0) == (self.h(self.low) > 0):
+        elif (sign > 0) == self.starts_positive:
             self.low = middle
         else:
             self.high = middle

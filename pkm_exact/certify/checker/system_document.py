@@ -21,7 +21,7 @@ from pkm_exact.certify.checker.spelling import (
     rational_text,
     text,
 )
-from pkm_exact.certify.checker.system_terms import Terms, read_polynomials, read_variables
+from pkm_exact.certify.checker.system_terms import MAX_VARIABLES, Terms, read_polynomials, read_variables
 from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_ELIMINATION_ROWS, malformed, too_large
 
 ROUTES: Final = (
@@ -194,11 +194,20 @@ def _witness(value: Any, size: int) -> Witness:
     cause, forms, slices = entries(value, "witness", _WITNESS)
     if isinstance(slices, list) and len(slices) > _MOST_SLICES:
         raise too_large(f"witness.slices: more than {_MOST_SLICES}")
+    if isinstance(forms, list) and len(forms) > MAX_VARIABLES:
+        raise too_large(f"witness.forms: more than {MAX_VARIABLES}")
     return Witness(
         choice(cause, "witness.cause", CAUSES),
-        items(forms, "witness.forms", None, lambda entry, where: items(entry, where, size + 1, integer)),
+        items(forms, "witness.forms", None, lambda entry, where: _form(entry, where, size)),
         items(slices, "witness.slices", None, lambda entry, where: _slice(entry, where, size)),
     )
+
+
+def _form(value: Any, where: str, size: int) -> tuple[int, ...]:
+    form = items(value, where, size + 1, integer)
+    if not any(form[:-1]):
+        raise malformed(f"{where}: constant")
+    return form
 
 
 def _slice(value: Any, where: str, size: int) -> tuple[Fraction, Points]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from hashlib import sha256
 from math import gcd
 
-from flint import fmpz_poly
+from flint import fmpz, fmpz_poly
 
 from pkm_exact.certify.checker.budget import charge, limbs, polynomials_cost
-from pkm_exact.certify.checker.solutions import modulo, primitive_part, proved_coprime, vanishes
+from pkm_exact.certify.checker.solutions import modulo, primitive_part, proved_coprime
 from pkm_exact.certify.checker.study_motion import combination
 from pkm_exact.certify.checker.system_document import InfinitePoints, Points
 from pkm_exact.certify.checker.system_terms import Monomial, Terms, degree, top_form
@@ -21,7 +22,7 @@ def check_points(points: Points, polynomials: Sequence[Mapping[Monomial, int]], 
     h0 = primitive_part(points.eliminant)
     values = _Values(points.numerators, points.eliminant.derivative())
     for number, polynomial in enumerate(polynomials, 1):
-        if not vanishes(values.of(polynomial), h0):
+        if not _divides(h0, values.of(polynomial)):
             raise rejected(f"{where}polynomials: number {number} is not 0 at every root of the eliminant")
     yield f"{where}polynomials: all {len(polynomials)} are 0 at every root of the eliminant"
 
@@ -52,9 +53,28 @@ def check_at_infinity(infinity: InfinitePoints, polynomials: Sequence[Terms]) ->
         raise rejected("infinity: w.z is not 1 at the roots of the eliminant")
     h0 = primitive_part(infinity.points.eliminant)
     values = _Values(infinity.points.numerators, slope)
-    if not all(vanishes(values.of(top_form(polynomial)), h0) for polynomial in polynomials):
+    if not all(_divides(h0, values.of(top_form(polynomial))) for polynomial in polynomials):
         raise rejected("infinity: a point is not on all polynomials")
     yield f"infinity: {infinity.points.eliminant.degree()} points are common to all polynomials"
+
+
+def _divides(h0: fmpz_poly, value: fmpz_poly) -> bool:
+    """Whether h0, primitive, divides a polynomial over Z: first modulo a prime, so that what is divided, divides.
+
+    The prime follows from the polynomials; with a remainder the numbers of an exact division would grow.
+    """
+    words, steps = limbs(int(value.height_bits())), max(int(value.length() - h0.length()), 0) + 1
+    charge(int(value.length()) * (1000 + 100 * words))
+    digest = sha256(",".join(hex(int(entry)) for entry in (*h0.coeffs(), *value.coeffs())).encode()).digest()
+    p = 1 << 61 | int.from_bytes(digest[:8]) >> 3 | 1
+    while not fmpz(p).is_prime():
+        p += 2
+    charge(polynomials_cost(steps + int(h0.length()), 8))
+    modulus = modulo(h0, p)
+    if modulus.degree() == h0.degree() and modulo(value, p) % modulus:
+        return False
+    charge(3 * polynomials_cost(steps + int(h0.length()), words + limbs(int(h0.height_bits()))))
+    return not divmod(value, h0)[1]
 
 
 class _Values:

@@ -8,15 +8,15 @@ no smaller than over Q. A_(t+1) is spanned by symbols x_i a, a in a basis of A_t
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from itertools import combinations, islice
+from collections.abc import Iterator, Mapping, Sequence
+from hashlib import sha256
+from itertools import combinations, count, islice
 from math import prod
 from typing import Final
 
-from flint import nmod_mat
+from flint import fmpz, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge
-from pkm_exact.certify.checker.echelon import primes
 from pkm_exact.certify.checker.system_terms import Monomial, Terms, degree
 from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_ENTRIES
 
@@ -53,11 +53,24 @@ def multihomogeneous_number(polynomials: Sequence[Terms], groups: Sequence[Seque
 
 def room(size: int, forms: Sequence[Mapping[Monomial, int]], most: int) -> int | None:
     """The dimension of what homogeneous polynomials leave, a bound for that over Q; None if it is not found."""
-    for p in islice(primes(), _ATTEMPTS):
+    for p in islice(_primes_from(forms), _ATTEMPTS):
         found = _room_modulo(size, forms, most, p)
         if found is not None:
             return found
     return None
+
+
+def _primes_from(forms: Sequence[Mapping[Monomial, int]]) -> Iterator[int]:
+    """Primes of 62 bits that follow from the polynomials: none can be built on them."""
+    sizes = sum(len(form) for form in forms)
+    charge(sizes * 5000)
+    spelled = ";".join(f"{monomial}:{value:x}" for form in forms for monomial, value in sorted(form.items()))
+    for number in count():
+        digest = sha256(f"{number};{spelled}".encode()).digest()
+        candidate = 1 << 61 | int.from_bytes(digest[:8]) >> 3 | 1
+        while not fmpz(candidate).is_prime():
+            candidate += 2
+        yield candidate
 
 
 def _room_modulo(size: int, forms: Sequence[Mapping[Monomial, int]], most: int, p: int) -> int | None:
