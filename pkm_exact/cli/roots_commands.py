@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 
 import click
@@ -71,6 +72,18 @@ def certify_roots() -> None:
     help="Who finds the solutions: this program, or an installed msolve, whose answer is verified.",
 )
 @click.option(
+    "--time-limit",
+    callback=arguments.time_limit,
+    metavar="S",
+    help="Seconds after which it is given up, exit code 4.  [default: none]",
+)
+@click.option(
+    "--memory",
+    type=click.IntRange(64, 1 << 20),
+    metavar="MB",
+    help="Megabytes of memory that it may use, exit code 4 beyond.  [default: no limit]",
+)
+@click.option(
     "-o", "--output", type=arguments.FilePath(), metavar="CERT.json", help="Write the certificate to this file."
 )
 @click.option(
@@ -83,7 +96,15 @@ def certify_roots() -> None:
 )
 @click.option("-v", "--verbose", is_flag=True, help="Say more: sizes, times of the stages, stages on a terminal.")
 def solve(
-    file: str, width: Fraction, only: str | None, oracle: str, output: str | None, layout: str, verbose: bool
+    file: str,
+    width: Fraction,
+    only: str | None,
+    oracle: str,
+    time_limit: float | None,
+    memory: int | None,
+    output: str | None,
+    layout: str,
+    verbose: bool,
 ) -> int:
     """Find all solutions of the polynomial system in FILE, and prove that they are all.
 
@@ -101,11 +122,15 @@ def solve(
     if output is not None:
         arguments.require_other_file(Path(output), file, "-o", "the system's file")
         arguments.require_writable(Path(output), "-o")
+    from pkm_exact.interactive.limited_solve import solve_within_limits
     from pkm_exact.interactive.progress import Progress
     from pkm_exact.interactive.system_answers import solve_system
 
+    solver = solve_system
+    if time_limit is not None or memory is not None:
+        solver = partial(solve_within_limits, seconds=time_limit, megabytes=memory)
     with Progress(verbose=verbose) as progress:
-        solution = solve_system(system, width=width, oracle=oracle, progress=progress)
+        solution = solver(system, width=width, oracle=oracle, progress=progress)
     if output is not None:
         arguments.write_output(output, solution.certificate(Path(file).name).data)
     from pkm_exact.cli.roots_report import report_roots
