@@ -60,7 +60,7 @@ def certificate_bytes(robot: Machine, configuration_name: str | None, solution: 
 def _content(machine: Machine, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
     """The certificate without its digest, of version 1 where that can say it."""
     if not isinstance(machine, Robot):
-        if not _is_of(machine, solution):
+        if not (isinstance(machine, Mechanism) and machine.poses(solution.problem)):
             raise ValueError(f"the solution is not one of {machine!r}: constraints or metric differ")
         return constraints_content(machine, configuration_name, solution)
     # The checker knows legs only: cranks and slides are certified as the 6-UPS robot with their knees as base joints.
@@ -96,15 +96,6 @@ def is_of_version_1(solution: Solution) -> bool:
     from pkm_exact.completeness.slices import MorePoses
 
     return solution.completeness_route in _ROUTES and not isinstance(solution.self_motion, MorePoses)
-
-
-def _is_of(machine: Machine, solution: Solution) -> bool:
-    """Whether the problem solved is one of the machine's, with whatever values of its actuators."""
-    found = {constraint.name: constraint for constraint in solution.problem.constraints}
-    if isinstance(machine, Mechanism):
-        locked = machine.values_of(found)
-        return locked is not None and machine.problem(locked) == solution.problem
-    return False
 
 
 def robot_entry(robot: Robot) -> dict[str, Any]:

@@ -203,6 +203,11 @@ class Mechanism(Machine):
             values.append(value)
         return tuple(values)
 
+    def poses(self, problem: ForwardProblem) -> bool:
+        """Whether a problem is one of this mechanism, with whatever values of its actuators."""
+        values = self.values_of({constraint.name: constraint for constraint in problem.constraints})
+        return values is not None and self.problem(values) == problem
+
     def sort_of(self, name: str) -> str:
         """Under which limits an actuator falls: lengths, slides, angles, or none of them."""
         drive = self.drive(name)

@@ -156,10 +156,12 @@ def _joint_rows(robot: Robot, axes: str) -> tuple[tuple[str, ...], list[tuple[st
 
 def _constraint_rows(robot: Machine) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """The constraints of a mechanism, each with what it asks."""
-    constraints = robot.constraints if isinstance(robot, Mechanism) else ()
+    if not isinstance(robot, Mechanism):
+        return ("constraint", "type", "actuated"), []
+    drives = {part.constraint: f"by {drive.name}" for drive in robot.drives for part in drive.parts}
+    own = dict.fromkeys(robot.actuated, "yes")
     return ("constraint", "type", "actuated"), [
-        (constraint.name, constraint.title, "yes" if constraint.name in robot.actuated else "")
-        for constraint in constraints
+        (constraint.name, constraint.title, (own | drives).get(constraint.name, "")) for constraint in robot.constraints
     ]
 
 

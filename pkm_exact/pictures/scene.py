@@ -22,7 +22,8 @@ from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
-    from pkm_exact.geometry.problem import ForwardProblem
+    from pkm_exact.geometry.mechanism import Mechanism
+from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.geometry.robot import Configuration
     from pkm_exact.pictures.coordinates import Placed
     from pkm_exact.poses.jacobian import LegJacobian
@@ -251,12 +252,7 @@ def _scene(document: Mapping[str, Any], machine: Machine | None) -> Scene:
 
 def _require_problem(machine: Machine, problem: ForwardProblem) -> None:
     """Refuse a model that a certificate is not one of."""
-    found = {constraint.name: constraint for constraint in problem.constraints}
-    try:
-        values = [getattr(found[name], found[name].value_field or "") for name in machine.actuated]
-        same = machine.problem_at(values, squared=True) == problem
-    except (KeyError, AttributeError):
-        same = False
+    same = isinstance(machine, Mechanism) and machine.poses(problem)
     if not same:
         raise InputError(
             f"robot: the certificate is not one of the model {shown(machine.name)}, constraints, metric or values "
