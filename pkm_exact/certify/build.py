@@ -60,7 +60,7 @@ def certificate_bytes(robot: Machine, configuration_name: str | None, solution: 
 def _content(machine: Machine, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
     """The certificate without its digest, of version 1 where that can say it."""
     if not isinstance(machine, Robot):
-        if not (isinstance(machine, Mechanism) and machine.poses(solution.problem)):
+        if not (isinstance(machine, Mechanism) and machine.asks(solution.problem)):
             raise ValueError(f"the solution is not one of {machine!r}: constraints or metric differ")
         return constraints_content(machine, configuration_name, solution)
     # The checker knows legs only: cranks and slides are certified as the 6-UPS robot with their knees as base joints.

@@ -203,7 +203,7 @@ class Mechanism(Machine):
             values.append(value)
         return tuple(values)
 
-    def poses(self, problem: ForwardProblem) -> bool:
+    def asks(self, problem: ForwardProblem) -> bool:
         """Whether a problem is one of this mechanism, with whatever values of its actuators."""
         values = self.values_of({constraint.name: constraint for constraint in problem.constraints})
         return values is not None and self.problem(values) == problem

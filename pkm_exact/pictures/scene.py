@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.motions.motion import Motion
 from pkm_exact.pictures.shapes import Shape
@@ -22,8 +23,7 @@ from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
-    from pkm_exact.geometry.mechanism import Mechanism
-from pkm_exact.geometry.problem import ForwardProblem
+    from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.geometry.robot import Configuration
     from pkm_exact.pictures.coordinates import Placed
     from pkm_exact.poses.jacobian import LegJacobian
@@ -252,7 +252,7 @@ def _scene(document: Mapping[str, Any], machine: Machine | None) -> Scene:
 
 def _require_problem(machine: Machine, problem: ForwardProblem) -> None:
     """Refuse a model that a certificate is not one of."""
-    same = isinstance(machine, Mechanism) and machine.poses(problem)
+    same = isinstance(machine, Mechanism) and machine.asks(problem)
     if not same:
         raise InputError(
             f"robot: the certificate is not one of the model {shown(machine.name)}, constraints, metric or values "
