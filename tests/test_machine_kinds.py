@@ -94,7 +94,7 @@ def fitted(robot: Mechanism, position: Vector, rotation: Matrix) -> Mechanism:
     changed: list[Constraint] = []
     for own, locked in zip(robot.constraints, home, strict=True):
         field = own.value_field
-        if own.name in moved and field is not None and field.endswith("_squared"):
+        if own.name in moved and field is not None and field != "offset":
             rest = robot.equation_at(locked, position, rotation)
             value: Any = getattr(locked, field) + rest
             changed.append(replace(own, **{field: value}))  # type: ignore[type-var]

@@ -6,7 +6,7 @@ a product, are left to the configurations. With locked actuators all of them tog
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Final
@@ -115,8 +115,10 @@ class Mechanism(Machine):
             raise InputError(f"constraints: {len(self.constraints)} given; give 1 to {MOST_CONSTRAINTS}")
         _refuse_equal("constraints", [constraint.name for constraint in self.constraints])
         _refuse_equal("configurations", [configuration.name for configuration in self.configurations])
+        moved = {(part.constraint, part.field) for drive in self.drives for part in drive.parts}
         for number, constraint in enumerate(self.constraints, 1):
-            _require_directions(constraint, f"constraints[{number}] ({shown(constraint.name)})")
+            own = [field for field in constraint.fields if (constraint.name, field) not in moved]
+            _require_directions(constraint, own, f"constraints[{number}] ({shown(constraint.name)})")
         for name in self.actuated:
             if self.drive(name) is None:
                 self.value_field(name)
@@ -182,6 +184,8 @@ class Mechanism(Machine):
                 raise InputError(f"{place}: {shown(value)} is no number; give one")
             else:
                 found[name] = self._with_value(found[name], value, place)
+        for constraint in found.values() if self.drives else ():
+            _require_directions(constraint, constraint.fields, f"{where}, constraint {shown(constraint.name)}")
         return tuple(found.values())
 
     def values_of(self, found: Mapping[str, Constraint]) -> tuple[JointValue, ...] | None:
@@ -291,8 +295,9 @@ def _refuse_equal(where: str, names: Sequence[str]) -> None:
         seen.add(name)
 
 
-def _require_directions(constraint: Constraint, where: str) -> None:
-    """Refuse a direction that is 0."""
-    for field, role in constraint.fields.items():
+def _require_directions(constraint: Constraint, among: Iterable[str], where: str) -> None:
+    """Refuse a direction that is 0, in some of the fields."""
+    for field in among:
+        role = constraint.fields[field]
         if role in (Role.BASE_DIRECTION, Role.PLATFORM_DIRECTION) and not any(getattr(constraint, field)):
             raise InputError(f"{where}.{field}: is 0; give a direction that is not")

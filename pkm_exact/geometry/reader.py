@@ -24,7 +24,7 @@ from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
 from pkm_exact.geometry.linkage import CHAINS_KIND, Linkage
 from pkm_exact.geometry.linkage_reader import read_linkage_tables
 from pkm_exact.geometry.machine import CONSTRAINTS_KIND
-from pkm_exact.geometry.machines.machine_kinds import MACHINES
+from pkm_exact.geometry.machines.machine_kinds import MACHINES, machine_kind
 from pkm_exact.geometry.machines.machine_reader import read_machine
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.mechanism_reader import read_mechanism
@@ -150,8 +150,9 @@ def _described(table: dict[str, Any]) -> Robot | Mechanism | Linkage:
     if isinstance(schema, bool) or schema != SCHEMA:
         raise InputError(f"schema: {shown(schema)} is unknown; write schema = {SCHEMA}")
     kind_name = label(table, "kind", "")
+    machine = None if kind_name in KINDS and "actuators" not in table else machine_kind(kind_name)
     known = (*KINDS, *MACHINES, CONSTRAINTS_KIND, CHAINS_KIND)
-    if kind_name not in known:
+    if machine is None and kind_name not in known:
         raise InputError(f"kind: {shown(kind_name)} is unknown; use one of: {', '.join(known)}")
     head = {
         "name": label(table, "name", ""),
@@ -162,8 +163,8 @@ def _described(table: dict[str, Any]) -> Robot | Mechanism | Linkage:
         return read_linkage_tables(table, head)
     if kind_name == CONSTRAINTS_KIND:
         return read_mechanism(table, head)
-    if kind_name in MACHINES:
-        return read_machine(table, head, MACHINES[kind_name])
+    if machine is not None:
+        return read_machine(table, head, machine)
     known_keys(table, _TOP, "")
     kind = KINDS[kind_name]
     metric = parse_metric(table["metric"], kind.motion) if "metric" in table else UNIT_METRIC

@@ -10,6 +10,7 @@ from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.fields import list_field, required
 from pkm_exact.geometry.machines.machine_kind import Dimension
+from pkm_exact.geometry.mechanism import MOST_CONSTRAINTS
 from pkm_exact.geometry.rational import parse_positive, parse_rational, parse_vector
 from pkm_exact.wording import shown
 
@@ -42,37 +43,64 @@ def number(key: str, what: str, example: str, default: int | None = None) -> Dim
     return Dimension(key, what, read, example, default is not None)
 
 
-def rods(count: int, example: str, what: str = "length of the rods, or rods = one per leg") -> Dimension:
-    """Squared lengths, from ``rod`` (the same for all), ``rods`` or ``rods_squared``, or ``rod_squared``."""
-    keys = ("rod", "rods", "rod_squared", "rods_squared")
+def rods(
+    count: int | None,
+    example: str,
+    what: str = "length of the rods, or rods = one per leg",
+    *,
+    key: str = "rod",
+    table: str = "dimensions",
+    squares: str = "rods_squared",
+    first: str = "",
+) -> Dimension:
+    """Squared lengths, from ``rod`` (the same for all), ``rods`` or ``rods_squared``, or ``rod_squared``.
 
-    def read(table: Mapping[str, Any], where: str) -> tuple[Fraction, ...]:
-        given = [key for key in keys if key in table]
+    ``count`` None: one for all, or as many as are given.
+    """
+    plural = f"{key}s"
+    keys = (key, plural, f"{key}_squared", squares)
+
+    def read(found: Mapping[str, Any], where: str) -> tuple[Fraction, ...]:
+        given = [name for name in keys if name in found]
         if len(given) != 1:
             raise InputError(
                 f"{where}: {' and '.join(given) or 'no rods'} given; give exactly one of {', '.join(keys)}"
             )
-        key = given[0]
-        place = f"{where}.{key}"
-        values = [table[key]] * count if key.startswith("rod_") or key == "rod" else _row(table[key], place, count)
+        name = given[0]
+        place = f"{where}.{name}"
+        values = _row(found[name], place, count) if name in (plural, squares) else [found[name]] * (count or 1)
         numbers = [parse_positive(value, f"{place}[{i}]") for i, value in enumerate(values, 1)]
-        return tuple(number if key.endswith("squared") else number * number for number in numbers)
+        return tuple(number if name.endswith("squared") else number * number for number in numbers)
 
-    return Dimension("rod", what, read, example, also=keys[1:])
+    shown_first = first or key
+    also = tuple(name for name in keys if name != shown_first)
+    return Dimension(shown_first, what, read, example, table=table, also=also, name=key)
 
 
 def vectors(
-    key: str, what: str, example: str, count: int, size: int = 3, *, table: str = "dimensions", optional: bool = False
+    key: str,
+    what: str,
+    example: str,
+    count: int | None,
+    size: int | None = 3,
+    *,
+    table: str = "dimensions",
+    optional: bool = False,
+    name: str = "",
 ) -> Dimension:
-    """So many vectors of ``size`` numbers, the third 0 if that is 2; all 0 if they may be left out, and are."""
+    """So many vectors of ``size`` numbers, a third one 0 if that is 2; all 0 if they may be left out, and are.
+
+    ``count`` None: at least one. ``size`` None: as many as the first has, 2 or 3.
+    """
 
     def read(found: Mapping[str, Any], where: str) -> tuple[Vector, ...]:
         if optional and key not in found:
-            return ((Fraction(0),) * 3,) * count
+            return ((Fraction(0),) * 3,) * (count or 0)
         rows = _row(required(dict(found), key, f"{where}."), f"{where}.{key}", count)
-        return tuple(parse_vector(row, f"{where}.{key}[{i}]", size) for i, row in enumerate(rows, 1))
+        dimension = size if size is not None else 2 if isinstance(rows[0], list) and len(rows[0]) == 2 else 3
+        return tuple(parse_vector(row, f"{where}.{key}[{i}]", dimension) for i, row in enumerate(rows, 1))
 
-    return Dimension(key, what, read, example, optional, table)
+    return Dimension(key, what, read, example, optional, table, name=name)
 
 
 def vector(key: str, what: str, example: str, size: int, default: tuple[int, ...] | None = None) -> Dimension:
@@ -86,7 +114,7 @@ def vector(key: str, what: str, example: str, size: int, default: tuple[int, ...
     return Dimension(key, what, read, example, default is not None)
 
 
-def numbers(key: str, what: str, example: str, count: int) -> Dimension:
+def numbers(key: str, what: str, example: str, count: int | None) -> Dimension:
     """So many numbers."""
 
     def read(table: Mapping[str, Any], where: str) -> tuple[Fraction, ...]:
@@ -108,8 +136,8 @@ def word(key: str, what: str, words: tuple[str, ...], *, table: str = "dimension
     return Dimension(key, what, read, f'"{words[0]}"', is_optional=True, table=table)
 
 
-def _row(value: object, where: str, count: int) -> list[Any]:
-    row = list_field(value, where, count)
-    if len(row) != count:
-        raise InputError(f"{where}: {len(row)} entries; give {count}")
+def _row(value: object, where: str, count: int | None) -> list[Any]:
+    row = list_field(value, where, count or 1)
+    if (count is not None and len(row) != count) or not 1 <= len(row) <= MOST_CONSTRAINTS:
+        raise InputError(f"{where}: {len(row)} entries; give {count or f'1 to {MOST_CONSTRAINTS}'}")
     return row

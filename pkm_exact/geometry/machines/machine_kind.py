@@ -94,6 +94,8 @@ class Dimension:
         In which table of the file the key stands.
     also : tuple of str
         Other keys by which the same may be given.
+    name : str
+        How the recipe calls it, if not by its key.
     """
 
     key: str
@@ -103,6 +105,7 @@ class Dimension:
     is_optional: bool = False
     table: str = "dimensions"
     also: tuple[str, ...] = ()
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -128,6 +131,8 @@ class MachineKind:
         That of all coordinates.
     has_modes : bool
         Whether every actuator has values of its own at a pose; not where two of them move one constraint.
+    any_count : bool
+        Whether the number that its name begins with may be another one (``machine_kinds.machine_kind``).
     own_metric : bool
         Whether a model file may give another one: no recipe with triangles lets it.
     """
@@ -141,6 +146,7 @@ class MachineKind:
     pose: tuple[tuple[int, int, int], tuple[int, int, int, int]] = ((0, 0, 1), (1, 0, 0, 0))
     metric: Metric = UNIT_METRIC
     has_modes: bool = True
+    any_count: bool = False
     own_metric: bool = False
 
     @property

@@ -43,7 +43,7 @@ def read_machine(table: dict[str, Any], head: Mapping[str, str], kind: MachineKi
         example = f"{own[0].key} = {own[0].example}"
         found = table_field(table, name, example) if needed is not None or name in table else {}
         known_keys(found, tuple(key for dimension in own for key in (dimension.key, *dimension.also)), name)
-        given |= {dimension.key: dimension.read(found, name) for dimension in own}
+        given |= {dimension.name or dimension.key: dimension.read(found, name) for dimension in own}
     assembly = kind.build(given, metric)
     mechanism = assembled(head, kind, assembly, metric)
     if "limits" in table:
