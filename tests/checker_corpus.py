@@ -29,7 +29,7 @@ FILES = (
     "test_limit_cases.py",
     "test_multiplicities.py",
     "test_mutations.py",
-    "test_plain_mechanism_checker.py",
+    "test_plain_*.py",
     "test_pure_checker.py",
     "test_self_motion.py",
     "test_slices.py",

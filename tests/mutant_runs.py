@@ -23,9 +23,15 @@ from types import CodeType, FrameType, FunctionType, ModuleType
 from typing import Any
 from zipfile import ZipFile
 
-from checker_mutations import PACKAGE, SOURCES, Mutant, uses
+from checker_mutations import PACKAGE, SOURCES, Mutant, mutants, uses
+from mutant_probes import Key, differing
 
 ROOTS = {"first": "pkm_exact.certify.check", "plain": "pkm_exact.certify.pure"}
+LIMITS = {
+    "first": ("pkm_exact.certify.checker.budget", "BASE"),
+    "plain": ("pkm_exact.certify.pure", "WORK_OF_ANY_FILE"),
+}
+"""Where each says how much work any file may cost."""
 MEMORY = 2 << 30
 """A mutant may take so many bytes more than the checker."""
 STATISTICS = Path("/proc/self/statm")
@@ -94,12 +100,16 @@ def check(checker: str) -> Callable[[bytes], Answer]:
 
 @dataclass
 class Reach:
-    """Examples in the order in which they are tried, and which of them reach a line of a file, or that all do."""
+    """Examples in the order in which they are tried, and which of them reach a line of a file, or that all do.
+
+    ``differ`` has, for mutants of an expression, those on which it has another value at all.
+    """
 
     examples: list[Example]
     by_line: Places = field(default_factory=dict)
     refused: Places = field(default_factory=dict)
     everywhere: bool = False
+    differ: dict[Key, array[int]] = field(default_factory=dict)
 
     def of(self, mutant: Mutant) -> list[int]:
         """The examples that reach a mutant, or what uses a constant; the likely ones first.
@@ -115,6 +125,7 @@ class Reach:
             names = re.findall(r"\w+", re.split("[:=]", mutant.was)[0])
             lines = guarded = {line for name in names for line in uses(mutant.checker, name)}
         found = {number for line in lines for number in self.by_line.get(line, ())}
+        found = set(self.differ.get(mutant.key, found))
         there = sorted(found & {number for line in guarded for number in self.refused.get(line, ())})
         accepted = [number for number in sorted(found) if self.examples[number].answer[0] == "accepted"]
         return list(dict.fromkeys([*there[:4], *accepted[:6], *there, *accepted, *sorted(found)]))
@@ -147,7 +158,16 @@ def measured(checker: str, examples: Sequence[Example]) -> Reach:
         for kept, lines in zip(places, traces[number], strict=True):
             for line in lines:
                 kept[line].append(place)
-    return Reach([examples[number] for number in order], *map(dict, places))
+    reach = Reach([examples[number] for number in order], *map(dict, places))
+    chosen = mutants(checker)
+    reach.differ = differing(chosen, reach.examples, answer, _replace, partial(_unlimited, checker))
+    return reach
+
+
+def _unlimited(checker: str) -> None:
+    """Allow any work: what is computed twice costs twice as much."""
+    module, name = LIMITS[checker]
+    setattr(importlib.import_module(module), name, 1 << 60)
 
 
 def _forget(checker: str) -> None:

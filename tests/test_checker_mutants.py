@@ -166,7 +166,8 @@ SAMPLE_SIZE = 5
 def readers(checker: str) -> list[Mutant]:
     """The mutants of functions that read certificates of version 1, but for those that no certificate shows."""
     listed, _ = equivalents(mutants(checker))
-    chosen = [m for m in mutants(checker) if any(name in m.place for name in READERS[checker]) and m.function]
+    names = READERS[checker]
+    chosen = [m for m in mutants(checker) if (m.path.name in names or m.place.startswith(names)) and m.function]
     costly = ("mechanism", "MAX_BYTES")
     return [m for m in chosen if m.key not in listed and not any(word in str(m) for word in costly)]
 
