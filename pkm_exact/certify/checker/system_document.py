@@ -198,16 +198,9 @@ def _witness(value: Any, size: int) -> Witness:
         raise too_large(f"witness.forms: more than {MAX_VARIABLES}")
     return Witness(
         choice(cause, "witness.cause", CAUSES),
-        items(forms, "witness.forms", None, lambda entry, where: _form(entry, where, size)),
+        items(forms, "witness.forms", None, lambda entry, where: items(entry, where, size + 1, integer)),
         items(slices, "witness.slices", None, lambda entry, where: _slice(entry, where, size)),
     )
-
-
-def _form(value: Any, where: str, size: int) -> tuple[int, ...]:
-    form = items(value, where, size + 1, integer)
-    if not any(form[:-1]):
-        raise malformed(f"{where}: constant")
-    return form
 
 
 def _slice(value: Any, where: str, size: int) -> tuple[Fraction, Points]:

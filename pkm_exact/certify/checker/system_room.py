@@ -82,6 +82,7 @@ def _room_modulo(size: int, forms: Sequence[Mapping[Monomial, int]], most: int, 
             by_degree.setdefault(degree(image), []).append(image)
     if 0 in by_degree:
         return 0
+    general = _general(size, sorted((number for number, images in by_degree.items() for _ in images), reverse=True))
     parts = _Parts(size, p)
     total = 1
     while True:
@@ -89,9 +90,30 @@ def _room_modulo(size: int, forms: Sequence[Mapping[Monomial, int]], most: int, 
             return None
         if not parts.dimension:
             return total
+        if parts.dimension > (general[parts.degree] if parts.degree < len(general) else 0):
+            return None
         total += parts.dimension
         if total > most or parts.degree > LAST_DEGREE:
             return None
+
+
+def _general(size: int, degrees: Sequence[int]) -> list[int]:
+    """What general polynomials of the greatest degrees, as many as unknowns, leave in each degree; [] if too few.
+
+    If what is left has finite dimension, such combinations of the polynomials are a regular sequence, and leave no
+    less: a part that is larger shows that it has not.
+    """
+    if len(degrees) < size:
+        return []
+    series = [1]
+    for number in degrees[:size]:
+        charge(1000 * len(series) * number)
+        longer = [0] * (len(series) + number - 1)
+        for place, value in enumerate(series):
+            for step in range(number):
+                longer[place + step] += value
+        series = longer
+    return series
 
 
 class _Parts:

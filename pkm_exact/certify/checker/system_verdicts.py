@@ -229,8 +229,8 @@ def _infinitely_many(document: SystemDocument, witness: Witness) -> Iterator[str
 
 
 def _more_than_bound(document: SystemDocument, witness: Witness) -> Iterator[str]:
-    if document.points is not None or not witness.forms:
-        raise rejected("witness: more solutions than the bound need forms, and no representation")
+    if document.points is not None or not witness.forms or not all(any(form[:-1]) for form in witness.forms):
+        raise rejected("witness: more solutions than the bound need forms that are not constant, and no representation")
     *fixed, last = witness.forms
     system = [*document.polynomials, *map(linear, fixed)]
     bound = bezout_number(system, document.size)
