@@ -13,8 +13,11 @@ from certificate_tools import boxed_certificate, golden, tolerant_certificate, w
 from mechanism_certificates import mechanism_content
 
 from pkm_exact.certify.build import certificate
+from pkm_exact.certify.mobility_build import mobility_certificate
 from pkm_exact.engine import solve
+from pkm_exact.geometry.reader import read_linkage
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.mobility.analysis import mobility_of
 from pkm_exact.policy import Policy
 
 Content = dict[str, Any]
@@ -39,6 +42,10 @@ def _nothing() -> Content:
     none: Content = dict.fromkeys(("complex_solutions", "distinct_solutions", "real_poses", "box_exponent"), 0)
     none |= {"representation": None, "elimination": None, "poses": [], "completeness_route": None}
     return {**golden("3-rpr-triple"), **none, "claim": "not-proven-complete"}
+
+
+def _mobility(name: str) -> Content:
+    return mobility_certificate(mobility_of(read_linkage(f"models/chains/{name}.toml")))
 
 
 CIRCLE = tuple(
@@ -141,6 +148,10 @@ SUBJECTS = {
     "moving beside isolated poses": Subject(_parallelogram),
     "inconsistent, joints in a point": Subject(partial(_held, 0, 1)),
     "inconsistent, joints on a line": Subject(partial(_held, 1, 1), 0, 60),
+    "mobility, Sarrus": Subject(partial(_mobility, "sarrus"), 29, complete=2000),
+    "mobility, seven-link": Subject(partial(_mobility, "seven-link"), 20, complete=2000),
+    "mobility, planar loops": Subject(partial(_mobility, "peaucellier"), 0, complete=2000),
+    "mobility, nothing finite": Subject(partial(_mobility, "seven-link-oblique"), 0, complete=1000),
     "unproved multiplicities": Subject(partial(_unproved, "3-rpr-triple")),
     "not proven complete": Subject(lambda: without_proof(golden("similar-planar-s")), complete=1500),
     "nothing known": Subject(_nothing),

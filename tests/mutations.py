@@ -81,6 +81,15 @@ FREE = (
 )
 """All entries that a new digest can cover, with the reason. Docs: ``docs/certificates.md``, "What a digest binds"."""
 
+FREE_MOBILITY = (
+    Free("mechanism", "the question: the same is proved of the other mechanism", ("mobility",)),
+    Free("*.rows", "another minor that is not 0", ("mobility",)),
+    Free("actuator_sets.*.complete", "claims less if it is false", ("mobility",)),
+    Free("finite", "null claims less", ("mobility",), below=False),
+    Free("finite.legs", "another order of the legs", ("mobility",), below=False),
+)
+"""The same for certificates of mobility. Docs: ``docs/certificates-mobility.md``."""
+
 FREE_2 = (
     Free("configuration", "describes", ALL_2),
     Free("robot.constraints.*.name", "describes", ALL_2),
@@ -101,8 +110,9 @@ FREE_2 = (
 # The changes
 
 WORDS: dict[str, tuple[str, ...]] = {
-    "format": ("pkm_exact certificate", "pkm_exact tolerance certificate"),
+    "format": ("pkm_exact certificate", "pkm_exact tolerance certificate", "pkm_exact mobility certificate"),
     "kind": ("6-UPS", "3-RPR", "3-RRR"),
+    "argument": ("regular", "subgroups", "second-order"),
     "method": ("exact", "krawczyk", "newton"),
     "claim": (
         "complete",
@@ -119,7 +129,7 @@ WORDS: dict[str, tuple[str, ...]] = {
         "counting-at-infinity",
     ),
     "motion": ("spatial", "planar", "schoenflies", "translation", "spherical"),
-    "type": ("distance", "in-plane", "carries", "on-line", "at-point", "angle", "axis-distance", "linear"),
+    "type": ("distance", "in-plane", "carries", "on-line", "at-point", "angle", "axis-distance", "linear", *"RPHCUS"),
     "cause": ("dependent-forms", "symmetry", "equal-legs", "more-poses-than-bound"),
     "formulation": ("SE3", "AFD4", "AFP3:124", "AFD9"),
 }
@@ -265,7 +275,7 @@ def outcome(name: str, mutation: Mutation) -> str:
 
 def _is_free(name: str, path: Path_) -> bool:
     names = {name, name.replace("-open", "")}
-    return any(free.includes(kind, path) for free in (*FREE, *FREE_2) for kind in names)
+    return any(free.includes(kind, path) for free in (*FREE, *FREE_2, *FREE_MOBILITY) for kind in names)
 
 
 def is_given_away(content: Content, mutation: Mutation) -> bool:

@@ -13,13 +13,14 @@ from certificate_subjects import SUBJECTS, subject
 from certificate_tools import CERTS, golden, leaves, with_entry
 from mutations import FREE
 
-from pkm_exact.certify import build, build_constraints, pure, system_build, tolerance_build
+from pkm_exact.certify import build, build_constraints, mobility_build, pure, system_build, tolerance_build
 from pkm_exact.certify.build import sealed
 from pkm_exact.certify.checker import document, tolerance_document, verdict
 from pkm_exact.certify.checker.certificate_kinds import KINDS, CertificateKind
 
 POSES, TOLERANCES = "certificate-1.schema.json", "tolerance-certificate-1.schema.json"
 SECOND = "certificate-2.schema.json"
+MOBILITY = "mobility-certificate-1.schema.json"
 SYSTEMS = "system-certificate-1.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
@@ -32,12 +33,13 @@ def _schema(name: str) -> Any:
 
 def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     """The validator for a certificate of this kind."""
-    name = TOLERANCES if content["format"] == tolerance_build.FORMAT else POSES
+    by_format = {tolerance_build.FORMAT: TOLERANCES, mobility_build.FORMAT: MOBILITY}
+    name = by_format.get(content["format"], POSES)
     name = SECOND if name == POSES and content["version"] == 2 else name
     return jsonschema.Draft202012Validator(_schema(name))
 
 
-@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS])
+@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY])
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
 
@@ -164,6 +166,15 @@ def test_the_page_of_systems_defines_every_key_in_its_order() -> None:
     assert all(f'"{word}"' in page for word in chain.from_iterable(words) if word)
 
 
+def test_the_page_of_mobility_defines_every_key_in_its_order() -> None:
+    root = _schema(MOBILITY)
+    definitions, parts = root["$defs"], [root]
+    parts += [definitions[key] for key in ("mechanism", "joint", "rankProof")]
+    parts += [root["properties"]["mobility"], root["properties"]["actuator_sets"]]
+    parts += [definitions[key] for key in ("sets", "finite", "leg")]
+    assert _tables("Format", "## Checks", "certificates-mobility.md") == [_keys(part) for part in parts]
+
+
 def test_words_and_limits_are_the_same_everywhere() -> None:
     root = _schema(POSES)["properties"]
     for words, key in ((document.METHODS, "method"), (document.CLAIMS, "claim")):
@@ -179,7 +190,7 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
-    writers = (build, build_constraints, tolerance_build, system_build)
+    writers = (build, build_constraints, tolerance_build, system_build, mobility_build)
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

@@ -8,7 +8,7 @@ import mutations
 import pytest
 from certificate_subjects import EACH, SUBJECTS, subject
 from certificate_tools import CERTS, Path_, at, golden_bytes, with_entry
-from mutations import FREE, FREE_2, Free, Mutation, outcome, quick_names, report
+from mutations import FREE, FREE_2, FREE_MOBILITY, Free, Mutation, outcome, quick_names, report
 
 from pkm_exact.certify import pure
 from pkm_exact.certify.check import Status, Verdict, check_bytes
@@ -122,13 +122,24 @@ NEEDED_2: dict[str, tuple[str, Path_, Any]] = {
 }
 """The same for ``FREE_2``."""
 
+SARRUS, OBLIQUE = "mobility, Sarrus", "mobility, nothing finite"
+NEEDED_MOBILITY: dict[str, tuple[str, Path_, Any]] = {
+    "mechanism": (SARRUS, ("mechanism", "source"), "elsewhere"),
+    "*.rows": (OBLIQUE, ("platform", "rows", 0), 4),
+    "actuator_sets.*.complete": (SARRUS, ("actuator_sets", "platform", "complete"), False),
+    "finite": (SARRUS, ("finite",), None),
+    "finite.legs": (SARRUS, ("finite", "legs"), lambda legs: legs[::-1]),
+}
+"""The same for ``FREE_MOBILITY``."""
+
 
 def test_no_entry_of_the_tables_is_there_for_nothing() -> None:
     assert [free.path for free in FREE] == list(NEEDED)
     assert [free.path for free in FREE_2] == list(NEEDED_2)
+    assert [free.path for free in FREE_MOBILITY] == list(NEEDED_MOBILITY)
 
 
-@pytest.mark.parametrize(("path", "change"), [*NEEDED.items(), *NEEDED_2.items()])
+@pytest.mark.parametrize(("path", "change"), [*NEEDED.items(), *NEEDED_2.items(), *NEEDED_MOBILITY.items()])
 def test_what_is_free_may_change(path: str, change: tuple[str, Path_, Any]) -> None:
     assert _replaced(*change) == "free", path
 
@@ -138,6 +149,7 @@ def test_what_is_free_may_change(path: str, change: tuple[str, Path_, Any]) -> N
     [
         ("certificates.md", "### What the digest binds", FREE),
         ("certificates-2.md", "## What the digest binds", FREE_2),
+        ("certificates-mobility.md", "## What the digest binds", FREE_MOBILITY),
     ],
 )
 def test_the_pages_list_what_is_free(page: str, heading: str, free: tuple[Free, ...]) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -38,6 +39,13 @@ def _names(_context: click.Context, _option: click.Parameter, value: str | None)
 @click.option("--actuated", callback=_names, metavar="NAMES", help="What is actuated, instead of what the model says.")
 @click.option("--among", callback=_names, metavar="NAMES", help="Joints that minimal sets of actuators may be made of.")
 @arguments.configuration_option
+@click.option(
+    "-o",
+    "--output",
+    type=arguments.FilePath(),
+    metavar="CERT.json",
+    help="Write a certificate: ranks by their minors and null spaces, for the command check.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print all of it as a JSON object, every number exact.")
 def mobility(
     model: str,
@@ -45,6 +53,7 @@ def mobility(
     actuated: tuple[str, ...] | None,
     among: tuple[str, ...] | None,
     configuration: str | None,
+    output: str | None,
     as_json: bool,
 ) -> int:
     """Print how the mechanism in the file MODEL can move: exact ranks, freedoms in words, actuators that hold it.
@@ -59,11 +68,15 @@ def mobility(
     Examples:
       certify-poses mobility models/chains/3-pprr.toml
       certify-poses mobility models/chains/3-pprr.toml --actuated A1,B1 --json
+      certify-poses mobility models/chains/sarrus.toml -o sarrus-mobility.json
       certify-poses mobility models/rolland-6-6.toml --at 0,0,650,9,1,0,-1
     """
     from pkm_exact.geometry.linkage import Linkage
     from pkm_exact.geometry.reader import read_any
 
+    if output is not None:
+        arguments.require_other_file(Path(output), model, "-o")
+        arguments.require_writable(Path(output), "-o")
     found = read_any(model)
     try:
         if isinstance(found, Linkage):
@@ -72,10 +85,11 @@ def mobility(
                     raise InputError(
                         f"{option}: a mechanism of bodies and joints stands as its file says; leave it out"
                     )
-            answer, known = _of_linkage(found, actuated, among, as_json=as_json)
+            answer, known = _of_linkage(found, actuated, among, output, as_json=as_json)
         else:
-            if among is not None:
-                raise InputError("--among: belongs to mechanisms of bodies and joints; leave it out")
+            for option, is_given in (("--among", among is not None), ("-o", output is not None)):
+                if is_given:
+                    raise InputError(f"{option}: belongs to mechanisms of bodies and joints; leave it out")
             answer, known = _of_platform(found, pose, actuated, configuration, as_json=as_json)
     except InputError as error:
         raise InputError(f"{model}: {error}") from None
@@ -84,12 +98,22 @@ def mobility(
 
 
 def _of_linkage(
-    linkage: Linkage, actuated: tuple[str, ...] | None, among: tuple[str, ...] | None, *, as_json: bool
+    linkage: Linkage,
+    actuated: tuple[str, ...] | None,
+    among: tuple[str, ...] | None,
+    output: str | None,
+    *,
+    as_json: bool,
 ) -> tuple[dict[str, Any] | str, bool]:
     from pkm_exact.cli import mobility_report
     from pkm_exact.mobility.analysis import mobility_of
 
     found = mobility_of(linkage, actuated, among)
+    if output is not None:
+        from pkm_exact.certify.build import canonical_bytes
+        from pkm_exact.certify.mobility_build import mobility_certificate
+
+        arguments.write_output(output, canonical_bytes(mobility_certificate(found)))
     report = mobility_report.linkage_object if as_json else mobility_report.linkage_text
     return report(found), found.finite.is_known
 

@@ -51,6 +51,7 @@ class LinkageMobility:
     common: ScrewSystem
     counted_with_common: int
     actuation: Actuation
+    among: tuple[str, ...]
     hold_platform: ActuatorSets
     hold_mechanism: ActuatorSets
 
@@ -86,7 +87,7 @@ def mobility_of(
     (2, '1 translation along (0, 0, 1)', 0)
     """
     names = linkage.actuated if actuated is None else freedoms_named(linkage, actuated, "actuated")
-    lockable = None if among is None else freedoms_named(linkage, among, "among")
+    lockable = linkage.freedoms if among is None else freedoms_named(linkage, among, "among")
     free, legs = instantaneous(linkage), legs_of(linkage)
     common = common_constraints(legs)
     return LinkageMobility(
@@ -97,6 +98,7 @@ def mobility_of(
         common,
         counted_with_common(free, common),
         actuation(free, names),
+        lockable,
         sets_that_hold_the_platform(free, lockable),
         sets_that_hold_the_mechanism(free, lockable),
     )

@@ -26,9 +26,12 @@ class Reachable:
     ----------
     factors : tuple of ScrewSystem
         The algebra of the group, or of the two groups from the base to the platform.
+    cut : int
+        How many one-freedom joints, from the base, belong to the first group; 0 if there is one group.
     """
 
     factors: tuple[ScrewSystem, ...]
+    cut: int = 0
 
     @property
     def tangent(self) -> ScrewSystem:
@@ -52,7 +55,7 @@ def reachable(leg: Leg, locked: frozenset[str]) -> Reachable | None:
     along = [Screw.from_coordinates(loops.twists[k]) for k, _ in loops.to_platform if names[k] not in locked]
     for cut in range(len(along)):
         parts = [part for part in (along[:cut], along[cut:]) if part]
-        found = Reachable(tuple(ScrewSystem.span(part).algebra() for part in parts))
+        found = Reachable(tuple(ScrewSystem.span(part).algebra() for part in parts), cut)
         if found.tangent.rank == leg.twists.rank:
             return found
     return Reachable((ScrewSystem(()),)) if not along else None

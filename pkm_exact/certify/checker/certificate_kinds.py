@@ -13,6 +13,8 @@ from pkm_exact.certify.checker.mechanism_boxes import MechanismEquations
 from pkm_exact.certify.checker.mechanism_claims import check_mechanism_claims
 from pkm_exact.certify.checker.mechanism_document import MechanismDocument, read_mechanism_document
 from pkm_exact.certify.checker.mechanism_solutions import check_solutions
+from pkm_exact.certify.checker.mobility_checks import check_mobility
+from pkm_exact.certify.checker.mobility_document import read_mobility
 from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
 from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
 from pkm_exact.certify.checker.system_document import read_system_document
@@ -24,6 +26,7 @@ from pkm_exact.certify.checker.verdict import malformed
 POSES: Final = "pkm_exact certificate"
 TOLERANCES: Final = "pkm_exact tolerance certificate"
 SYSTEMS: Final = "pkm_exact system certificate"
+MOBILITY: Final = "pkm_exact mobility certificate"
 
 
 @dataclass(frozen=True)
@@ -88,4 +91,5 @@ KINDS: Final = (
     CertificateKind(POSES, 2, lambda body: _mechanism_checks(read_mechanism_document(body))),
     CertificateKind(TOLERANCES, 1, lambda body: check_tolerances(read_tolerances(body))),
     CertificateKind(SYSTEMS, 1, lambda body: check_system(read_system_document(body))),
+    CertificateKind(MOBILITY, 1, lambda body: check_mobility(read_mobility(body))),
 )

@@ -1,0 +1,155 @@
+"""Mobility certificates: ranks by minors and null spaces, for the checkers (``docs/certificates-mobility.md``)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Final
+
+from pkm_exact.certify.build import sealed
+from pkm_exact.geometry.joint_types import JOINT_TYPES
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.linkage import Joint, Linkage
+    from pkm_exact.mobility.actuation import ActuatorSets
+    from pkm_exact.mobility.analysis import LinkageMobility
+    from pkm_exact.mobility.instantaneous import Instantaneous
+    from pkm_exact.screws.exact_matrix import Row
+
+FORMAT: Final = "pkm_exact mobility certificate"
+VERSION: Final = 1
+
+
+def mobility_certificate(found: LinkageMobility) -> dict[str, Any]:
+    """The certificate of the mobility of a mechanism, as a JSON object with its digest.
+
+    Examples
+    --------
+    >>> from pkm_exact import check_bytes, mobility_of, read_linkage
+    >>> from pkm_exact.certify.build import canonical_bytes
+    >>> content = mobility_certificate(mobility_of(read_linkage("models/chains/sarrus.toml")))
+    >>> check_bytes(canonical_bytes(content)).lines[1]
+    'loops: rank 5 of 6 equations in 6 freedoms, mobility 1'
+    """
+    free, locked = found.free, found.locked
+    size = len(found.linkage.freedoms)
+    units = [
+        tuple(Fraction(int(name == other)) for other in found.linkage.freedoms) for name in found.actuation.actuated
+    ]
+    matrix = free.loops.matrix
+    return sealed(
+        {
+            "format": FORMAT,
+            "version": VERSION,
+            "mechanism": _mechanism(found.linkage),
+            "actuated": list(found.actuation.actuated),
+            "loops": rank_proof(matrix, size),
+            "platform": rank_proof(_twists(free), free.total),
+            "locked_loops": rank_proof([*matrix, *units], size),
+            "locked_platform": rank_proof(_twists(locked), locked.total),
+            "mobility": {
+                "free": free.total,
+                "platform": free.platform.rank,
+                "gruebler_kutzbach": free.counted,
+                "overconstraint": free.overconstraint,
+                "locked": locked.total,
+                "locked_platform": locked.platform.rank,
+            },
+            "actuator_sets": {
+                "among": list(found.among),
+                "platform": _sets(found.hold_platform, found.linkage),
+                "mechanism": _sets(found.hold_mechanism, found.linkage),
+            },
+            "finite": _finite(found),
+        }
+    )
+
+
+def rank_proof(rows: Sequence[Row], columns: int) -> dict[str, Any]:
+    """A minor that is not 0, and a basis of the null space.
+
+    Examples
+    --------
+    >>> rank_proof([(Fraction(1), Fraction(2)), (Fraction(2), Fraction(4))], 2)
+    {'rank': 1, 'rows': [0], 'columns': [0], 'null_space': [['-2', '1']]}
+    """
+    from pkm_exact.screws.exact_matrix import echelon, null_space
+
+    _, pivots = echelon(rows, columns)
+    _, independent = echelon([[row[k] for row in rows] for k in pivots], len(rows))
+    return {
+        "rank": len(pivots),
+        "rows": list(independent),
+        "columns": list(pivots),
+        "null_space": [list(map(str, x)) for x in null_space(rows, columns)],
+    }
+
+
+def _twists(found: Instantaneous) -> list[Row]:
+    """The six coordinates of the platform's twist in the motions."""
+    from pkm_exact.mobility.instantaneous import images
+
+    return [tuple(row) for row in zip(*images(found.speeds, found.loops.platform), strict=True)] or [()] * 6
+
+
+def _mechanism(linkage: Linkage) -> dict[str, Any]:
+    return {
+        "name": linkage.name,
+        "unit": linkage.unit,
+        "source": linkage.source,
+        "base": linkage.base,
+        "platform": linkage.platform,
+        "bodies": list(linkage.bodies),
+        "joints": [_joint(joint) for joint in linkage.joints],
+    }
+
+
+def _joint(joint: Joint) -> dict[str, Any]:
+    geometry, fields = joint.geometry, JOINT_TYPES[joint.type].fields
+    return {
+        "name": joint.name,
+        "type": joint.type,
+        "bodies": list(joint.bodies),
+        "point": _texts(geometry.point) if "point" in fields else ["0"] * 3,
+        "axes": [_texts(axis) for axis in geometry.axes],
+        "pitch": str(geometry.pitch) if "pitch" in fields else "0",
+        "screws": [_texts(screw) for screw in geometry.screws],
+    }
+
+
+def _texts(values: Sequence[Fraction]) -> list[str]:
+    return [str(value) for value in values]
+
+
+def _sets(sets: ActuatorSets, linkage: Linkage) -> dict[str, Any]:
+    places = {name: place for place, name in enumerate(linkage.freedoms)}
+    ordered = sorted(sets.sets, key=lambda names: (len(names), [places[name] for name in names]))
+    return {"complete": sets.is_complete, "sets": [list(names) for names in ordered]}
+
+
+def _finite(found: LinkageMobility) -> dict[str, Any] | None:
+    from pkm_exact.mobility.finite import Argument
+    from pkm_exact.mobility.reachable import reachable
+
+    argument = found.finite.argument
+    if argument is Argument.REGULAR:
+        return {"argument": str(argument), "legs": []}
+    if argument is not Argument.SUBGROUPS:
+        return None
+    legs = []
+    for leg in found.legs:
+        filled = reachable(leg, frozenset())
+        legs.append({"joints": _in_order(leg.linkage), "cut": filled.cut if filled else 0})
+    return {"argument": str(argument), "legs": legs}
+
+
+def _in_order(leg: Linkage) -> list[str]:
+    """The joints of a serial leg from the base to the platform."""
+    body, names = leg.base, []
+    left = list(leg.joints)
+    while left:
+        joint = next(joint for joint in left if body in joint.bodies)
+        left.remove(joint)
+        names.append(joint.name)
+        body = joint.bodies[1] if joint.bodies[0] == body else joint.bodies[0]
+    return names

@@ -1,0 +1,622 @@
+"""Checks certificates of mobility with Python's integers and nothing else.
+
+The part of the plain checker that ``pure.py``, beside this file, uses when it meets such a certificate. Written from
+the definition of the format and its proofs, ``docs/certificates-mobility.md``; the sections below have its order. It
+shares no line with the other checker.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from math import gcd, lcm
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
+
+if TYPE_CHECKING or __package__:
+    from pkm_exact.certify import pure
+else:
+    import pure
+
+__all__ = ["replayed"]
+
+Row: TypeAlias = tuple[Fraction, ...]
+Integers: TypeAlias = list[int]
+
+FORMAT: Final = "pkm_exact mobility certificate"
+MAX_BODIES: Final = 64
+MAX_FREEDOMS: Final = 128
+MAX_SETS: Final = 1 << 16
+AXES: Final = {"R": 1, "P": 1, "H": 1, "C": 1, "U": 2, "S": 0, "screw": 0}
+KEYS: Final = (
+    "format version mechanism actuated loops platform locked_loops locked_platform mobility actuator_sets finite"
+)
+COUNTS: Final = "free platform gruebler_kutzbach overconstraint locked locked_platform"
+ZERO: Final = (Fraction(0),) * 3
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Format
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Joint(NamedTuple):
+    """A joint with the twists of its one-freedom joints, in order."""
+
+    name: str
+    ends: tuple[str, str]
+    twists: tuple[Row, ...]
+
+
+class RankProof(NamedTuple):
+    """A minor by rows and columns, and the null space."""
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+    null_space: tuple[Row, ...]
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """Bodies, joints and the names of freedoms."""
+
+    base: str
+    platform: str
+    bodies: tuple[str, ...]
+    joints: tuple[Joint, ...]
+    freedoms: tuple[str, ...]
+
+
+def cross(u: Sequence[Fraction], v: Sequence[Fraction]) -> Row:
+    """The vector product."""
+    return tuple(u[i] * v[j] - u[j] * v[i] for i, j in ((1, 2), (2, 0), (0, 1)))
+
+
+def a_joint(value: Any, where: str, bodies: Sequence[str]) -> Joint:
+    """A joint."""
+    values = pure.an_object(value, where, "name type bodies point axes pitch screws")
+    name = pure.a_text(values[0], f"{where}.name")
+    kind = pure.one_of(AXES)(values[1], f"{where}.type")
+    one, other = pure.a_list(name_in(bodies), 2)(values[2], f"{where}.bodies")
+    pure.well_formed(one != other, f"{where}.bodies: one body twice")
+    numbers = pure.a_list(pure.a_rational, 3)
+    point = numbers(values[3], f"{where}.point")
+    axes = vectors(3, AXES[kind])(values[4], f"{where}.axes")
+    pitch = pure.a_rational(values[5], f"{where}.pitch")
+    screws = vectors(6, None)(values[6], f"{where}.screws")
+    pure.well_formed(all(map(any, axes)), f"{where}.axes: an axis is 0")
+    has_point = kind not in ("P", "screw")
+    pure.well_formed(has_point or not any(point), f"{where}.point: not 0, though the type has none")
+    pure.well_formed(kind == "H" or not pitch, f"{where}.pitch: not 0, though the type has none")
+    fits = 1 <= len(screws) <= 6 if kind == "screw" else not screws
+    pure.well_formed(fits, f"{where}.screws: not one to six of the type screw, none of another")
+    pure.well_formed(all(map(any, screws)), f"{where}.screws: a screw is 0")
+    if kind == "S":
+        axes = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
+    turns = [] if kind == "P" else [(*axis, *added(cross(point, axis), pitch, axis)) for axis in axes]
+    slides = [(*ZERO, *axes[0])] if kind in ("P", "C") else []
+    return Joint(name, (one, other), (*turns, *slides, *screws))
+
+
+def vectors(size: int, number: int | None) -> pure.Reader:
+    """The reader of a list of vectors."""
+
+    def reader(value: Any, where: str) -> tuple[Row, ...]:
+        pure.well_formed(isinstance(value, list) and number in (None, len(value)), f"{where}: not a list" + _of(number))
+        found = [pure.a_list(pure.a_rational, size)(entry, f"{where}[{k}]") for k, entry in enumerate(value, 1)]
+        return tuple(found)
+
+    return reader
+
+
+def _of(number: int | None) -> str:
+    return "" if number is None else f" of {number}"
+
+
+def added(u: Sequence[Fraction], factor: Fraction, v: Sequence[Fraction]) -> Row:
+    """u + factor v."""
+    return tuple(a + factor * b for a, b in zip(u, v, strict=True))
+
+
+def name_in(names: Sequence[str]) -> pure.Reader:
+    """The reader of a name that is in a list."""
+
+    def reader(value: Any, where: str) -> str:
+        pure.well_formed(isinstance(value, str) and value in names, f"{where}: not a name in the list")
+        return str(value)
+
+    return reader
+
+
+def sized(where: str, found: int, least: int, most: int) -> None:
+    """Refuse a list that is too short or too long."""
+    pure.well_formed(found >= least, f"{where}: fewer than {least}")
+    pure.affordable(found <= most, f"{where}: more than {most}")
+
+
+def different(where: str, names: Sequence[str]) -> None:
+    """Refuse a name that occurs twice."""
+    pure.well_formed(len(set(names)) == len(names), f"{where}: one occurs twice")
+
+
+def a_mechanism(value: Any) -> Mechanism:
+    """Bodies and joints."""
+    values = pure.an_object(value, "mechanism", "name unit source base platform bodies joints")
+    for key, text in zip(("name", "unit", "source"), values[:3], strict=True):
+        pure.a_text(text, f"mechanism.{key}")
+    bodies = pure.a_list(pure.a_text)(values[5], "mechanism.bodies")
+    sized("mechanism.bodies", len(bodies), 2, MAX_BODIES)
+    different("mechanism.bodies", bodies)
+    if isinstance(values[6], list):
+        sized("mechanism.joints", len(values[6]), 1, MAX_FREEDOMS)
+    joints = pure.a_list(lambda entry, where: a_joint(entry, where, bodies))(values[6], "mechanism.joints")
+    base = name_in(bodies)(values[3], "mechanism.base")
+    platform = name_in(bodies)(values[4], "mechanism.platform")
+    pure.well_formed(base != platform, "mechanism.platform: the base")
+    freedoms: list[str] = []
+    for joint in joints:
+        count = len(joint.twists)
+        freedoms += [joint.name] if count == 1 else (f"{joint.name}.{k + 1}" for k in range(count))
+    sized("mechanism.joints", len(freedoms), 1, MAX_FREEDOMS)
+    different("mechanism.joints", freedoms)
+    different("mechanism.joints", [joint.name for joint in joints])
+    part = parts(bodies, joints)
+    connected = all(part[body] == part[base] for body in bodies)
+    pure.well_formed(connected, "mechanism: a body is not connected with the base")
+    return Mechanism(base, platform, bodies, joints, tuple(freedoms))
+
+
+def parts(bodies: Sequence[str], joints: Sequence[Joint]) -> dict[str, str]:
+    """For each body one that stands for all that joints connect with it."""
+    part = {body: body for body in bodies}
+    for joint in joints:
+        one, other = (part[end] for end in joint.ends)
+        part = {body: one if where == other else where for body, where in part.items()}
+    return part
+
+
+def in_order(names: Sequence[str]) -> pure.Reader:
+    """The reader of names, as places in a list, in increasing order."""
+
+    def reader(value: Any, where: str) -> tuple[int, ...]:
+        found = pure.a_list(name_in(names))(value, where)
+        places = tuple(names.index(name) for name in found)
+        pure.well_formed(all(a < b for a, b in pairwise(places)), f"{where}: not in the order of the freedoms")
+        return places
+
+    return reader
+
+
+def a_rank_proof(value: Any, where: str) -> RankProof:
+    """A minor and a null space."""
+    rank, *lists, space = pure.an_object(value, where, "rank rows columns null_space")
+    number = pure.a_number(rank, f"{where}.rank")
+    found = []
+    for key, entry in zip(("rows", "columns"), lists, strict=True):
+        same = isinstance(entry, list) and len(entry) == number
+        pure.well_formed(same, f"{where}.{key}: not a list of {number}")
+        places = pure.a_list(pure.a_number)(entry, f"{where}.{key}")
+        pure.well_formed(all(a < b for a, b in pairwise(places)), f"{where}.{key}: not in increasing order")
+        found.append(places)
+    null_space = pure.a_list(pure.a_list(pure.a_rational))(space, f"{where}.null_space")
+    return RankProof(found[0], found[1], null_space)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Matrices
+# ---------------------------------------------------------------------------------------------------------------------
+
+Way: TypeAlias = list[tuple[int, int]]
+"""Joints by their places, each with 1 or -1 for the direction in which it is passed."""
+
+
+def loops_of(mechanism: Mechanism) -> tuple[list[Way], Way]:
+    """The loops, and the way from the base to the platform."""
+    forest: dict[str, list[tuple[str, int, int]]] = {body: [] for body in mechanism.bodies}
+    part = {body: body for body in mechanism.bodies}
+    loops = []
+    for place, joint in enumerate(mechanism.joints):
+        one, other = joint.ends
+        if part[one] == part[other]:
+            loops.append([*way(forest, other, one), (place, 1)])
+            continue
+        forest[one].append((other, place, 1))
+        forest[other].append((one, place, -1))
+        kept, gone = part[one], part[other]
+        part = {body: kept if where == gone else where for body, where in part.items()}
+    return loops, way(forest, mechanism.base, mechanism.platform)
+
+
+def way(forest: Mapping[str, Sequence[tuple[str, int, int]]], start: str, end: str) -> Way:
+    """The only way in a forest from one body to another."""
+    pure.spend(1000 * len(forest))
+    stack: list[tuple[str, str, Way]] = [(start, "", [])]
+    while stack:
+        body, before, path = stack.pop()
+        if body == end:
+            return path
+        for following, place, sign in forest[body]:
+            if following != before:
+                stack.append((following, body, [*path, (place, sign)]))
+    raise pure.Refusal("malformed", "mechanism: a body is not connected with the base")
+
+
+def block(mechanism: Mechanism, path: Way) -> list[list[Fraction]]:
+    """The six rows of a way."""
+    signs = dict(path)
+    columns = [
+        [signs.get(place, 0) * value for value in twist]
+        for place, joint in enumerate(mechanism.joints)
+        for twist in joint.twists
+    ]
+    pure.spend(6000 * len(columns))
+    return [[Fraction(column[k]) for column in columns] for k in range(6)]
+
+
+def longest(rows: Sequence[Sequence[Fraction]]) -> int:
+    """Bits of the longest numerator or denominator."""
+    numbers = (part for row in rows for x in row for part in (x.numerator, x.denominator))
+    return pure.most_bits(numbers)
+
+
+def whole(row: Sequence[Fraction]) -> Integers:
+    """A multiple of a row in integers without a common factor."""
+    denominator = lcm(*(x.denominator for x in row))
+    found = [x.numerator * (denominator // x.denominator) for x in row]
+    divisor = gcd(*found)
+    return [x // divisor for x in found] if divisor > 1 else found
+
+
+def echelon(rows: Sequence[Sequence[Fraction]]) -> list[tuple[int, Integers]]:
+    """Rows in integers that span the same, each with the place at which it begins; later rows are 0 there."""
+    found: list[tuple[int, Integers]] = []
+    for row in rows:
+        rest = reduced(whole(row), found)
+        place = next((k for k, value in enumerate(rest) if value), None)
+        if place is not None:
+            found.append((place, rest))
+    return found
+
+
+def reduced(row: Integers, eliminated: Sequence[tuple[int, Integers]]) -> Integers:
+    """A multiple of the row, not 0 times, less multiples of eliminated ones, 0 at their places."""
+    for place, other in eliminated:
+        if row[place]:
+            bits = pure.most_bits(row) + pure.most_bits(other)
+            pure.spend(len(row) * (400 + 3 * pure.product_cost(bits, bits)))
+            factor, lead = row[place], other[place]
+            row = [lead * x - factor * y for x, y in zip(row, other, strict=True)]
+            divisor = gcd(*row)
+            if divisor > 1:
+                row = [x // divisor for x in row]
+    return row
+
+
+def rank_of(rows: Sequence[Sequence[Fraction]]) -> int:
+    """The rank."""
+    return len(echelon(rows)) if rows and rows[0] else 0
+
+
+def applied(rows: Sequence[Sequence[Fraction]], x: Sequence[Fraction]) -> list[Fraction]:
+    """A x."""
+    terms = sum(1 for value in x if value)
+    pure.spend(len(rows) * (300 * len(x) + terms * pure.fraction_cost(longest(rows), longest([x]))))
+    return [sum((a * b for a, b in zip(row, x, strict=True) if a and b), Fraction(0)) for row in rows]
+
+
+def proved(proof: RankProof, rows: Sequence[Sequence[Fraction]], size: int, where: str) -> list[Row]:
+    """The null space of a matrix with columns of this number, if the proof shows it."""
+    inside = all(place < len(rows) for place in proof.rows) and all(place < size for place in proof.columns)
+    pure.well_formed(inside, f"{where}: a place outside the matrix")
+    free = sorted(set(range(size)) - set(proof.columns))
+    fits = len(proof.null_space) == len(free) and all(len(x) == size for x in proof.null_space)
+    pure.well_formed(fits, f"{where}.null_space: not a vector for each other column")
+    for own, x in zip(free, proof.null_space, strict=True):
+        units = all(x[place] == int(place == own) for place in free)
+        pure.require(units, f"{where}.null_space: not 1 at its own column and 0 at the others")
+    for x in proof.null_space:
+        pure.require(not any(applied(rows, x)), f"{where}.null_space: not in the null space")
+    minor = [[rows[i][j] for j in proof.columns] for i in proof.rows]
+    pure.require(rank_of(minor) == len(minor), f"{where}: the minor is 0")
+    return list(proof.null_space)
+
+
+def twists_at(rows: Sequence[Sequence[Fraction]], motions: Sequence[Row]) -> list[list[Fraction]]:
+    """The six rows of the platform's twist in motions."""
+    columns = [applied(rows, x) for x in motions]
+    return [[column[k] for column in columns] for k in range(6)]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Sets
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Sets(NamedTuple):
+    """Sets of freedoms by their places, and whether they are called all."""
+
+    complete: bool
+    sets: tuple[tuple[int, ...], ...]
+
+
+def actuator_sets(value: Any, names: Sequence[str]) -> tuple[tuple[int, ...], dict[str, Sets]]:
+    """Among which freedoms sets were looked for, and those found."""
+    among, *lists = pure.an_object(value, "actuator_sets", "among platform mechanism")
+    chosen = in_order(names)(among, "actuator_sets.among")
+    found = {}
+    for key, entry in zip(("platform", "mechanism"), lists, strict=True):
+        where = f"actuator_sets.{key}"
+        complete, sets = pure.an_object(entry, where, "complete sets")
+        pure.well_formed(isinstance(complete, bool), f"{where}.complete: neither true nor false")
+        pure.affordable(not isinstance(sets, list) or len(sets) <= MAX_SETS, f"{where}.sets: more than {MAX_SETS}")
+        read = pure.a_list(in_order(names))(sets, f"{where}.sets")
+        ordered = all((len(a), a) < (len(b), b) for a, b in pairwise(read))
+        pure.well_formed(ordered, f"{where}.sets: not in their order")
+        inside = all(place in chosen for places in read for place in places)
+        pure.well_formed(inside, f"{where}.sets: a freedom that is not among those looked at")
+        found[key] = Sets(complete, read)
+    return chosen, found
+
+
+def check_sets(key: str, claimed: Sets, among: Sequence[int], speeds: Sequence[Row], wanted: Sequence[Row]) -> str:
+    """The line of a list of sets."""
+    where = f"actuator_sets.{key}"
+    rows = {place: whole(speeds[place]) for place in among if any(speeds[place])}
+    aims = [aim for _, aim in echelon([row for row in wanted if any(row)])] if wanted and wanted[0] else []
+
+    def hold(places: Sequence[int]) -> bool:
+        basis: list[tuple[int, Integers]] = []
+        for place in places:
+            extend(basis, rows.get(place, [0]))
+        return not any(any(reduced(aim, basis)) for aim in aims)
+
+    def is_minimal(places: Sequence[int]) -> bool:
+        return not any(hold([place for place in places if place != left]) for left in places)
+
+    for places in claimed.sets:
+        pure.require(hold(places), f"{where}: a set that does not hold it")
+        pure.require(is_minimal(places), f"{where}: a set that is not minimal")
+    number = len(claimed.sets)
+    if not claimed.complete:
+        return f"{key} sets: {number} minimal sets hold it, there may be others"
+    known = set(claimed.sets)
+    for places in candidates(rows, aims):
+        pure.require(places in known or not is_minimal(places), f"{where}: not all minimal sets")
+    return f"{key} sets: {number} minimal sets hold it, there is no other"
+
+
+def extend(basis: list[tuple[int, Integers]], row: Integers) -> bool:
+    """Add a row to eliminated ones, if it is independent of them."""
+    if not any(row):
+        return False
+    rest = reduced(row, basis)
+    place = next((k for k, value in enumerate(rest) if value), None)
+    if place is None:
+        return False
+    basis.append((place, rest))
+    return True
+
+
+def candidates(rows: Mapping[int, Integers], aims: Sequence[Integers]) -> Iterator[tuple[int, ...]]:
+    """Independent sets that hold, and no part of which that comes first does: all minimal sets are among them."""
+    order = sorted(rows)
+    stack: list[tuple[tuple[int, ...], list[tuple[int, Integers]], list[Integers]]] = [((), [], list(aims))]
+    while stack:
+        places, basis, left = stack.pop()
+        if not left:
+            yield places
+            continue
+        pure.spend(5000)
+        for place in order:
+            if places and place <= places[-1]:
+                continue
+            larger = list(basis)
+            if extend(larger, rows[place]):
+                rest = [aim for aim in (reduced(aim, larger[-1:]) for aim in left) if any(aim)]
+                stack.append(((*places, place), larger, rest))
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Finite mobility
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Leg(NamedTuple):
+    """A leg: names of its joints from the base to the platform, and where it is cut."""
+
+    joints: tuple[str, ...]
+    cut: int
+
+
+def finite_argument(value: Any, names: Sequence[str]) -> tuple[str, tuple[Leg, ...]] | None:
+    """The argument for the finite mobility."""
+    if value is None:
+        return None
+    word, legs = pure.an_object(value, "finite", "argument legs")
+    argument = pure.one_of(("regular", "subgroups"))(word, "finite.argument")
+
+    def a_leg(entry: Any, where: str) -> Leg:
+        joints, cut = pure.an_object(entry, where, "joints cut")
+        read = pure.a_list(name_in(names))(joints, f"{where}.joints")
+        return Leg(read, pure.a_number(cut, f"{where}.cut"))
+
+    read = pure.a_list(a_leg)(legs, "finite.legs")
+    pure.well_formed(bool(read) == (argument == "subgroups"), "finite.legs: not those of the argument")
+    return argument, read
+
+
+def along(mechanism: Mechanism, path: Way) -> list[Row]:
+    """The twists of the one-freedom joints in the order in which they are passed."""
+    found: list[Row] = []
+    for place, sign in path:
+        found += mechanism.joints[place].twists[::sign]
+    return found
+
+
+def canonical(rows: Sequence[Sequence[Fraction]]) -> list[Row]:
+    """The reduced echelon form, with leading ones: equal spaces have equal forms."""
+    eliminated = sorted(echelon(rows))
+    found = []
+    for number, (place, row) in enumerate(eliminated):
+        rest = reduced(row, eliminated[number + 1 :])
+        found.append(tuple(Fraction(x, rest[place]) for x in rest))
+    return found
+
+
+def product(one: Row, other: Row) -> Row:
+    """The Lie product."""
+    turn = cross(one[:3], other[:3])
+    return (*turn, *added(cross(one[:3], other[3:]), Fraction(1), cross(one[3:], other[:3])))
+
+
+def algebra(twists: Sequence[Row]) -> list[Row]:
+    """The closure under the Lie product."""
+    found = canonical(twists)
+    while True:
+        bits = longest(found)
+        pure.spend(15 * 12 * pure.fraction_cost(bits, bits))
+        larger = canonical([*found, *(product(a, b) for k, a in enumerate(found) for b in found[:k])])
+        if len(larger) == len(found):
+            return found
+        found = larger
+
+
+def meet(one: Sequence[Row], other: Sequence[Row]) -> list[Row]:
+    """The intersection: where the annihilators of both vanish."""
+    return annihilator([*annihilator(one), *annihilator(other)])
+
+
+def annihilator(rows: Sequence[Row]) -> list[Row]:
+    """A basis of the x with a.x = 0 for all rows a."""
+    found = canonical(rows)
+    places = [next(k for k, value in enumerate(row) if value) for row in found]
+    basis = []
+    for free in (k for k in range(6) if k not in places):
+        x = [Fraction(int(k == free)) for k in range(6)]
+        for place, row in zip(places, found, strict=True):
+            x[place] = -row[free]
+        basis.append(tuple(x))
+    return basis
+
+
+def check_finite(mechanism: Mechanism, loops: Sequence[Way], claim: tuple[str, tuple[Leg, ...]], rank: int) -> None:
+    """Prove that the finite mobility is the instantaneous one."""
+    argument, legs = claim
+    if argument == "regular":
+        dimensions = sum(len(algebra(along(mechanism, loop))) for loop in loops)
+        pure.require(dimensions == rank, "finite: the loops are not regular")
+        return
+    whole_groups: list[list[Row]] = []
+    cut_legs: list[tuple[list[Row], list[Row]]] = []
+    used: list[str] = []
+    inner: list[str] = []
+    for leg in legs:
+        path, bodies = chain_of(mechanism, leg)
+        used += leg.joints
+        inner += bodies
+        twists = along(mechanism, path)
+        pure.well_formed(leg.cut < max(1, len(twists)), "finite.legs: a cut behind the leg's joints")
+        first, second = algebra(twists[: leg.cut]), algebra(twists[leg.cut :])
+        filled = rank_of([*first, *second]) == rank_of(twists)
+        pure.require(filled, "finite: a leg does not fill its groups")
+        if not leg.cut:
+            whole_groups.append(second)
+        elif (first, second) not in cut_legs:
+            cut_legs.append((first, second))
+    each = sorted(used) == sorted(joint.name for joint in mechanism.joints)
+    pure.require(each, "finite: not every joint is in one leg")
+    others = [body for body in mechanism.bodies if body not in (mechanism.base, mechanism.platform)]
+    pure.require(sorted(inner) == sorted(others), "finite: not every body is in one leg")
+    pure.require(are_transversal(whole_groups, cut_legs), "finite: the legs are not transversal")
+
+
+def chain_of(mechanism: Mechanism, leg: Leg) -> tuple[Way, list[str]]:
+    """The joints of a leg with their directions, and the bodies between them."""
+    places = {joint.name: place for place, joint in enumerate(mechanism.joints)}
+    bodies = [mechanism.base]
+    path = []
+    for name in leg.joints:
+        one, other = mechanism.joints[places[name]].ends
+        pure.require(bodies[-1] in (one, other), "finite: the joints of a leg are no chain")
+        forward = bodies[-1] == one
+        bodies.append(other if forward else one)
+        path.append((places[name], 1 if forward else -1))
+    pure.require(bodies[-1] == mechanism.platform, "finite: a leg does not end at the platform")
+    return path, bodies[1:-1]
+
+
+def are_transversal(groups: Sequence[list[Row]], cut_legs: Sequence[tuple[list[Row], list[Row]]]) -> bool:
+    """Whether the codimensions sum up to that of the intersection."""
+    spaces: list[list[Row]] = []
+    if groups:
+        common = groups[0]
+        for group in groups[1:]:
+            common = canonical(meet(common, group))
+        spaces.append(common)
+        cut_legs = [pair for pair in cut_legs if all(rank_of([*part, *common]) > len(part) for part in pair)]
+    spaces += [canonical([*first, *second]) for first, second in cut_legs]
+    normals = [row for space in spaces for row in annihilator(space)]
+    return rank_of(normals) == len(normals)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# The checks
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def replayed(body: dict[str, Any]) -> Iterator[str]:
+    """The content, read at once, and its checks, one after another."""
+    version = body.get("version")
+    known = body.get("format") == FORMAT and type(version) is int and version == 1
+    pure.well_formed(known, f"format: not a {FORMAT}, version 1")
+    content = dict(zip(KEYS.split(), pure.an_object(body, "certificate", KEYS), strict=True))
+    mechanism = a_mechanism(content["mechanism"])
+    finite = finite_argument(content["finite"], [joint.name for joint in mechanism.joints])
+    among, sets = actuator_sets(content["actuator_sets"], mechanism.freedoms)
+    counts = dict(zip(COUNTS.split(), pure.an_object(content["mobility"], "mobility", COUNTS), strict=True))
+    actuated = in_order(mechanism.freedoms)(content["actuated"], "actuated")
+    keys = ("loops", "platform", "locked_loops", "locked_platform")
+    proofs = {key: a_rank_proof(content[key], key) for key in keys}
+    claimed = {key: pure.an_integer(value, f"mobility.{key}") for key, value in counts.items()}
+    return checks(mechanism, actuated, proofs, claimed, among, sets, finite)
+
+
+def checks(
+    mechanism: Mechanism,
+    actuated: Sequence[int],
+    proofs: Mapping[str, RankProof],
+    claimed: Mapping[str, int],
+    among: Sequence[int],
+    sets: Mapping[str, Sets],
+    finite: tuple[str, tuple[Leg, ...]] | None,
+) -> Iterator[str]:
+    """One line per claim that is proved."""
+    loops, path = loops_of(mechanism)
+    size = len(mechanism.freedoms)
+    matrix = [row for loop in loops for row in block(mechanism, loop)]
+    platform = block(mechanism, path)
+    motions = proved(proofs["loops"], matrix, size, "loops")
+    rank, free = size - len(motions), len(motions)
+    yield f"loops: rank {rank} of {len(matrix)} equations in {size} freedoms, mobility {free}"
+    twists = twists_at(platform, motions)
+    moving = free - len(proved(proofs["platform"], twists, free, "platform"))
+    yield f"platform: {moving} freedoms"
+    units = [[Fraction(int(k == place)) for k in range(size)] for place in actuated]
+    left = proved(proofs["locked_loops"], [*matrix, *units], size, "locked_loops")
+    rest = twists_at(platform, left)
+    still = len(left) - len(proved(proofs["locked_platform"], rest, len(left), "locked_platform"))
+    yield f"actuators: {len(actuated)} locked leave mobility {len(left)}, of the platform {still}"
+    counted = 6 * (len(mechanism.bodies) - 1 - len(mechanism.joints)) + size
+    found = (free, moving, counted, len(matrix) - rank, len(left), still)
+    for key, value in zip(COUNTS.split(), found, strict=True):
+        pure.require(claimed[key] == value, f"mobility.{key}: not the number that follows")
+    yield f"mobility: {free}, by the formula of Gruebler and Kutzbach {counted}"
+    speeds = [tuple(x[k] for x in motions) for k in range(size)]
+    every = [tuple(Fraction(int(i == j)) for j in range(free)) for i in range(free)]
+    yield check_sets("platform", sets["platform"], among, speeds, [tuple(row) for row in twists])
+    yield check_sets("mechanism", sets["mechanism"], among, speeds, every)
+    if finite is None:
+        yield "finite: nothing is claimed"
+        return
+    check_finite(mechanism, loops, finite, rank)
+    yield f"finite: mobility {free} near the configuration, by the argument {finite[0]}"
