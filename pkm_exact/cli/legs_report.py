@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
-from math import ceil, floor, prod
+from math import atan2, ceil, degrees, floor, prod
 from typing import Any, Final
 
 from pkm_exact.cli.report import robot_object
@@ -30,6 +30,7 @@ from pkm_exact.poses.pose import Interval
 _LONGEST_EXACT: Final = 50
 _LONGEST_NEAR: Final = 12
 _LARGEST_DENOMINATOR: Final = 10**9
+_ANGLE_WIDTH: Final = Fraction(1, 1 << 60)
 
 
 def lengths_squared(robot: Robot, position: Vector, rotation: Matrix) -> list[Fraction]:
@@ -153,7 +154,9 @@ def _chain_lines(robot: Robot, modes: list[tuple[Mode, ...]], width: Fraction) -
         return
     yield ""
     is_crank = KINDS[robot.kind].chain is Crank
-    header = ("leg", "cos", "sin", "half tangent") if is_crank else ("leg", f"position [{robot.unit}]")
+    header = (
+        ("leg", "angle [degrees]", "cos", "sin", "half tangent") if is_crank else ("leg", f"position [{robot.unit}]")
+    )
     rows = [(*_row(i, mode, width),) for i, leg in enumerate(modes, 1) for mode in leg]
     yield from aligned([(*header, "exact"), *rows])
 
@@ -162,11 +165,17 @@ def _row(leg: int, mode: Mode, width: Fraction) -> tuple[str, ...]:
     if isinstance(mode, SlideMode):
         return str(leg), surd_decimal(mode.position, width), short(str(mode.position))
     if isinstance(mode, FreeCrank):
-        return str(leg), "", "", "", "any angle"
-    cosine, sine = surd_decimal(mode.cos, width), surd_decimal(mode.sin, width)
+        return str(leg), "any", "", "", "", "any angle"
+    cosine, sine, angle = surd_decimal(mode.cos, width), surd_decimal(mode.sin, width), _degrees(mode)
     if mode.half_tangent is None:
-        return str(leg), cosine, sine, "infinite", "180 degrees"
-    return str(leg), cosine, sine, surd_decimal(mode.half_tangent, width), short(str(mode.half_tangent))
+        return str(leg), angle, cosine, sine, "infinite", "180 degrees"
+    return str(leg), angle, cosine, sine, surd_decimal(mode.half_tangent, width), short(str(mode.half_tangent))
+
+
+def _degrees(mode: CrankMode) -> str:
+    """The angle, right to one unit of the last digit; the other columns have bounds."""
+    cosine, sine = (float(sum(value.enclosure(_ANGLE_WIDTH)) / 2) for value in (mode.cos, mode.sin))
+    return f"{degrees(atan2(sine, cosine)):.6f}"
 
 
 def _configuration_line(modes: list[tuple[Mode, ...]]) -> str | None:

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, Final
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Chain, Crank, Slide
+from pkm_exact.geometry.exact_cranks import exact_crank
 from pkm_exact.geometry.fields import known_keys, list_field, required, table_field
 from pkm_exact.geometry.hexagons import HEXAGON_METRIC, semi_regular_hexagon
-from pkm_exact.geometry.inverse import Metric
+from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.joints import parse_joints
 from pkm_exact.geometry.kinds import Joints, Kind
 from pkm_exact.geometry.planar_rotation import quarter_turn
 from pkm_exact.geometry.rational import parse_positive, parse_vector
+from pkm_exact.geometry.written_digits import finest_digit
 from pkm_exact.wording import shown
 
 CHAIN_TABLES: Final = ("cranks", "slides", "rods")
@@ -78,6 +81,32 @@ def _cranks(table: dict[str, Any], kind: Kind, metric: Metric, rods: tuple[Fract
     else:
         at_90 = _vectors(cranks, "cranks", "at_90", kind)
     return tuple(Crank(*vectors) for vectors in zip(at_0, at_90, rods, strict=True))
+
+
+def exact_cranks(table: dict[str, Any], chains: tuple[Chain, ...], metric: Metric) -> tuple[tuple[Chain, ...], str]:
+    """Cranks written in decimals made exact, and a sentence that says so; as they are if they are exact or no such.
+
+    Those that are not even nearly cranks stay as they are too, to be refused.
+    """
+    digit = finest_digit(table.get("cranks"))
+    if digit is None or metric != UNIT_METRIC:
+        return chains, ""
+    found, changed, most = list(chains), [], Fraction(0)
+    for place, crank in enumerate(chains):
+        if isinstance(crank, Crank) and not crank.is_exact(metric):
+            made = exact_crank(crank.at_0, crank.at_90, digit)
+            if made is not None:
+                found[place] = replace(crank, at_0=made[0], at_90=made[1])
+                changed.append(str(place + 1))
+                most = max(most, made[2])
+    if not changed:
+        return chains, ""
+    legs = f"leg {changed[0]}" if len(changed) == 1 else f"legs {', '.join(changed)}"
+    return tuple(found), (
+        f"cranks, {legs}: at_0 and at_90 are not exactly perpendicular and equally long as written; exact vectors "
+        f"stand in for them, whose coordinates differ by at most {float(most):.1g}, and what is proved is proved for "
+        "those"
+    )
 
 
 def _vectors(table: dict[str, Any], name: str, key: str, kind: Kind) -> tuple[Vector, ...]:

@@ -52,6 +52,11 @@ class Crank:
         object.__setattr__(self, "at_90", parse_vector(self.at_90, "at_90"))
         object.__setattr__(self, "rod_squared", parse_positive(self.rod_squared, "rod_squared"))
 
+    def is_exact(self, metric: Metric) -> bool:
+        """Whether the two vectors are perpendicular and equally long in the metric."""
+        squares = [dot(vector, vector, metric) for vector in (self.at_0, self.at_90)]
+        return squares[0] == squares[1] and dot(self.at_0, self.at_90, metric) == 0
+
     def require_exact(self, metric: Metric, where: str) -> None:
         """Refuse a crank whose two vectors do not span a circle in the metric."""
         product = dot(self.at_0, self.at_90, metric)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.chain_reader import CHAIN_TABLES, read_chains, read_joints
+from pkm_exact.geometry.chain_reader import CHAIN_TABLES, exact_cranks, read_chains, read_joints
 from pkm_exact.geometry.configurations import read_configuration
 from pkm_exact.geometry.fields import known_keys, label, required
 from pkm_exact.geometry.inverse import UNIT_METRIC
@@ -168,12 +168,14 @@ def _described(table: dict[str, Any]) -> Robot | Mechanism | Linkage:
     known_keys(table, _TOP, "")
     kind = KINDS[kind_name]
     metric = parse_metric(table["metric"], kind.motion) if "metric" in table else UNIT_METRIC
+    chains, stand_in = exact_cranks(table, read_chains(table, kind_name, kind, metric), metric)
     geometry: dict[str, Any] = head | {"kind": kind_name}
     geometry |= {
         "metric": metric,
         "base_joints": read_joints(table, "base", kind, metric),
         "platform_joints": read_joints(table, "platform", kind, metric),
-        "chains": read_chains(table, kind_name, kind, metric),
+        "chains": chains,
+        "stand_ins": (stand_in,) if stand_in else (),
         "tolerances": read_tolerances(table["tolerances"]) if "tolerances" in table else None,
         "limits": read_limits(table["limits"], LimitedParts.of_kind(kind)) if "limits" in table else None,
         "written_digit": finest_digit(*(table.get(part) for part in ("base", "platform", "cranks", "slides", "rods"))),

@@ -81,6 +81,8 @@ class Robot(Machine):
         Of actuators, passive joints, legs and position, if there are any.
     nominal : NominalPose or None
         The pose in which it is meant to be.
+    stand_ins : tuple of str
+        What stands in for numbers of the model file that are not exact: sentences.
     written_digit : Fraction or None
         Unit of the last decimal of joints, cranks, slides and rods in the model file; None without decimals.
 
@@ -104,6 +106,7 @@ class Robot(Machine):
     tolerances: Tolerances | None = None
     limits: Limits | None = None
     nominal: NominalPose | None = None
+    stand_ins: tuple[str, ...] = field(default=(), repr=False, compare=False)
     written_digit: Fraction | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from pkm_exact.claim_wording import DIGITS, NEARBY, NEARBY_MOVES, NEARBY_SINGULAR
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.rational import finite_decimal
+from pkm_exact.geometry.robot import Robot
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
@@ -57,6 +58,8 @@ def nominal_notes(robot: Machine | None, poses: Sequence[Pose]) -> tuple[str, ..
 
 def stand_in_notes(robot: Machine | None, configuration: str | None) -> tuple[str, ...]:
     """What stands in for angles that were given in degrees, in the geometry and the configuration."""
+    if isinstance(robot, Robot):
+        return robot.stand_ins
     if not isinstance(robot, Mechanism):
         return ()
     chosen = [entry for entry in robot.configurations if entry.name == configuration]
