@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from flint import arb
-from samples import MODELS
+from samples import MODELS, model
 
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.angle import Angle
@@ -19,9 +19,10 @@ from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
 from pkm_exact.constraints.in_plane import InPlane
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.machines.machine_kinds import MACHINES
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.path_reader import path_from_csv
-from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.reader import read_robot, robot_from_toml
 from pkm_exact.motions.motion_groups import SCHOENFLIES, SPHERICAL, TRANSLATION
 from pkm_exact.numeric.centred import centred_form, centred_frames, form_size
 from pkm_exact.numeric.path_forms import JointRow, path_forms, problem_at
@@ -29,6 +30,7 @@ from pkm_exact.numeric.trajectory import track_branch
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.precision import working_precision
 from pkm_exact.solution import Solution
+from pkm_exact.templates.machine_text import machine_text
 
 Capture = pytest.CaptureFixture[str]
 HINGED = next(path for path in MODELS if path.stem == "3-rps")
@@ -90,6 +92,12 @@ CASES = {
         SCARA,
         [row("1.6", "3", "3.6", "1"), row("1.59", "3.02", "3.6", "1.01"), row("1.6", "3.04", "3.59", "1.02")],
     ),
+    "cranks": (model("delta"), [row("0.75", "0.5", "0.66"), row("0.7", "0.4", "0.6"), row("0.6", "0.45", "0.7")]),
+    "turned": (
+        model("3-rpr-turned"),
+        [row("0.2", "0.75", "-1.25"), row("0.22", "0.76", "-1.24"), row("0.21", "0.8", "-1.2")],
+    ),
+    "slides": (model("3-prs"), [row("1", "1.25", "0.75"), row("1.02", "1.2", "0.75"), row("1", "1.2", "0.8")]),
 }
 
 
@@ -189,3 +197,15 @@ def test_the_command_names_columns_by_the_actuated_constraints(tmp_path: Path, c
     for found, values in zip(rows, (row("1.3", "1.5", "1.4"), row("1.32", "1.5", "1.4")), strict=True):
         poses = solve_krawczyk(problem_at(robot, values)).poses
         assert (found["x_lo"], found["z_hi"]) in [(str(p.position[0].lo), str(p.position[2].hi)) for p in poses]
+
+
+def test_a_crank_that_shares_its_constraint_is_refused() -> None:
+    kind = MACHINES["2-UPS+U"]
+    text = machine_text(kind, "r", "m", {"mounted": '"base"'})
+    robot = robot_from_toml(text + 'half_tangents = ["1/3"]\n')
+    rows = [row("4.25", "3.75", "0.3"), row("4.25", "3.75", "0.4")]
+    pose = solve_krawczyk(problem_at(robot, rows[0])).poses[0]
+    with pytest.raises(
+        InputError, match=r"constraint 'leg 1': a crank moves it, and so does another actuator \(leg 1, turn\)"
+    ):
+        next(track_branch(robot, rows, pose))

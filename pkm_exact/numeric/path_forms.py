@@ -9,7 +9,8 @@ is then a polynomial of degree 2 in s:
               |u| = |v| and u.v = 0 gives |K|^2 linear in cosine and sine
 
 so that three exact values of s determine it. So do they for constraints of a mechanism: lengths appear squared, offsets
-and products as they are, all in the constant term.
+and products as they are, all in the constant term; slides as above, and cranks with the factor 1 + w t^2 (of a half
+tangent t divided by sqrt(w)), if nothing else moves the constraint.
 """
 
 from __future__ import annotations
@@ -24,14 +25,16 @@ from flint import arb, arb_mat
 from pkm_exact.balls import ball
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import in_frames
-from pkm_exact.errors import InputError
+from pkm_exact.errors import InputError, InternalContradictionError
 from pkm_exact.geometry.chains import Crank, JointValue, cosine_and_sine
 from pkm_exact.geometry.kinds import gough_legs, knees
 from pkm_exact.geometry.machine import Machine
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.motions.motion import Motion
 from pkm_exact.numeric.centred import CentredFrames, centred_form, centred_leg, form_size, study_row
+from pkm_exact.wording import shown
 
 JointRow: TypeAlias = tuple[Fraction, ...]
 """Leg lengths, slide positions, or half tangents of crank angles; lengths, offsets and products of a mechanism."""
@@ -104,8 +107,48 @@ def _leg_rows(robot: Robot, frames: CentredFrames, values: JointRow) -> list[lis
 def _form_rows(robot: Machine, frames: CentredFrames, values: JointRow, first: JointRow) -> list[list[arb]]:
     """The rows of constraints, each divided by one number all along the path."""
     forms, before = (problem_at(robot, row).forms for row in (values, first))
+    weights = _form_weights(robot, values)
     sizes = [form_size(in_frames(form, frames.base, frames.platform, frames.unit, robot.metric)) for form in before]
-    return [centred_form(form, frames, robot.metric, size) for form, size in zip(forms, sizes, strict=True)]
+    return [
+        [ball(weight) * entry for entry in centred_form(form, frames, robot.metric, size)]
+        for form, size, weight in zip(forms, sizes, weights, strict=True)
+    ]
+
+
+def _form_weights(robot: Machine, values: JointRow) -> list[Fraction]:
+    """By what each form is multiplied to be a polynomial of degree 2 in the path parameter."""
+    if not isinstance(robot, Mechanism):
+        raise InternalContradictionError("the constraints of a path belong to no mechanism")
+    weights = {constraint.name: Fraction(1) for constraint in robot.constraints}
+    for name, value in zip(robot.actuated, values, strict=True):
+        drive = robot.drive(name)
+        if drive is not None and drive.is_crank:
+            weights |= dict.fromkeys((part.constraint for part in drive.parts), 1 + drive.weight * value * value)
+    return [weights[found.name] for found in robot.constraints for _ in found.forms(robot.metric)]
+
+
+def require_quadratic(robot: Machine) -> None:
+    """Refuse a mechanism whose forms are no polynomials of degree 2 along a path: where a crank shares a constraint.
+
+    Raises
+    ------
+    InputError
+    """
+    if not isinstance(robot, Mechanism):
+        return
+    movers: dict[str, list[tuple[str, bool]]] = {}
+    for name in robot.actuated:
+        drive = robot.drive(name)
+        moved = {name} if drive is None else {part.constraint for part in drive.parts}
+        for constraint in moved:
+            movers.setdefault(constraint, []).append((name, drive is not None and drive.is_crank))
+    for constraint, found in movers.items():
+        if len(found) > 1 and any(is_crank for _, is_crank in found):
+            raise InputError(
+                f"constraint {shown(constraint)}: a crank moves it, and so does another actuator "
+                f"({', '.join(name for name, _ in found)}), but a branch can be followed only where each crank has "
+                "constraints of its own; solve row by row (`sweep`)"
+            )
 
 
 def has_cranks(robot: Robot) -> bool:

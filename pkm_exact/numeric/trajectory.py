@@ -25,7 +25,7 @@ from pkm_exact.numeric.centred import CentredFrames, CentredRobot, Chart, centre
 from pkm_exact.numeric.charts import in_chart
 from pkm_exact.numeric.linearisation import Linearisation, chart_weights
 from pkm_exact.numeric.nominal import certified_point, certified_pose, core_radii, exact_integer
-from pkm_exact.numeric.path_forms import JointRow, path_forms, problem_at
+from pkm_exact.numeric.path_forms import JointRow, path_forms, problem_at, require_quadratic
 from pkm_exact.numeric.pose_maps import pose_map
 from pkm_exact.numeric.tube import FloatPath, Prediction, Tube, floats, predict, prove, station
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, Enclosures, disjoint_cells, exponent_for_width, pose_in_cells
@@ -210,6 +210,7 @@ class _Run:
     def samples(self, start: Pose | BranchPoint, poses: Sequence[Pose]) -> Iterator[TrackedSample]:
         problem = problem_at(self.robot, self.rows[0])
         _require_tracked(problem)
+        require_quadratic(self.robot)
         frames = centred_frames(problem)
         if isinstance(start, BranchPoint):
             point, near = start, self._again(frames, start)
