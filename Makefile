@@ -69,6 +69,7 @@ bench: $(VENV)/.installed-test
 	@$(PIP) install --no-deps passagemath-giac || echo "giac is not available here: it will not be compared" >&2
 	@$(BIN)/python benchmarks/bench.py --output build/bench $(BENCH)
 	@$(BIN)/python benchmarks/bench_krawczyk.py --json build/bench/krawczyk.json
+	@$(BIN)/python benchmarks/bench_systems.py --json build/bench/systems.json
 
 # Strict: what the builder has doubts about, such as a link that leads nowhere, is an error.
 docs: $(VENV)/.installed-docs

@@ -69,6 +69,19 @@ def test_growth(tmp_path: Path) -> None:
     assert len(results["batches"]) == len(("exact", "krawczyk")) * len((1, 3)) * len((1, 2))
 
 
+@pytest.mark.slow
+def test_polynomial_systems_side_by_side(tmp_path: Path) -> None:
+    done = _run("bench_systems.py", "--runs", "1", "--json", str(tmp_path / "times.json"), "trinks", "cohn2")
+    assert done.returncode == 0, done.stderr
+    rows = json.loads((tmp_path / "times.json").read_text(encoding="utf-8"))
+    assert [(row["name"], row["degree"]) for row in rows] == [("trinks", 10), ("cohn2", None)]
+    assert rows[0]["claim"] == "complete"
+    if rows[0]["seconds"]["msolve"] is not None:
+        assert all(0 < seconds < 100 for seconds in rows[0]["seconds"].values())
+    assert done.stdout.count("\n| ") == 2
+    assert _run("bench_systems.py", "no-such-system").returncode == 2
+
+
 def test_a_command_that_does_not_end_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(str(SCRIPTS))
     from measure import run

@@ -128,6 +128,12 @@ def test_numbers_of_homogeneous_polynomials() -> None:
     assert pure_system.graded(2, squares, 1073741827, 2) is None
 
 
+def test_primes_follow_from_coefficients_of_any_length() -> None:
+    primes = [pure_system.primes_of([{(1,): 10**5000 + k}]) for k in range(2)]
+    assert len({p for each in primes for p in each}) == 6
+    assert all(1 << 30 < p < 1 << 31 and p % 2 for each in primes for p in each)
+
+
 def _monomials(number: int, degree: int) -> list[tuple[int, ...]]:
     if number == 1:
         return [(degree,)]

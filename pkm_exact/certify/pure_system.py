@@ -731,7 +731,8 @@ def elements_of(certificate: Certificate) -> pure.Elimination:
 
 def primes_of(forms: Iterable[Mapping[pure.Monomial, int]]) -> list[int]:
     """Primes of 31 bits for which nothing is built: they follow from the polynomials."""
-    digest = sha256(repr([sorted(form.items()) for form in forms]).encode()).digest()
+    words = (f"{monomial}:{value:x}" for form in forms for monomial, value in sorted(form.items()))
+    digest = sha256(";".join(words).encode()).digest()
     starts = (int.from_bytes(digest[8 * k : 8 * k + 4], "big") >> 2 | 1 << 30 | 1 for k in range(ATTEMPTS))
     return [next(n for n in range(start, 1 << 32, 2) if pure.is_prime(n)) for start in starts]
 
