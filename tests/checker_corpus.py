@@ -33,6 +33,7 @@ FILES = (
     "test_pure_checker.py",
     "test_self_motion.py",
     "test_slices.py",
+    "test_system_certificates.py",
     "test_tolerances.py",
     "test_upright_legs.py",
 )
