@@ -13,6 +13,8 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 import mutations
 import pytest
 from certificate_subjects import subject
+from forged_bounds import NUMBERS
+from forged_counts import COUNTS
 from forged_mechanisms import MECHANISMS
 from forged_motions import MOTIONS
 from forged_neighbours import NEIGHBOURS
@@ -100,7 +102,7 @@ def collect(target: Path) -> int:
         for mutation in mutations.sampled(list(mutations.mutations(subject(name))), most, name):
             if isinstance(mutation.content, dict):
                 first.check_bytes(canonical_bytes(sealed(mutation.content)))
-    for name, (make, _) in (MECHANISMS | MOTIONS | NEIGHBOURS).items():
+    for name, (make, _) in (MECHANISMS | MOTIONS | NEIGHBOURS | NUMBERS | COUNTS).items():
         collector.test = f"forged: {name}"
         first.check_bytes(canonical_bytes(sealed(make())))
     target.parent.mkdir(parents=True, exist_ok=True)

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import partial
+from math import isqrt
 
 from certificate_subjects import Content, subject
+from flint import fmpz_poly
+from forged_representations import fit_real_poses, turning
 from forgeries import OPEN, as_witnesses, on_circle, point_near
 from held_mechanisms import PLACED, Numbers, Pose, listing
 
@@ -60,6 +63,29 @@ CLOSE: dict[str, Case] = {
         lambda: _circle(_near(Fraction(10, 100)), _near(Fraction(30, 100)), exponent=2),
         REJECTED,
     ),
+}
+
+
+def _turned(h: fmpz_poly) -> Content:
+    """A platform on an axis, turned by the angles whose half tangents are the roots of h."""
+    content = turning(h, 60)
+    fit_real_poses(content, None)
+    return content
+
+
+def _steep() -> fmpz_poly:
+    """T^6 less all that keeps a bound of its roots, by powers of 2, at 32; the largest is 18."""
+    return fmpz_poly([*(-(isqrt(2 ** (7 * i)) - 1) for i in range(6, 1, -1)), 0, 1])
+
+
+ROOTS: dict[str, Case] = {
+    "a root above half of its bound": (lambda: _turned(_steep()), ACCEPTED),
+    "a root 2^-40 beside 2^-40 + 2^-50": (
+        lambda: _turned(fmpz_poly([-1, 1 << 40]) * fmpz_poly([-1025, 1 << 50]) * fmpz_poly([-2, 0, 1])),
+        ACCEPTED,
+    ),
+    "roots 0, 1 and -1": (lambda: _turned(fmpz_poly([0, -1, 0, 1])), ACCEPTED),
+    "roots where the slope is 0 between them": (lambda: _turned(fmpz_poly([1, -3, 0, 1])), ACCEPTED),
 }
 
 
@@ -241,4 +267,4 @@ LEGS: dict[str, Case] = {
     "six legs": (lambda: _robot_1(PLACED, ANY, [*ANY[1:], ANY[0]]), REJECTED),
 }
 
-NEIGHBOURS: dict[str, Case] = {**CLOSE, **LISTED, **TOLERANCES, **LEGS}
+NEIGHBOURS: dict[str, Case] = {**CLOSE, **ROOTS, **LISTED, **TOLERANCES, **LEGS}

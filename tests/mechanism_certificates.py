@@ -10,6 +10,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
+from certificate_tools import golden
 from mechanism_samples import cartesian, spherical, turning_lines
 from mechanisms import F, delta, h4, mixed, point_and_spheres, pssc, three_rps, vector
 
@@ -117,6 +118,16 @@ def slices() -> bytes:
     return canonical_bytes(sealed(mechanism_content("parallelogram") | {"representation": None, "self_motion": motion}))
 
 
+def planar_legs(name: str) -> ForwardProblem:
+    """The legs of a shipped planar robot."""
+    content = golden(name)
+    robot, squares = content["robot"], content["configuration"]["lengths_squared"]
+    joints = zip(robot["base"], robot["platform"], squares, strict=True)
+    legs = [Distance(vector(*map(F, a)), vector(*map(F, b)), F(square)) for a, b, square in joints]
+    g = [int(value) for value in robot["metric"]]
+    return ForwardProblem(tuple(legs), (g[0], g[1], g[2]), PLANAR)
+
+
 MADE: dict[str, Callable[[], bytes]] = {
     "3-RPS": partial(made, three_rps),
     "3-RPS, boxes": partial(made, three_rps, solve_krawczyk),
@@ -138,6 +149,10 @@ MADE: dict[str, Callable[[], bytes]] = {
     "few legs, real": partial(made, partial(few_legs, 0)),
     "few legs": partial(made, partial(few_legs, 3)),
     "joints on a line": partial(made, on_a_line),
+    "planar, a triple pose": partial(made, partial(planar_legs, "3-rpr-triple")),
+    "planar, a double pose": partial(made, partial(planar_legs, "3-rpr-double-q")),
+    "six planes of the platform": partial(made, partial(mixed, 0, 0, 6)),
+    "three planes of each": partial(made, partial(mixed, 0, 3, 3)),
     "parallelogram": partial(made, parallelogram),
     "slices": slices,
 }

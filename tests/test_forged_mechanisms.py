@@ -5,6 +5,8 @@ from collections.abc import Callable
 import pytest
 from certificate_subjects import Content
 from certificate_tools import last_line
+from forged_bounds import NUMBERS
+from forged_counts import COUNTS
 from forged_mechanisms import MECHANISMS
 from forged_motions import MOTIONS
 from forged_neighbours import NEIGHBOURS
@@ -19,7 +21,7 @@ CASES = [
     *(pytest.param(*case, id=name) for name, case in NEIGHBOURS.items()),
     *(
         pytest.param(*case, id=name, marks=[pytest.mark.slow] * (number % QUICK > 0))
-        for number, (name, case) in enumerate((MECHANISMS | MOTIONS).items())
+        for number, (name, case) in enumerate((MECHANISMS | MOTIONS | NUMBERS | COUNTS).items())
     ),
 ]
 
