@@ -10,6 +10,7 @@ from pkm_exact.constraints.form import Vector, rational_wrench, value_at
 from pkm_exact.geometry.inverse import Matrix, Metric
 from pkm_exact.motions.motion import Motion
 from pkm_exact.screws.exact_matrix import Row, null_space
+from pkm_exact.screws.screw import cross
 
 
 def wrench_rows(constraint: Constraint, metric: Metric, position: Vector, rotation: Matrix) -> tuple[Row, ...]:
@@ -44,12 +45,19 @@ def within(rows: Iterable[Row], motion: Motion) -> list[Row]:
     return [tuple(row[k] for k in motion.twist) for row in rows]
 
 
-def twists_left(rows: Sequence[Row], motion: Motion, metric: Metric) -> tuple[Row, ...]:
-    """A basis of the twists of a group that wrenches do no work on, as (w; G v) for ``screws.free_motions``."""
+def twists_left(rows: Sequence[Row], motion: Motion, metric: Metric, position: Vector) -> tuple[Row, ...]:
+    """A basis of the twists of a group that wrenches do no work on, as (s; G v) for ``screws.free_motions``.
+
+    Wrenches are given for the velocity of the platform's origin, at ``position``, and for turns W with the entries W_kj
+    = g_j w_i. Their axis has the direction s_i = g_j g_k w_i in the coordinates of the file, and G v becomes G v + C x
+    s for the velocity of the point at the origin.
+    """
     found = []
     for free in null_space(within(rows, motion), len(motion.twist)):
         twist = [Fraction(0)] * 6
         for place, value in zip(motion.twist, free, strict=True):
             twist[place] = value
-        found.append((*twist[3:], *(g * value for g, value in zip(metric, twist[:3], strict=True))))
+        turn = [value * (metric[0] * metric[1] * metric[2] // g) for g, value in zip(metric, twist[3:], strict=True)]
+        moment = [g * value for g, value in zip(metric, twist[:3], strict=True)]
+        found.append((*turn, *(m + shift for m, shift in zip(moment, cross(position, turn), strict=True))))
     return tuple(found)

@@ -150,7 +150,7 @@ def _at(
     width = len(motion.twist)
 
     def left(rows: list[Row]) -> FreeMotions:
-        return free_motions(twists_left(rows, motion, metric), metric=metric)
+        return free_motions(twists_left(rows, motion, metric, position), metric=metric)
 
     first, second = rank(within(fixed, motion), width), rank(within(every, motion), width)
     return PoseMobility(position, rotation, first, second, left(fixed), left(every))

@@ -1,0 +1,1 @@
+"""Which parameters measurements can tell apart: exact ranks of observation matrices."""
