@@ -21,6 +21,8 @@ REFERENCE = ROOT / "docs" / "cli.md"
 Capture = pytest.CaptureFixture[str]
 
 PATH = "l1,l2,l3,l4,l5,l6\n1250,1250,1250,1250,1250,1250\n1250.5,1250,1250,1250,1250,1250\n"
+CUBE = "[region]\nposition = [[-9, 9], [-9, 9], [760, 780]]\nrpy_degrees = [0, 0, 0]\n"
+CUBE += "[conditions]\nno_type_2 = true\n[answer]\nkind = 'all'\n"
 SLOW = ("", "check", "compare", "formulations", "plot", "sweep")
 NOT_HERE = ("tcp://",)  # needs a cluster
 
@@ -60,6 +62,7 @@ def test_every_example_of_a_help_works(
         shutil.copytree(ROOT / folder, tmp_path / folder)
     for file in ("path.csv", "lengths.csv"):
         (tmp_path / file).write_text(PATH)
+    (tmp_path / "cube.toml").write_text(CUBE)
     monkeypatch.chdir(tmp_path)
     for example in _examples(HELPS[name]):
         if any(word in example for word in NOT_HERE):

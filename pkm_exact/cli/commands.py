@@ -14,6 +14,7 @@ from pkm_exact.cli.legs import legs
 from pkm_exact.cli.mobility_command import mobility
 from pkm_exact.cli.new import new
 from pkm_exact.cli.plot import plot
+from pkm_exact.cli.region import region
 from pkm_exact.cli.report_command import report
 from pkm_exact.cli.selftest import selftest
 from pkm_exact.cli.shell_completion import completion
@@ -34,6 +35,7 @@ COMMANDS: Final = (
     compare,
     track,
     sweep,
+    region,
     plot,
     report,
     codegen,

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from pkm_exact.interactive.answers import Solution
     from pkm_exact.policy import Policy
     from pkm_exact.poses.pose import Pose
+    from pkm_exact.regions.region_solver import LargestAnswer, RegionAnswer
     from pkm_exact.statics.at_pose import AtPose
 
 
@@ -154,6 +155,41 @@ class Asked(Machine):
         from pkm_exact.statics.asking import machine_at
 
         return machine_at(self, pose, configuration, modes)
+
+    def region(self, question: str | os.PathLike[str], *, workers: int = 1) -> RegionAnswer | LargestAnswer:
+        """The answer to a question about all poses of a region.
+
+        Parameters
+        ----------
+        question : str or path
+            The path of a question file, or its text with the tables [region], [conditions] and [answer].
+        workers : int
+            Processes; the answer does not depend on them.
+
+        Raises
+        ------
+        InputError
+            If the question is not one about this robot; the message says what to do.
+
+        Examples
+        --------
+        >>> text = "[region]\\nposition = [[4, 6], [4, 6]]\\ndegrees = [-5, 5]\\n"
+        >>> text += "[conditions]\\nno_type_2 = true\\n[answer]\\nkind = 'all'"
+        >>> Robot.load("models/3-rpr-merlet-p.toml").region(text).is_proved
+        True
+        """
+        from pkm_exact.regions.question_reader import of_size, question_from_toml, read_question
+        from pkm_exact.regions.region_legs import region_machine
+        from pkm_exact.regions.region_solver import answered, largest
+        from pkm_exact.regions.region_workers import workers as working
+
+        machine = region_machine(self)
+        is_text = isinstance(question, str) and "\n" in question
+        asked = question_from_toml(str(question), machine) if is_text else read_question(question, machine)
+        with working(machine, workers) as run:
+            if asked.answer.kind == "largest":
+                return largest(machine, asked, lambda size: of_size(asked, machine, size), run=run)
+            return answered(machine, asked, run=run)
 
 
 @dataclass(frozen=True, repr=False)

@@ -1,0 +1,106 @@
+"""The command ``region``: questions about whole regions of poses. Everything heavy is imported inside it."""
+
+from __future__ import annotations
+
+import sys
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from pkm_exact.cli import arguments
+from pkm_exact.cli.main import ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.stages import Amount
+
+if TYPE_CHECKING:
+    from pkm_exact.interactive.progress import Progress
+    from pkm_exact.regions.region_legs import RegionMachine
+    from pkm_exact.regions.region_question import RegionQuestion
+    from pkm_exact.regions.region_solver import LargestAnswer, RegionAnswer
+
+
+@click.command(short_help="Is all of a region of poses good? Or where is it?")
+@click.argument("model", type=arguments.FilePath())
+@click.argument("question", type=arguments.FilePath(), metavar="QUESTION.toml")
+@click.option(
+    "--format",
+    "layout",
+    type=click.Choice(["table", "json"]),
+    default="table",
+    show_default=True,
+    help="What to print: a few lines, or exact bounds as json.",
+)
+@click.option(
+    "--workers", type=click.IntRange(1, 256), default=1, show_default=True, help="Processes; the answer is the same."
+)
+@click.option(
+    "--picture", type=arguments.FilePath(), metavar="FILE", help="Draw the paving: a .png, .svg or .pdf file."
+)
+@click.option("-v", "--verbose", is_flag=True, help="Say more: the share of the work that is done.")
+def region(model: str, question: str, layout: str, workers: int, picture: str | None, verbose: bool) -> int:
+    """Answer a question about all poses of a region of the robot in the file MODEL.
+
+    QUESTION.toml says which region ([region]: a box, ball, cylinder or prism of positions, with a fixed orientation or
+    intervals of angles), what is asked of its poses ([conditions]: reachable, limits, no_type_1, no_type_2), and which
+    answer is wanted ([answer]: all of it proved or a counterexample; a map; the largest cube or ball).
+
+    \b
+    Example:
+      certify-poses region models/rolland-6-6.toml cube.toml
+
+    Exit codes: 0 answered, be it yes, no, or a map; 3 undecided for the work allowed. Others as for certify-poses.
+    """
+    from pkm_exact.cli.model_reading import announced_model
+    from pkm_exact.regions.question_reader import read_question
+    from pkm_exact.regions.region_legs import region_machine
+
+    robot = announced_model(model)
+    try:
+        machine = region_machine(robot)
+    except InputError as error:
+        raise InputError(f"{model}: {error}") from None
+    asked = read_question(question, machine)
+    if picture is not None:
+        arguments.require_other_file(Path(picture), model, "--picture")
+        arguments.require_other_file(Path(picture), question, "--picture", "the question")
+        arguments.require_writable(Path(picture), "--picture")
+    from pkm_exact.interactive.progress import Progress
+
+    try:
+        with Progress(verbose=verbose) as progress:
+            answer = _answer(machine, asked, workers, progress)
+    except InputError as error:
+        raise InputError(f"{question}: {error}") from None
+    from pkm_exact.cli import region_report
+
+    if picture is not None:
+        region_report.draw(answer, Path(picture))
+    text = region_report.as_json(answer) if layout == "json" else region_report.as_text(answer)
+    sys.stdout.write(text)
+    return ExitCode.WEAKER_CLAIM if region_report.is_undecided(answer) else ExitCode.DONE
+
+
+def _answer(
+    machine: RegionMachine, asked: RegionQuestion, count: int, progress: Progress
+) -> RegionAnswer | LargestAnswer:
+    from pkm_exact.regions.question_reader import of_size
+    from pkm_exact.regions.region_solver import answered, largest
+    from pkm_exact.regions.region_workers import workers
+
+    def shown(size: Fraction, proved: bool) -> None:
+        progress(f"size {float(size):.6g}: {'proved' if proved else 'not proved'}")
+
+    with workers(machine, count) as run:
+        if asked.answer.kind == "largest":
+            return largest(machine, asked, lambda size: of_size(asked, machine, size), run=run, progress=shown)
+        progress("paving the region")
+        return answered(machine, asked, run=run, progress=_shares(progress))
+
+
+def _shares(progress: Progress) -> Any:
+    def shown(share: Fraction) -> None:
+        progress.amount(Amount(share.numerator, share.denominator, "of the parts"))
+
+    return shown

@@ -1,0 +1,66 @@
+"""Conditions on a pose as signs of polynomials, joined by and and or.
+
+The variables are those of a chart, and one for each square root: y_i >= 0 with y_i^2 = D_i, a polynomial of the chart's
+variables. No polynomial has a square of a y_i. Where a D_i is negative the conditions do not hold, whatever the signs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from pkm_exact.regions.chart import Polynomial
+
+
+class Sign(StrEnum):
+    """What an atom asks of its polynomial."""
+
+    POSITIVE = "positive"
+    NOT_NEGATIVE = "not-negative"
+    NOT_ZERO = "not-zero"
+
+
+@dataclass(frozen=True, eq=False)
+class Atom:
+    """A condition on the sign of a polynomial.
+
+    Attributes
+    ----------
+    name : str
+        What it is about, for messages.
+    polynomial : fmpq_mpoly
+        Where it has the sign, the condition holds.
+    sign : Sign
+    loose : fmpq_mpoly or None
+        Where it has not the sign, the condition does not hold; the polynomial itself if None. They differ where the
+        condition has irrational numbers in it.
+    """
+
+    name: str
+    polynomial: Polynomial
+    sign: Sign = Sign.NOT_NEGATIVE
+    loose: Polynomial | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class All:
+    """All of the parts hold."""
+
+    parts: tuple[Formula, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Some:
+    """At least one of the parts holds."""
+
+    parts: tuple[Formula, ...]
+
+
+Formula: TypeAlias = Atom | All | Some
+
+
+def atoms_of(formula: Formula) -> list[Atom]:
+    """The atoms, from left to right."""
+    return [formula] if isinstance(formula, Atom) else [atom for part in formula.parts for atom in atoms_of(part)]

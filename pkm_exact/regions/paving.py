@@ -1,0 +1,189 @@
+"""Branch and bound: a box halved again and again, until a formula is decided on every part or the parts are small.
+
+All parts of one depth are halved along the same variable, so that a paving is the sequence of these variables, and a
+word in the letters
+
+    s  halved: the lower half follows, then the upper one
+    i  inside: the formula holds all over the part
+    o  outside: it holds nowhere in it
+    u  undecided
+
+No part can be left out and none can overlap another, whatever the word says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pkm_exact.regions.compiled import CompiledFormula
+
+SPLIT: Final = "s"
+INSIDE: Final = "i"
+OUTSIDE: Final = "o"
+UNDECIDED: Final = "u"
+_LETTERS: Final = np.array([UNDECIDED, INSIDE, OUTSIDE])
+_NUMBERS_AT_ONCE: Final = 1 << 22
+"""Coefficients of a batch: what is in memory at a time."""
+
+Places = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the box of a chart: its depth in the halving, and where it lies along each variable.
+
+    Attributes
+    ----------
+    depth : int
+    places : tuple of int
+        Of 2^(halvings of the variable) equal parts, from 0.
+    """
+
+    depth: int
+    places: tuple[int, ...]
+
+
+def halving_axes(weights: Sequence[Fraction], steps: int) -> tuple[int, ...]:
+    """Along which variable each halving is: the one that is longest, the first of equal ones.
+
+    Parameters
+    ----------
+    weights : sequence of Fraction
+        Squares of the lengths of the sides, in one unit.
+    steps : int
+
+    Examples
+    --------
+    >>> halving_axes([Fraction(16), Fraction(1)], 5)
+    (0, 0, 0, 1, 0)
+    """
+    lengths, found = list(weights), []
+    for _ in range(steps):
+        axis = max(range(len(lengths)), key=lambda k: (lengths[k], -k))
+        lengths[axis] /= 4
+        found.append(axis)
+    return tuple(found)
+
+
+def depths_at(axes: Sequence[int], depth: int, variables: int) -> list[int]:
+    """How often each variable is halved after so many steps."""
+    return [sum(axis == k for axis in axes[:depth]) for k in range(variables)]
+
+
+@dataclass(frozen=True)
+class Paved:
+    """A paving of a part.
+
+    Attributes
+    ----------
+    word : str
+    open_parts : tuple of Part
+        What is undecided at the greatest depth, in the order of the word; empty if it was not asked for.
+    """
+
+    word: str
+    open_parts: tuple[Part, ...] = ()
+
+
+def pave(
+    formula: CompiledFormula,
+    axes: Sequence[int],
+    start: Part,
+    last: int,
+    *,
+    most: int = 1 << 40,
+    stop_outside: bool = False,
+) -> Paved:
+    """The paving of a part down to a depth.
+
+    Parameters
+    ----------
+    formula : CompiledFormula
+    axes : sequence of int
+        Along which variable the parts of each depth are halved.
+    start : Part
+    last : int
+        Parts of this depth are not halved.
+    most : int
+        Nor are parts of a depth at which more are undecided.
+    stop_outside : bool
+        Whether to go no deeper once a part is outside: the question is answered.
+    """
+    levels: list[NDArray[np.str_]] = []
+    places = np.array([start.places], dtype=np.int64)
+    depth, ended = start.depth, False
+    while True:
+        depths = depths_at(axes, depth, formula.variables)
+        truths = np.concatenate([formula.truths(depths, batch) for batch in _batches(formula, places)])
+        letters = _LETTERS[truths]
+        undecided = truths == 0
+        ended = depth >= last or not undecided.any() or int(undecided.sum()) > most
+        ended = ended or (stop_outside and bool((truths < 0).any()))
+        if ended:
+            levels.append(letters)
+            break
+        levels.append(np.where(undecided, SPLIT, letters))
+        lower = np.repeat(places[undecided], 2, axis=0)
+        axis = axes[depth]
+        lower[:, axis] *= 2
+        lower[1::2, axis] += 1
+        places, depth = lower, depth + 1
+    open_parts = tuple(Part(depth, tuple(map(int, place))) for place in places[levels[-1] == UNDECIDED])
+    return Paved(_word(levels), open_parts)
+
+
+def _batches(formula: CompiledFormula, places: Places) -> list[Places]:
+    largest = max([part.tensor.size for pair in formula.atoms.values() for part in pair] + [1])
+    size = max(1, _NUMBERS_AT_ONCE // largest)
+    return [places[k : k + size] for k in range(0, len(places), size)]
+
+
+def _word(levels: Sequence[NDArray[np.str_]]) -> str:
+    """The word of a tree whose levels are given: the halves of the k-th halved part are 2 k and 2 k + 1 below."""
+    below: list[str] = []
+    for letters in reversed(levels):
+        halves = iter(below)
+        below = [letter if letter != SPLIT else f"{SPLIT}{next(halves)}{next(halves)}" for letter in letters.tolist()]
+    return below[0]
+
+
+def spliced(word: str, words: Sequence[str]) -> str:
+    """A word with its undecided parts, in their order, replaced by words of their own.
+
+    Examples
+    --------
+    >>> spliced("siu", ["sii"])
+    'sisii'
+    """
+    pieces = word.split(UNDECIDED)
+    return "".join(piece + inner for piece, inner in zip(pieces, [*words, ""], strict=True))
+
+
+def leaves(word: str, axes: Sequence[int], variables: int, start: Part | None = None) -> list[tuple[str, Part]]:
+    """The parts of a paving with their letters, in the order of the word.
+
+    Examples
+    --------
+    >>> leaves("sio", [0], 1)
+    [('i', Part(depth=1, places=(0,))), ('o', Part(depth=1, places=(1,)))]
+    """
+    found = []
+    waiting = [start or Part(0, (0,) * variables)]
+    for letter in word:
+        part = waiting.pop()
+        if letter != SPLIT:
+            found.append((letter, part))
+            continue
+        axis = axes[part.depth]
+        halves = [
+            Part(part.depth + 1, tuple(2 * p + side if k == axis else p for k, p in enumerate(part.places)))
+            for side in (1, 0)
+        ]
+        waiting += halves
+    return found

@@ -1,0 +1,338 @@
+"""Question files: TOML with the tables ``[region]``, ``[conditions]`` and ``[answer]`` (``docs/regions.md``)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from fractions import Fraction
+from math import isqrt
+from pathlib import Path
+from typing import Any, Final
+
+from flint import arb, fmpq
+
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.degrees import half_turn_pair, is_exact_turn
+from pkm_exact.geometry.fields import known_keys, list_field, required
+from pkm_exact.geometry.limits import Pair
+from pkm_exact.geometry.rational import parse_positive, parse_rational
+from pkm_exact.geometry.reader import parsed_toml
+from pkm_exact.precision import working_precision
+from pkm_exact.regions.chart import POSITIONS, TURNS, Chart
+from pkm_exact.regions.conditions import CONDITIONS, Conditions
+from pkm_exact.regions.region_legs import RegionMachine
+from pkm_exact.regions.region_question import ANSWERS, DEFAULT_BOXES, DEFAULT_STEPS, RegionQuestion, WantedAnswer
+from pkm_exact.regions.shapes import Quadratic, in_model, polygon_shape, round_shape, side
+from pkm_exact.wording import printable, shown
+
+_TABLES: Final = ("region", "conditions", "answer")
+_SHAPES: Final = ("position", "ball", "cylinder", "prism")
+_TURNED: Final = ("quaternion", "rpy_degrees", "degrees")
+_MOST_STEPS: Final = 120
+_MOST_BOXES: Final = 10**8
+_MOST_CORNERS: Final = 64
+
+
+def read_question(path: str | os.PathLike[str], machine: RegionMachine) -> RegionQuestion:
+    """The question in a file, about a robot.
+
+    Raises
+    ------
+    InputError
+        With file, field, value and remedy.
+    """
+    name = os.fspath(path)
+    try:
+        text = Path(name).read_text(encoding="utf-8")
+    except UnicodeDecodeError:
+        raise InputError(f"{printable(name)}: is not UTF-8 text; save the question as UTF-8") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(f"{printable(name)}: cannot be read ({reason}); give the path of a question file") from None
+    try:
+        return question_from_toml(text, machine)
+    except InputError as error:
+        raise InputError(f"{printable(name)}: {error}") from None
+
+
+def question_from_toml(text: str, machine: RegionMachine) -> RegionQuestion:
+    """The question that a text asks."""
+    table = parsed_toml(text)
+    known_keys(table, _TABLES, "")
+    for key in _TABLES:
+        if not isinstance(table.get(key), dict):
+            raise InputError(f"{key}: is missing or no table; write [{key}] and its keys below it")
+    conditions = _conditions(table["conditions"], machine)
+    answer = _answer(table["answer"], machine)
+    region = table["region"]
+    known_keys(region, (*_SHAPES, *_TURNED), "region")
+    if answer.kind == "largest":
+        if given := [key for key in _SHAPES if key in region]:
+            raise InputError(f"region.{given[0]}: the answer largest has a shape of its own; remove it")
+        return largest_question(_turned(region, machine), machine, conditions, answer, Fraction(1))
+    position, shape, enlarged = _shape(region, machine)
+    chart = _chart(position, _turned(region, machine))
+    if not chart.variables:
+        raise InputError("region: is a single pose; give an interval for a coordinate, or ask `legs`")
+    return RegionQuestion(chart, shape, conditions, answer, enlarged)
+
+
+def largest_question(
+    turned: tuple[Any, Any], machine: RegionMachine, conditions: Conditions, answer: WantedAnswer, size: Fraction
+) -> RegionQuestion:
+    """Whether all of a cube or ball of a size is good: the edge, or the radius."""
+    metric, about = machine.metric, answer.about
+    if answer.shape == "ball":
+        quadratic, sides = round_shape(about, size, metric)
+        return RegionQuestion(
+            _chart(list(sides), turned), (quadratic,), conditions, answer, _is_irrational(about, metric)
+        )
+    pairs = [side((c - size / 2, c + size / 2), g) for c, g in zip(about, metric, strict=False)]
+    return RegionQuestion(_chart(list(pairs), turned), (), conditions, answer, not _has_roots(metric[: len(about)]))
+
+
+def of_size(question: RegionQuestion, machine: RegionMachine, size: Fraction) -> RegionQuestion:
+    """The same question about a cube or ball of another size."""
+    chart = question.chart
+    turns = [
+        (chart.box[chart.variables.index(turn)], True) if isinstance(turn, str) else (turn, False)
+        for turn in chart.turns
+    ]
+    return largest_question((chart.quaternion, turns), machine, question.conditions, question.answer, size)
+
+
+def _has_roots(metric: Sequence[int]) -> bool:
+    return all(isqrt(g) ** 2 == g for g in metric)
+
+
+def _is_irrational(values: Sequence[Fraction], metric: Sequence[int]) -> bool:
+    return any(value and isqrt(g) ** 2 != g for value, g in zip(values, metric, strict=False))
+
+
+def _chart(position: Sequence[Any], turned: tuple[Any, Any]) -> Chart:
+    quaternion, turns = turned
+    variables, box, places = [], [], []
+    for name, value in zip(POSITIONS, [*position, *[Fraction(0)] * (3 - len(position))], strict=True):
+        if isinstance(value, tuple) and value[0] < value[1]:
+            variables.append(name)
+            box.append(value)
+            places.append(name)
+        else:
+            places.append(value[0] if isinstance(value, tuple) else value)
+    names = []
+    for name, (value, is_variable) in zip(TURNS, turns, strict=False):
+        if is_variable:
+            variables.append(name)
+            box.append(value)
+        names.append(name if is_variable else value)
+    return Chart(tuple(places), quaternion, tuple(names), tuple(variables), tuple(box))
+
+
+def _dimension(machine: RegionMachine) -> int:
+    return 2 if machine.motion == "planar" else 3
+
+
+def _shape(region: dict[str, Any], machine: RegionMachine) -> tuple[list[Any], tuple[Quadratic, ...], bool]:
+    given = [key for key in _SHAPES if key in region]
+    if not given and 0 not in machine.twist:
+        return [Fraction(0)] * 3, (), False
+    if len(given) != 1:
+        raise InputError(f"region: {' and '.join(given) or 'no shape'} given; give one of {', '.join(_SHAPES)}")
+    key, metric = given[0], machine.metric
+    if key == "position":
+        return _box(region[key], machine)
+    table = region[key]
+    if not isinstance(table, dict):
+        raise InputError(f"region.{key}: {shown(table)} is not a table; write {{ .. }} with its keys")
+    if key == "ball":
+        known_keys(table, ("center", "radius"), "region.ball")
+        center = _numbers(required(table, "center", "region.ball."), "region.ball.center", _dimension(machine))
+        radius = parse_positive(required(table, "radius", "region.ball."), "region.ball.radius")
+        quadratic, sides = round_shape(center, radius, metric)
+        return list(sides), (quadratic,), _is_irrational(center, metric)
+    if _dimension(machine) == 2:
+        raise InputError(f"region.{key}: the robot is planar; give position or ball")
+    keys = ("center", "radius", "height") if key == "cylinder" else ("corners", "sides", "radius", "azimuth", "height")
+    known_keys(table, keys, f"region.{key}")
+    height = side(_pair(required(table, "height", f"region.{key}."), f"region.{key}.height"), metric[2])
+    if key == "cylinder":
+        center = _numbers(required(table, "center", "region.cylinder."), "region.cylinder.center", 2)
+        radius = parse_positive(required(table, "radius", "region.cylinder."), "region.cylinder.radius")
+        quadratic, sides = round_shape(center, radius, metric)
+        return [*sides, height], (quadratic,), _is_irrational(center, metric) or not _has_roots(metric[2:])
+    corners, exact = _corners(table)
+    edges, sides = polygon_shape(corners, metric)
+    return [*sides, height], edges, not (exact and _has_roots(metric))
+
+
+def _corners(table: dict[str, Any]) -> tuple[tuple[Pair, ...], bool]:
+    """The corners of a prism's base, counterclockwise; those of a regular one a little outside, where not rational."""
+    where = "region.prism"
+    if "corners" in table:
+        rows = list_field(table["corners"], f"{where}.corners", 3)
+        if not 3 <= len(rows) <= _MOST_CORNERS:
+            raise InputError(f"{where}.corners: {len(rows)} given; give 3 to {_MOST_CORNERS}")
+        points = tuple((x, y) for x, y in (_numbers(row, f"{where}.corners[{i}]", 2) for i, row in enumerate(rows, 1)))
+        for (x1, y1), (x2, y2), (x3, y3) in zip(
+            points, [*points[1:], points[0]], [*points[2:], *points[:2]], strict=True
+        ):
+            if (x2 - x1) * (y3 - y2) - (y2 - y1) * (x3 - x2) <= 0:
+                raise InputError(f"{where}.corners: are not those of a convex polygon, counterclockwise; order them so")
+        return points, True
+    number = required(table, "sides", f"{where}.")
+    if isinstance(number, bool) or not isinstance(number, int) or not 3 <= number <= _MOST_CORNERS:
+        raise InputError(f"{where}.sides: {shown(number)} is not a number of sides; give 3 to {_MOST_CORNERS}")
+    radius = parse_positive(required(table, "radius", f"{where}."), f"{where}.radius")
+    azimuth = parse_rational(table.get("azimuth", 0), f"{where}.azimuth")
+    corners = []
+    for k in range(number):
+        c, s = half_turn_pair(azimuth + Fraction(360 * k, number), Fraction(1, 2**70))
+        norm = c * c + s * s
+        # Off by less than 2^-69 of the radius: this much larger, its edges lie outside of those asked for.
+        wide = radius * (1 + Fraction(number * number, 2**60))
+        corners.append(((c * c - s * s) / norm * wide, 2 * c * s / norm * wide))
+    return tuple(corners), False
+
+
+def _box(value: object, machine: RegionMachine) -> tuple[list[Any], tuple[Quadratic, ...], bool]:
+    rows = list_field(value, "region.position", _dimension(machine))
+    if len(rows) != _dimension(machine):
+        raise InputError(f"region.position: {len(rows)} entries; give {_dimension(machine)}, one for each coordinate")
+    found, enlarged = [], False
+    for i, (row, g) in enumerate(zip(rows, machine.metric, strict=False), 1):
+        where = f"region.position[{i}]"
+        pair = _pair(row, where) if isinstance(row, list) else (parse_rational(row, where),) * 2
+        irrational = _is_irrational(pair, (g, g))
+        if irrational and pair[0] == pair[1]:
+            raise InputError(f"{where}: {shown(row)} is not rational in the model's metric; give an interval around it")
+        enlarged |= irrational
+        found.append(side(pair, g))
+    return found, (), enlarged
+
+
+def _pair(row: object, where: str) -> Pair:
+    values = _numbers(row, where, 2)
+    if values[0] >= values[1]:
+        raise InputError(f"{where}: {shown(values[0])} is not less than {shown(values[1])}; give [least, greatest]")
+    return values[0], values[1]
+
+
+def _numbers(row: object, where: str, count: int) -> tuple[Fraction, ...]:
+    rows = list_field(row, where, count)
+    if len(rows) != count:
+        raise InputError(f"{where}: {len(rows)} numbers; give {count}")
+    return tuple(parse_rational(value, f"{where}[{i}]") for i, value in enumerate(rows, 1))
+
+
+def _turned(region: dict[str, Any], machine: RegionMachine) -> tuple[Any, Any]:
+    """The fixed quaternion, or None, and roll, pitch and yaw, each with whether it is an interval."""
+    still = ((Fraction(1), Fraction(0)), False)
+    given = [key for key in _TURNED if key in region]
+    if len(given) > 1:
+        raise InputError(f"region: {' and '.join(given)} given; give one of them")
+    if not given:
+        if set(machine.twist) & {3, 4, 5}:
+            raise InputError(f"region: no orientation given; give one of {', '.join(_turned_keys(machine))}")
+        return None, [still] * 3
+    key = given[0]
+    if key not in _turned_keys(machine):
+        raise InputError(f"region.{key}: is not for this robot; give one of {', '.join(_turned_keys(machine))}")
+    if key == "quaternion":
+        numbers = _numbers(region[key], "region.quaternion", 4)
+        if not any(numbers):
+            raise InputError("region.quaternion: all four numbers are 0; give one that is not")
+        return numbers, []
+    if key == "degrees":
+        return None, [still, still, _angle(region[key], "region.degrees", 2, machine)]
+    rows = list_field(region[key], "region.rpy_degrees", 3)
+    if len(rows) != 3:
+        raise InputError(f"region.rpy_degrees: {len(rows)} entries; give 3: roll, pitch, yaw")
+    return None, [_angle(row, f"region.rpy_degrees[{i + 1}]", i, machine) for i, row in enumerate(rows)]
+
+
+def _turned_keys(machine: RegionMachine) -> tuple[str, ...]:
+    return ("degrees",) if machine.motion in ("planar", "schoenflies") else ("quaternion", "rpy_degrees")
+
+
+def _angle(value: object, where: str, axis: int, machine: RegionMachine) -> tuple[Pair, bool]:
+    weight = machine.metric[(axis + 1) % 3] * machine.metric[(axis + 2) % 3]
+    root = isqrt(weight)
+    if isinstance(value, list):
+        low, high = _pair(value, where)
+        if not -180 < low < high < 180:
+            raise InputError(f"{where}: {shown(low)} to {shown(high)} reaches 180 degrees; stay between -180 and 180")
+        return (_half_tangent(low, weight, -1), _half_tangent(high, weight, 1)), True
+    angle = parse_rational(value, where)
+    if angle and root * root != weight:
+        raise InputError(
+            f"{where}: {shown(angle)} is not rational in the model's metric; give a quaternion of the file"
+        )
+    if not is_exact_turn(angle):
+        raise InputError(
+            f"{where}: a turn by {shown(angle)} degrees is not rational; give an interval around it, or a quaternion"
+        )
+    c, s = half_turn_pair(angle)
+    return (c, s / root), False
+
+
+def _half_tangent(degrees: Fraction, weight: int, way: int) -> Fraction:
+    """The half tangent of an angle over sqrt(weight), exactly or outward."""
+    if degrees % 90 == 0:
+        return in_model(degrees / 90, weight, way)
+    with working_precision(256):
+        sine, cosine = arb.sin_cos_pi_fmpq(fmpq(degrees.numerator, 360 * degrees.denominator))
+        grid = sine / cosine / arb(weight).sqrt() * arb(2) ** 80
+        end = grid.upper() if way > 0 else grid.lower()
+        whole = (end.ceil() if way > 0 else end.floor()).mid()
+        return Fraction(int(str(whole.fmpz())), 2**80)
+
+
+def _conditions(table: dict[str, Any], machine: RegionMachine) -> Conditions:
+    known_keys(table, (*CONDITIONS, "no_constraint_singularity", "one_working_mode", "working_modes"), "conditions")
+    asked = set()
+    same = {"no_constraint_singularity": "no_type_2", "one_working_mode": "no_type_1"}
+    for key, value in table.items():
+        if key == "working_modes":
+            continue
+        if not isinstance(value, bool):
+            raise InputError(f"conditions.{key}: {shown(value)} is neither true nor false; write one of them")
+        if value:
+            asked.add(same.get(key, key))
+    if not asked:
+        raise InputError(f"conditions: nothing is asked; set one of {', '.join(CONDITIONS)} to true")
+    modes = (0,) * len(machine.legs)
+    if "working_modes" in table:
+        words = list_field(table["working_modes"], "conditions.working_modes", len(machine.legs))
+        if len(words) != len(modes) or not all(word in ("+", "-") for word in words):
+            raise InputError(
+                f'conditions.working_modes: give {len(modes)} signs, one for each leg, such as ["+", "-", "+"]'
+            )
+        modes = tuple(1 if word == "+" else -1 for word in words)
+    return Conditions(tuple(name for name in CONDITIONS if name in asked), modes)
+
+
+def _answer(table: dict[str, Any], machine: RegionMachine) -> WantedAnswer:
+    known_keys(table, ("kind", "steps", "boxes", "shape", "about", "precision"), "answer")
+    kind = required(table, "kind", "answer.")
+    if kind not in ANSWERS:
+        raise InputError(f"answer.kind: {shown(kind)} is unknown; use one of: {', '.join(ANSWERS)}")
+    steps = _count(table.get("steps", DEFAULT_STEPS), "answer.steps", _MOST_STEPS)
+    boxes = _count(table.get("boxes", DEFAULT_BOXES), "answer.boxes", _MOST_BOXES)
+    if kind != "largest":
+        if given := [key for key in ("shape", "about", "precision") if key in table]:
+            raise InputError(f"answer.{given[0]}: belongs to the kind largest; remove it")
+        return WantedAnswer(kind, steps, boxes)
+    shape = required(table, "shape", "answer.")
+    if shape not in ("cube", "ball"):
+        raise InputError(f"answer.shape: {shown(shape)} is unknown; use one of: cube, ball")
+    about = _numbers(required(table, "about", "answer."), "answer.about", _dimension(machine))
+    precision = parse_positive(table.get("precision", "1/100"), "answer.precision")
+    if not Fraction(1, 10**6) <= precision <= 1:
+        raise InputError(f"answer.precision: {shown(precision)} is out of range; give a number from 1e-6 to 1")
+    return WantedAnswer(kind, steps, boxes, shape, about, precision)
+
+
+def _count(value: object, where: str, most: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= most:
+        raise InputError(f"{where}: {shown(value)} is out of range; give a whole number from 1 to {most}")
+    return value

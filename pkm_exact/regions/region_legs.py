@@ -1,0 +1,203 @@
+"""The legs of a robot as regions see them: base joint, platform joint, and what the actuator does between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, Final, TypeAlias
+
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.constraints.form import Form, Vector
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.chains import Crank, Slide
+from pkm_exact.geometry.inverse import Metric
+from pkm_exact.geometry.limits import Cones, Limits, Pair
+from pkm_exact.geometry.machine import Machine
+from pkm_exact.geometry.mechanism import Mechanism
+from pkm_exact.geometry.robot import Robot, jointed
+from pkm_exact.wording import shown
+
+PLUS: Final = 1
+MINUS: Final = -1
+_ZERO: Final = Fraction(0)
+
+
+@dataclass(frozen=True)
+class OwnLength:
+    """The leg's length is actuated."""
+
+
+@dataclass(frozen=True)
+class OnSlide:
+    """The lower end of a rod stands at A + q d.
+
+    Attributes
+    ----------
+    direction : vector of 3 Fraction
+    rod_squared : Fraction
+    """
+
+    direction: Vector
+    rod_squared: Fraction
+
+
+@dataclass(frozen=True)
+class OnCrank:
+    """The lower end of a rod stands at A + c u + s v, c^2 + w s^2 = 1, |v|^2 = w |u|^2, u.v = 0.
+
+    Attributes
+    ----------
+    at_0, at_90 : vector of 3 Fraction
+        u and v.
+    weight : int
+        w.
+    rod_squared : Fraction
+    """
+
+    at_0: Vector
+    at_90: Vector
+    weight: int
+    rod_squared: Fraction
+
+
+Actuator: TypeAlias = OwnLength | OnSlide | OnCrank
+
+
+@dataclass(frozen=True)
+class RegionLeg:
+    """A leg, or rod, from A (or what moves A) to the platform joint B.
+
+    Attributes
+    ----------
+    name : str
+    base, platform : vector of 3 Fraction
+    actuator : OwnLength, OnSlide or OnCrank
+    reach : pair of Fraction or None
+        Least and greatest length, position of the slide, or angle of the crank in degrees; None without a limit.
+    """
+
+    name: str
+    base: Vector
+    platform: Vector
+    actuator: Actuator
+    reach: Pair | None = None
+
+
+@dataclass(frozen=True)
+class RegionMachine:
+    """A robot whose joint values follow from its pose.
+
+    Attributes
+    ----------
+    name, unit, source : str
+    metric : tuple of 3 int
+    twist : tuple of int
+        Components of a twist that the platform is capable of.
+    legs : tuple of RegionLeg
+    forms : tuple of Form
+        Linear forms of joints that are not actuated: they must vanish all over a region.
+    base_cones, platform_cones : Cones or None
+    position : tuple of pairs
+        The box of the limits; empty if there is none.
+    """
+
+    name: str
+    unit: str
+    source: str
+    metric: Metric
+    motion: str
+    twist: tuple[int, ...]
+    legs: tuple[RegionLeg, ...]
+    forms: tuple[Form, ...] = ()
+    base_cones: Cones | None = None
+    platform_cones: Cones | None = None
+    position: tuple[Pair, ...] = ()
+
+
+def region_machine(machine: Machine) -> RegionMachine:
+    """The legs of a robot, with its limits.
+
+    Raises
+    ------
+    InputError
+        If joint values do not follow from the pose leg by leg, or a limit is not of a sort that regions know.
+    """
+    limits = machine.limits or Limits()
+    if limits.leg_distance is not None:
+        raise InputError("limits.leg_distance: regions do not know this limit; remove it from the model")
+    legs, forms = (
+        _mechanism_legs(machine, limits)
+        if isinstance(machine, Mechanism)
+        else (
+            _robot_legs(jointed(machine, "region"), limits),
+            (),
+        )
+    )
+    return RegionMachine(
+        machine.name,
+        machine.unit,
+        machine.source,
+        machine.metric,
+        machine.motion.name,
+        machine.motion.twist,
+        legs,
+        forms,
+        limits.base_cones,
+        limits.platform_cones,
+        limits.position,
+    )
+
+
+def _robot_legs(robot: Robot, limits: Limits) -> tuple[RegionLeg, ...]:
+    pairs: tuple[Pair | None, ...] = (
+        limits.lengths or limits.slides or limits.angles or (None,) * len(robot.base_joints)
+    )
+    chains: tuple[Any, ...] = robot.chains or (None,) * len(pairs)
+    found = []
+    rows = zip(robot.base_joints, robot.platform_joints, chains, pairs, strict=True)
+    for number, (base, platform, chain, pair) in enumerate(rows, 1):
+        actuator: Actuator = OwnLength()
+        if isinstance(chain, Slide):
+            actuator = OnSlide(chain.direction, chain.rod_squared)
+        elif isinstance(chain, Crank):
+            actuator = OnCrank(chain.at_0, chain.at_90, 1, chain.rod_squared)
+        found.append(RegionLeg(f"leg {number}", base, platform, actuator, pair))
+    return tuple(found)
+
+
+def _mechanism_legs(mechanism: Mechanism, limits: Limits) -> tuple[tuple[RegionLeg, ...], tuple[Form, ...]]:
+    """The legs of a mechanism: distances that are actuated, or whose base point is; all else is structure."""
+    moved = {part.constraint: (drive, part) for drive in getattr(mechanism, "drives", ()) for part in drive.parts}
+    lengths, slides, angles = list(limits.lengths), list(limits.slides), list(limits.angles)
+    legs, forms = [], []
+    for found in mechanism.constraints:
+        actuated = found.name in mechanism.actuated
+        if not actuated and found.name not in moved:
+            if found.squares(mechanism.metric):
+                raise InputError(
+                    f"constraint {shown(found.name)}: is a quadric, which regions do not know; ask of another"
+                )
+            forms += list(found.forms(mechanism.metric))
+            continue
+        if not isinstance(found, Distance):
+            raise InputError(
+                f"constraint {shown(found.name)}: is actuated and no distance; regions know legs of actuated length, "
+                "and rods on slides and cranks"
+            )
+        if actuated:
+            pair = lengths.pop(0) if lengths else None
+            legs.append(RegionLeg(found.name, found.base, found.platform, OwnLength(), pair))
+            continue
+        legs.append(_driven(found, *moved[found.name], slides, angles))
+    return tuple(legs), tuple(forms)
+
+
+def _driven(found: Distance, drive: Any, part: Any, slides: list[Pair], angles: list[Pair]) -> RegionLeg:
+    if part.field != "base" or len(drive.parts) != 1:
+        raise InputError(f"{shown(drive.name)}: moves more than the base point of one rod; ask of another robot")
+    if drive.is_crank:
+        u, v = part.axes
+        crank = OnCrank(u, v, drive.weight, found.length_squared)
+        return RegionLeg(found.name, found.base, found.platform, crank, angles.pop(0) if angles else None)
+    pair = slides.pop(0) if slides else None
+    return RegionLeg(found.name, found.base, found.platform, OnSlide(part.axes[0], found.length_squared), pair)

@@ -1,0 +1,65 @@
+"""Questions about regions: which poses, what is asked of them, and which answer is wanted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Final
+
+from pkm_exact.regions.chart import Chart
+from pkm_exact.regions.conditions import Conditions
+from pkm_exact.regions.shapes import Quadratic
+
+ANSWERS: Final = ("all", "map", "largest")
+DEFAULT_STEPS: Final = 30
+DEFAULT_BOXES: Final = 200_000
+
+
+@dataclass(frozen=True)
+class WantedAnswer:
+    """Which answer, and how much work may be done for it.
+
+    Attributes
+    ----------
+    kind : str
+        One of ``ANSWERS``.
+    steps : int
+        How often the region is halved at most.
+    boxes : int
+        How many undecided parts there may be at a time, in all.
+    shape : str
+        Of the answer "largest": "cube" or "ball".
+    about : tuple of Fraction
+        The middle of it, in ordinary coordinates.
+    precision : Fraction
+        Relative.
+    """
+
+    kind: str
+    steps: int = DEFAULT_STEPS
+    boxes: int = DEFAULT_BOXES
+    shape: str = "cube"
+    about: tuple[Fraction, ...] = ()
+    precision: Fraction = Fraction(1, 100)
+
+
+@dataclass(frozen=True)
+class RegionQuestion:
+    """A question.
+
+    Attributes
+    ----------
+    chart : Chart
+    shape : tuple of Quadratic
+        All of them are not negative in the region; none if it is the whole box of the chart.
+    conditions : Conditions
+    answer : WantedAnswer
+    enlarged : bool
+        Whether the region is a little larger than asked, as its numbers are not rational in the model.
+    """
+
+    chart: Chart
+    shape: tuple[Quadratic, ...]
+    conditions: Conditions
+    answer: WantedAnswer
+    enlarged: bool = field(default=False)

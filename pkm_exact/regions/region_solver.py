@@ -1,0 +1,348 @@
+"""Answers to questions about regions: all of it, a map, the largest cube or ball."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import product
+from typing import Any, Final, Protocol
+
+from pkm_exact.regions.chart import POSITIONS, Polynomial
+from pkm_exact.regions.compiled import CompiledFormula, compiled_formula
+from pkm_exact.regions.conditions import Asked, asked_of
+from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some, atoms_of
+from pkm_exact.regions.paving import (
+    INSIDE,
+    OUTSIDE,
+    UNDECIDED,
+    Part,
+    Paved,
+    depths_at,
+    halving_axes,
+    leaves,
+    pave,
+    spliced,
+)
+from pkm_exact.regions.region_legs import RegionMachine
+from pkm_exact.regions.region_points import Counterexample, CounterexampleSearch, Point, PointJudge
+from pkm_exact.regions.region_question import RegionQuestion
+from pkm_exact.regions.shapes import Quadratic
+
+HEAD_STEPS: Final = 8
+"""Halvings before the parts become jobs of their own: at most 2^8 of them."""
+_LOOKED_AT: Final = 24
+"""Parts of a depth, or of a job, in which a counterexample is looked for."""
+
+
+class Store(Protocol):
+    """What was done before an interruption."""
+
+    records: list[dict[str, Any]]
+
+    def add(self, record: dict[str, Any]) -> None:
+        """Keep a record."""
+        ...
+
+
+@dataclass(frozen=True)
+class RegionAnswer:
+    """What was proved of a region.
+
+    Attributes
+    ----------
+    question : RegionQuestion
+    machine : RegionMachine
+    axes : tuple of int
+        Along which variable the parts of each depth were halved.
+    word : str
+        The paving (``paving``): of the answer "all" a part is inside if all its poses that lie in the region are good;
+        of a map if all its poses lie in the region and are good.
+    counterexample : Counterexample or None
+        Then the answer is no.
+    """
+
+    question: RegionQuestion
+    machine: RegionMachine
+    axes: tuple[int, ...]
+    word: str
+    counterexample: Counterexample | None = None
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether all of the region is proved to be good."""
+        return self.counterexample is None and UNDECIDED not in self.word and OUTSIDE not in self.word
+
+    @cached_property
+    def counts(self) -> dict[str, int]:
+        """Parts inside, outside and undecided."""
+        return {name: self.word.count(letter) for letter, name in _NAMES.items()}
+
+    @cached_property
+    def shares(self) -> dict[str, Fraction]:
+        """The same as shares of the box of the chart, exactly."""
+        found = dict.fromkeys(_NAMES.values(), Fraction(0))
+        for letter, part in leaves(self.word, self.axes, len(self.question.chart.variables)):
+            found[_NAMES[letter]] += Fraction(1, 1 << part.depth)
+        return found
+
+    @property
+    def measures(self) -> tuple[Fraction, Fraction] | None:
+        """Bounds of what is good: length, area or volume in rational coordinates; None if orientations vary.
+
+        The ordinary measure is that times the square root of ``measure_square``.
+        """
+        chart = self.question.chart
+        if not chart.has_fixed_orientation or self.question.answer.kind != "map":
+            return None
+        size = Fraction(1)
+        for low, high in chart.box:
+            size *= high - low
+        return size * self.shares["inside"], size * (self.shares["inside"] + self.shares["undecided"])
+
+    @property
+    def measure_square(self) -> int:
+        """The product of the metric over the variables."""
+        square = 1
+        for name in self.question.chart.variables:
+            square *= self.machine.metric[POSITIONS.index(name)] if name in POSITIONS else 1
+        return square
+
+
+_NAMES: Final = {INSIDE: "inside", OUTSIDE: "outside", UNDECIDED: "undecided"}
+
+
+@dataclass(frozen=True, eq=False)
+class PreparedQuestion:
+    """A question as formulas, exact and in doubles."""
+
+    asked: Asked
+    region: Formula
+    compiled: CompiledFormula
+    axes: tuple[int, ...]
+    question: RegionQuestion
+
+    @property
+    def box(self) -> tuple[tuple[Fraction, Fraction], ...]:
+        """That of the chart."""
+        return self.question.chart.box
+
+
+def prepared(machine: RegionMachine, question: RegionQuestion) -> PreparedQuestion:
+    """A question made ready to be answered.
+
+    Raises
+    ------
+    InputError
+        If it is not one that regions know, or the robot's joints do not allow the region.
+    """
+    chart = question.chart
+    asked = asked_of(machine, chart, question.conditions)
+    shape = tuple(_inside(part, asked) for part in question.shape)
+    region: Formula = All(shape)
+    if question.answer.kind == "map":
+        formula: Formula = All((*shape, asked.formula))
+    else:
+        beyond = tuple(Atom("beyond the region", -atom.polynomial, Sign.POSITIVE) for atom in shape)
+        formula = Some((*beyond, asked.formula)) if beyond else asked.formula
+    size = max([abs(x) for leg in machine.legs for x in leg.platform] + [Fraction(0)]) or Fraction(1)
+    weights = []
+    for name, (low, high) in zip(chart.variables, chart.box, strict=True):
+        scale = machine.metric[POSITIONS.index(name)] if name in POSITIONS else size * size
+        weights.append((high - low) ** 2 * scale)
+    axes = halving_axes(weights, question.answer.steps)
+    atoms = {id(atom): atom for atom in atoms_of(formula)}
+    ready = compiled_formula(formula, list(atoms.values()), asked.roots, chart.box)
+    return PreparedQuestion(asked, region, ready, axes, question)
+
+
+def _inside(quadratic: Quadratic, asked: Asked) -> Atom:
+    """N^2 times a quadratic of the position."""
+    pose = asked.pose
+    total: Polynomial = pose.constant(quadratic.constant) * pose.norm * pose.norm
+    for c, slope, weight in zip(pose.position, quadratic.linear, quadratic.weights, strict=True):
+        total += pose.constant(slope) * c * pose.norm - pose.constant(weight) * c * c
+    return Atom("in the region", total)
+
+
+def points_of(box: Sequence[tuple[Fraction, Fraction]], axes: Sequence[int], part: Part) -> list[Point]:
+    """The middle of a part, and its corners."""
+    depths = depths_at(axes, part.depth, len(box))
+    ends = [
+        (low + (high - low) * Fraction(place, 1 << depth), low + (high - low) * Fraction(place + 1, 1 << depth))
+        for (low, high), place, depth in zip(box, part.places, depths, strict=True)
+    ]
+    return [tuple((low + high) / 2 for low, high in ends), *product(*ends)]
+
+
+Run = Callable[[PreparedQuestion, Sequence[Part]], Iterator[Paved]]
+
+
+def in_this_process(ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
+    """Pave parts one after another."""
+    return (pave_part(ready, part) for part in parts)
+
+
+def pave_part(ready: PreparedQuestion, part: Part) -> Paved:
+    """The paving of a part that is a job of its own: it depends on nothing but the question and the part."""
+    answer = ready.question.answer
+    share = max(16, answer.boxes >> min(HEAD_STEPS, part.depth))
+    stop = answer.kind != "map"
+    return pave(ready.compiled, ready.axes, part, answer.steps, most=share, stop_outside=stop)
+
+
+def answered(
+    machine: RegionMachine,
+    question: RegionQuestion,
+    *,
+    run: Run = in_this_process,
+    store: Store | None = None,
+    progress: Callable[[Fraction], None] | None = None,
+) -> RegionAnswer:
+    """The answer to a question of the kinds "all" and "map".
+
+    Parameters
+    ----------
+    machine : RegionMachine
+    question : RegionQuestion
+    run : callable
+        Paves parts, in their order, here or elsewhere.
+    store : Store, optional
+        Gets the paving of each part; those in it are not paved again.
+    progress : callable, optional
+        Gets the share of the jobs that are done.
+
+    Raises
+    ------
+    InputError
+        As ``prepared``.
+    """
+    ready = prepared(machine, question)
+    search = CounterexampleSearch(PointJudge(ready.asked, ready.region))
+    is_map = question.answer.kind == "map"
+    start = Part(0, (0,) * len(ready.box))
+    last = min(HEAD_STEPS, question.answer.steps)
+    head = pave(ready.compiled, ready.axes, start, last, most=question.answer.boxes, stop_outside=not is_map)
+    if not is_map:
+        _look(search, ready, head.word, start)
+    result = RegionAnswer(question, machine, ready.axes, head.word, search.found)
+    if search.found is not None or not head.open_parts or last == question.answer.steps:
+        return result
+    parts = [part for letter, part in leaves(head.word, ready.axes, len(ready.box)) if letter == UNDECIDED]
+    words = [record["word"] for record in store.records] if store is not None else []
+    for number, paved in enumerate(run(ready, parts[len(words) :]), len(words)):
+        words.append(paved.word)
+        if store is not None:
+            store.add({"part": number, "word": paved.word})
+        if progress is not None:
+            progress(Fraction(number + 1, len(parts)))
+    if not is_map:
+        for part, word in zip(parts, words, strict=True):
+            if search.found is None:
+                _look(search, ready, word, part)
+    return replace(result, word=spliced(head.word, words), counterexample=search.found)
+
+
+def _look(search: CounterexampleSearch, ready: PreparedQuestion, word: str, start: Part) -> None:
+    """Look for a counterexample in parts that are not inside: first where they are outside."""
+    found = leaves_below(word, ready.axes, start)
+    for wanted in (OUTSIDE, UNDECIDED):
+        chosen = [part for letter, part in found if letter == wanted]
+        step = max(1, len(chosen) // _LOOKED_AT)
+        for part in chosen[::step][: _LOOKED_AT + 1]:
+            search.look_at(points_of(ready.box, ready.axes, part))
+            if search.found is not None:
+                return
+
+
+def leaves_below(word: str, axes: Sequence[int], start: Part) -> list[tuple[str, Part]]:
+    """The parts of a paving of a part."""
+    return leaves(word, axes, len(start.places), start)
+
+
+@dataclass(frozen=True)
+class LargestAnswer:
+    """The largest cube or ball that is proved, and the smallest size that is not.
+
+    Attributes
+    ----------
+    proved : RegionAnswer or None
+        Of the largest size for which all is proved; None if no size was.
+    size : Fraction
+        Its edge or radius; 0 if none was.
+    refused : RegionAnswer or None
+        Of the smallest size that was not proved; None if all were.
+    refused_size : Fraction or None
+    """
+
+    proved: RegionAnswer | None
+    size: Fraction
+    refused: RegionAnswer | None
+    refused_size: Fraction | None
+
+
+def largest(
+    machine: RegionMachine,
+    question: RegionQuestion,
+    resized: Callable[[Fraction], RegionQuestion],
+    *,
+    run: Run = in_this_process,
+    progress: Callable[[Fraction, bool], None] | None = None,
+) -> LargestAnswer:
+    """The largest cube or ball about a pose for which all is proved, to the precision of the question.
+
+    Parameters
+    ----------
+    machine : RegionMachine
+    question : RegionQuestion
+    resized : callable
+        The question of another size.
+    run : callable
+    progress : callable, optional
+        Gets each size and whether it was proved.
+    """
+    proved: RegionAnswer | None = None
+    refused: RegionAnswer | None = None
+    low, high = Fraction(0), None
+    size = _first_size(machine)
+    for _ in range(200):
+        answer = answered(machine, resized(size), run=run)
+        if progress is not None:
+            progress(size, answer.is_proved)
+        if answer.is_proved:
+            proved, low = answer, size
+        else:
+            refused, high = answer, size
+        if high is None:
+            size = 2 * low
+        elif low == 0:
+            size = high / 2
+        elif high - low <= question.answer.precision * low:
+            break
+        else:
+            size = _between(low, high)
+        if size > _first_size(machine) * 2**12 or size < _first_size(machine) / 2**40:
+            break
+    return LargestAnswer(proved, low, refused, high)
+
+
+def _between(low: Fraction, high: Fraction) -> Fraction:
+    """The middle, with few bits."""
+    middle, gap = (low + high) / 2, high - low
+    grid = 1
+    while grid * gap < 16:
+        grid *= 2
+    rounded = Fraction(round(middle * grid), grid)
+    return rounded if low < rounded < high else middle
+
+
+def _first_size(machine: RegionMachine) -> Fraction:
+    """A power of two near the size of the robot."""
+    size = max([abs(x) for leg in machine.legs for x in (*leg.base, *leg.platform)] + [Fraction(0)]) or Fraction(1)
+    found = Fraction(1)
+    while found > size:
+        found /= 2
+    while 2 * found <= size:
+        found *= 2
+    return found
