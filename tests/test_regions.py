@@ -135,19 +135,21 @@ def test_the_determinant_is_that_of_the_legs() -> None:
 def _rows(
     machine: RegionMachine, c: Sequence[Fraction], quaternion: Sequence[Fraction], modes: Sequence[int]
 ) -> tuple[np.ndarray, bool]:
-    rotation = np.array(rotation_of(tuple(quaternion)), dtype=float)  # type: ignore[arg-type]
+    g = np.sqrt(np.array(machine.metric, dtype=float))
+    rotation = np.array(rotation_of(tuple(quaternion), machine.metric), dtype=float)  # type: ignore[arg-type]
+    rotation = rotation * g[:, None] / g
     rows, reached = [], True
     for leg, mode in zip(machine.legs, modes, strict=True):
-        arm = rotation @ np.array(leg.platform, dtype=float)
-        tip, knee = np.array(c, dtype=float) + arm, np.array(leg.base, dtype=float)
+        arm = rotation @ (np.array(leg.platform, dtype=float) * g)
+        tip, knee = np.array(c, dtype=float) * g + arm, np.array(leg.base, dtype=float) * g
         e, actuator = tip - knee, leg.actuator
         if hasattr(actuator, "direction"):
-            d = np.array(actuator.direction, dtype=float)
+            d = np.array(actuator.direction, dtype=float) * g
             square = (d @ e) ** 2 - d @ d * (e @ e - float(actuator.rod_squared))
             reached &= bool(square >= 0)
             knee = knee + (d @ e + mode * sqrt(max(square, 0))) / (d @ d) * d
         elif hasattr(actuator, "at_0"):
-            u, v = np.array(actuator.at_0, dtype=float), np.array(actuator.at_90, dtype=float)
+            u, v = np.array(actuator.at_0, dtype=float) * g, np.array(actuator.at_90, dtype=float) * g
             a, p, h = 2 * u @ e, 2 * v @ e, e @ e + u @ u - float(actuator.rod_squared)
             square = a * a + p * p - h * h
             reached &= bool(square >= 0)
