@@ -21,10 +21,10 @@ from pkm_exact.cli.main import main
 from pkm_exact.geometry.inverse import rotation_of
 from pkm_exact.regions.bernstein import bernstein_coefficients, error_factor, on_sub_boxes, subdivision_matrices
 from pkm_exact.regions.chart import Chart
-from pkm_exact.regions.conditions import Conditions, asked_of
 from pkm_exact.regions.paving import leaves
 from pkm_exact.regions.question_reader import of_size, question_from_toml
 from pkm_exact.regions.region_components import components
+from pkm_exact.regions.region_conditions import Conditions, asked_of
 from pkm_exact.regions.region_legs import OnCrank, RegionLeg, RegionMachine, region_machine
 from pkm_exact.regions.region_points import PointJudge
 from pkm_exact.regions.region_solver import RegionAnswer, answered, largest

@@ -19,10 +19,10 @@ from pkm_exact.geometry.rational import parse_positive, parse_rational
 from pkm_exact.geometry.reader import parsed_toml
 from pkm_exact.precision import working_precision
 from pkm_exact.regions.chart import POSITIONS, TURNS, Chart
-from pkm_exact.regions.conditions import CONDITIONS, Conditions
+from pkm_exact.regions.region_conditions import CONDITIONS, Conditions
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_question import ANSWERS, DEFAULT_BOXES, DEFAULT_STEPS, RegionQuestion, WantedAnswer
-from pkm_exact.regions.shapes import Quadratic, in_model, polygon_shape, round_shape, side
+from pkm_exact.regions.region_shapes import Quadratic, in_model, polygon_shape, round_shape, side
 from pkm_exact.wording import printable, shown
 
 _TABLES: Final = ("region", "conditions", "answer")

@@ -11,8 +11,8 @@ from flint import arb
 
 from pkm_exact.precision import working_precision
 from pkm_exact.regions.chart import Polynomial, rational
-from pkm_exact.regions.conditions import Asked
 from pkm_exact.regions.formula import All, Atom, Formula, Sign
+from pkm_exact.regions.region_conditions import Asked
 
 Point = tuple[Fraction, ...]
 

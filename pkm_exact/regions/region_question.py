@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Final
 
 from pkm_exact.regions.chart import Chart
-from pkm_exact.regions.conditions import Conditions
-from pkm_exact.regions.shapes import Quadratic
+from pkm_exact.regions.region_conditions import Conditions
+from pkm_exact.regions.region_shapes import Quadratic
 
 ANSWERS: Final = ("all", "map", "largest")
 DEFAULT_STEPS: Final = 30

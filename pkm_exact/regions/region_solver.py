@@ -11,7 +11,6 @@ from typing import Any, Final, Protocol
 
 from pkm_exact.regions.chart import POSITIONS, Polynomial
 from pkm_exact.regions.compiled import CompiledFormula, compiled_formula
-from pkm_exact.regions.conditions import Asked, asked_of
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some, atoms_of
 from pkm_exact.regions.paving import (
     INSIDE,
@@ -25,10 +24,11 @@ from pkm_exact.regions.paving import (
     pave,
     spliced,
 )
+from pkm_exact.regions.region_conditions import Asked, asked_of
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_points import Counterexample, CounterexampleSearch, Point, PointJudge
 from pkm_exact.regions.region_question import RegionQuestion
-from pkm_exact.regions.shapes import Quadratic
+from pkm_exact.regions.region_shapes import Quadratic
 
 HEAD_STEPS: Final = 8
 """Halvings before the parts become jobs of their own: at most 2^8 of them."""
