@@ -13,7 +13,15 @@ from certificate_subjects import SUBJECTS, subject
 from certificate_tools import CERTS, golden, leaves, with_entry
 from mutations import FREE
 
-from pkm_exact.certify import build, build_constraints, mobility_build, pure, system_build, tolerance_build
+from pkm_exact.certify import (
+    build,
+    build_constraints,
+    mobility_build,
+    pure,
+    region_build,
+    system_build,
+    tolerance_build,
+)
 from pkm_exact.certify.build import sealed
 from pkm_exact.certify.checker import document, tolerance_document, verdict
 from pkm_exact.certify.checker.certificate_kinds import KINDS, CertificateKind
@@ -22,6 +30,7 @@ POSES, TOLERANCES = "certificate-1.schema.json", "tolerance-certificate-1.schema
 SECOND = "certificate-2.schema.json"
 MOBILITY = "mobility-certificate-1.schema.json"
 SYSTEMS = "system-certificate-1.schema.json"
+REGIONS = "region-certificate-1.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
 
@@ -39,7 +48,7 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(_schema(name))
 
 
-@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY])
+@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, REGIONS])
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
 
@@ -175,6 +184,16 @@ def test_the_page_of_mobility_defines_every_key_in_its_order() -> None:
     assert _tables("Format", "## Checks", "certificates-mobility.md") == [_keys(part) for part in parts]
 
 
+def test_the_page_of_regions_defines_every_key_in_its_order() -> None:
+    root = _schema(REGIONS)
+    assert _tables("Format", "## Robot and chart", "certificates-regions.md") == [_keys(root)]
+    page = (CERTS.parent / "docs" / "certificates-regions.md").read_text()
+    words = [key for part in ("robot", "chart") for key in root["properties"][part]["properties"]]
+    words += [key for part in ("leg", "slide", "crank", "cone") for key in root["$defs"][part]["properties"]]
+    assert all(f"`{word}`" in page or word in page for word in words)
+    assert all(f'"{word}"' in page for word in root["properties"]["claim"]["enum"])
+
+
 def test_words_and_limits_are_the_same_everywhere() -> None:
     root = _schema(POSES)["properties"]
     for words, key in ((document.METHODS, "method"), (document.CLAIMS, "claim")):
@@ -190,7 +209,7 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
-    writers = (build, build_constraints, tolerance_build, system_build, mobility_build)
+    writers = (build, build_constraints, tolerance_build, system_build, mobility_build, region_build)
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

@@ -2699,6 +2699,7 @@ def boxes_listed(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
 # ---------------------------------------------------------------------------------------------------------------------
 
 TOLERANCE_FORMAT: Final = "pkm_exact tolerance certificate"
+REGION_FORMAT: Final = "pkm_exact region certificate"
 TOLERANCE_KEYS: Final = "format version robot configuration tolerances frames exponent boxes unproved pairs complete"
 MAX_TOLERANCE_GRID: Final = 4096
 MAX_CENTRE_BITS: Final = 256  # before the point
@@ -3409,6 +3410,8 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
         return checks_beside("pure_system", "a system certificate")(body)
     if body.get("format") == MOBILITY_FORMAT:
         return checks_beside("pure_mobility", "a mobility certificate")(body)
+    if next(iter(body.items()), None) == ("format", REGION_FORMAT):
+        return checks_beside("pure_region", "a region certificate")(body)
     if body.get("version") == 2 and type(body["version"]) is int:
         return checks_beside("pure_mechanism", "version 2")(body)
     return checks(read(body))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.stages import Amount
 
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 @click.command(short_help="Is all of a region of poses good? Or where is it?")
 @click.argument("model", type=arguments.FilePath())
 @click.argument("question", type=arguments.FilePath(), metavar="QUESTION.toml")
+@click.option(
+    "-o", "--output", type=arguments.FilePath(), metavar="CERT.json", help="Write the certificate to this file."
+)
 @click.option(
     "--format",
     "layout",
@@ -39,16 +42,20 @@ if TYPE_CHECKING:
     "--picture", type=arguments.FilePath(), metavar="FILE", help="Draw the paving: a .png, .svg or .pdf file."
 )
 @click.option("-v", "--verbose", is_flag=True, help="Say more: the share of the work that is done.")
-def region(model: str, question: str, layout: str, workers: int, picture: str | None, verbose: bool) -> int:
+def region(
+    model: str, question: str, output: str | None, layout: str, workers: int, picture: str | None, verbose: bool
+) -> int:
     """Answer a question about all poses of a region of the robot in the file MODEL.
 
     QUESTION.toml says which region ([region]: a box, ball, cylinder or prism of positions, with a fixed orientation or
     intervals of angles), what is asked of its poses ([conditions]: reachable, limits, no_type_1, no_type_2), and which
     answer is wanted ([answer]: all of it proved or a counterexample; a map; the largest cube or ball).
 
+    With -o an interrupted run leaves CERT.json.partial; the same command goes on from there, to the same bytes.
+
     \b
     Example:
-      certify-poses region models/rolland-6-6.toml cube.toml
+      certify-poses region models/rolland-6-6.toml cube.toml -o cube.json
 
     Exit codes: 0 answered, be it yes, no, or a map; 3 undecided for the work allowed. Others as for certify-poses.
     """
@@ -62,15 +69,16 @@ def region(model: str, question: str, layout: str, workers: int, picture: str | 
     except InputError as error:
         raise InputError(f"{model}: {error}") from None
     asked = read_question(question, machine)
-    if picture is not None:
-        arguments.require_other_file(Path(picture), model, "--picture")
-        arguments.require_other_file(Path(picture), question, "--picture", "the question")
-        arguments.require_writable(Path(picture), "--picture")
+    for path, option in ((output, "-o"), (picture, "--picture")):
+        if path is not None:
+            arguments.require_other_file(Path(path), model, option)
+            arguments.require_other_file(Path(path), question, option, "the question")
+            arguments.require_writable(Path(path), option)
     from pkm_exact.interactive.progress import Progress
 
     try:
         with Progress(verbose=verbose) as progress:
-            answer = _answer(machine, asked, workers, progress)
+            answer = _answer(machine, asked, workers, output, progress)
     except InputError as error:
         raise InputError(f"{question}: {error}") from None
     from pkm_exact.cli import region_report
@@ -83,7 +91,7 @@ def region(model: str, question: str, layout: str, workers: int, picture: str | 
 
 
 def _answer(
-    machine: RegionMachine, asked: RegionQuestion, count: int, progress: Progress
+    machine: RegionMachine, asked: RegionQuestion, count: int, output: str | None, progress: Progress
 ) -> RegionAnswer | LargestAnswer:
     from pkm_exact.regions.question_reader import of_size
     from pkm_exact.regions.region_solver import answered, largest
@@ -94,9 +102,14 @@ def _answer(
 
     with workers(machine, count) as run:
         if asked.answer.kind == "largest":
-            return largest(machine, asked, lambda size: of_size(asked, machine, size), run=run, progress=shown)
+            answer = largest(machine, asked, lambda size: of_size(asked, machine, size), run=run, progress=shown)
+            if output is not None and answer.proved is not None:
+                _write(answer.proved, output)
+            return answer
         progress("paving the region")
-        return answered(machine, asked, run=run, progress=_shares(progress))
+        if output is None:
+            return answered(machine, asked, run=run, progress=_shares(progress))
+        return _stored(machine, asked, run, output, progress)
 
 
 def _shares(progress: Progress) -> Any:
@@ -104,3 +117,30 @@ def _shares(progress: Progress) -> Any:
         progress.amount(Amount(share.numerator, share.denominator, "of the parts"))
 
     return shown
+
+
+def _stored(machine: RegionMachine, asked: RegionQuestion, run: Any, output: str, progress: Progress) -> RegionAnswer:
+    import pkm_exact
+    from pkm_exact.cli.track_store import TrackStore
+    from pkm_exact.regions.region_solver import answered
+
+    job = repr((pkm_exact.__version__, machine, asked))
+    with TrackStore(Path(output), job) as store:
+        try:
+            answer = answered(machine, asked, run=run, store=store, progress=_shares(progress))
+        except InputError:
+            store.remove()
+            raise
+        except KeyboardInterrupt:
+            click.echo(f"{PROGRAM}: interrupted; the same command goes on", err=True)
+            raise
+        _write(answer, output)
+        store.remove()
+    return answer
+
+
+def _write(answer: RegionAnswer, output: str) -> None:
+    from pkm_exact.certify.build import canonical_bytes
+    from pkm_exact.certify.region_build import region_certificate
+
+    arguments.write_output(output, canonical_bytes(region_certificate(answer)))

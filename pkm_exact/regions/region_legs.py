@@ -10,6 +10,7 @@ from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Form, Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, Slide
+from pkm_exact.geometry.drives import Drive, Part
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.limits import Cones, Limits, Pair
 from pkm_exact.geometry.machine import Machine
@@ -167,37 +168,45 @@ def _robot_legs(robot: Robot, limits: Limits) -> tuple[RegionLeg, ...]:
 
 def _mechanism_legs(mechanism: Mechanism, limits: Limits) -> tuple[tuple[RegionLeg, ...], tuple[Form, ...]]:
     """The legs of a mechanism: distances that are actuated, or whose base point is; all else is structure."""
-    moved = {part.constraint: (drive, part) for drive in getattr(mechanism, "drives", ()) for part in drive.parts}
-    lengths, slides, angles = list(limits.lengths), list(limits.slides), list(limits.angles)
+    moved = {part.constraint: (drive, part) for drive in mechanism.drives for part in drive.parts}
+    reach = _reach(mechanism, limits)
     legs, forms = [], []
     for found in mechanism.constraints:
         actuated = found.name in mechanism.actuated
         if not actuated and found.name not in moved:
             if found.squares(mechanism.metric):
                 raise InputError(
-                    f"constraint {shown(found.name)}: is a quadric, which regions do not know; ask of another"
+                    f"constraint {shown(found.name)}: is a quadric, which regions do not know; ask of another robot"
                 )
             forms += list(found.forms(mechanism.metric))
             continue
-        if not isinstance(found, Distance):
+        if not isinstance(found, Distance) or (actuated and found.name in moved):
             raise InputError(
-                f"constraint {shown(found.name)}: is actuated and no distance; regions know legs of actuated length, "
-                "and rods on slides and cranks"
+                f"constraint {shown(found.name)}: regions know legs of actuated length, and rods on one slide or "
+                "crank; ask of another robot"
             )
         if actuated:
-            pair = lengths.pop(0) if lengths else None
-            legs.append(RegionLeg(found.name, found.base, found.platform, OwnLength(), pair))
+            legs.append(RegionLeg(found.name, found.base, found.platform, OwnLength(), reach.get(found.name)))
             continue
-        legs.append(_driven(found, *moved[found.name], slides, angles))
+        legs.append(_driven(found, *moved[found.name], reach))
     return tuple(legs), tuple(forms)
 
 
-def _driven(found: Distance, drive: Any, part: Any, slides: list[Pair], angles: list[Pair]) -> RegionLeg:
+def _reach(mechanism: Mechanism, limits: Limits) -> dict[str, Pair]:
+    """The limits of the actuators, by their names."""
+    found: dict[str, Pair] = {}
+    for sort in ("lengths", "slides", "angles"):
+        names = [name for name in mechanism.actuated if mechanism.sort_of(name) == sort]
+        pairs: tuple[Pair, ...] = getattr(limits, sort)
+        found |= dict(zip(names, pairs, strict=bool(pairs)))
+    return found
+
+
+def _driven(found: Distance, drive: Drive, part: Part, reach: dict[str, Pair]) -> RegionLeg:
     if part.field != "base" or len(drive.parts) != 1:
         raise InputError(f"{shown(drive.name)}: moves more than the base point of one rod; ask of another robot")
+    axes: Any = part.axes
+    actuator: Actuator = OnSlide(axes[0], found.length_squared)
     if drive.is_crank:
-        u, v = part.axes
-        crank = OnCrank(u, v, drive.weight, found.length_squared)
-        return RegionLeg(found.name, found.base, found.platform, crank, angles.pop(0) if angles else None)
-    pair = slides.pop(0) if slides else None
-    return RegionLeg(found.name, found.base, found.platform, OnSlide(part.axes[0], found.length_squared), pair)
+        actuator = OnCrank(*axes, drive.weight, found.length_squared)
+    return RegionLeg(found.name, found.base, found.platform, actuator, reach.get(drive.name))

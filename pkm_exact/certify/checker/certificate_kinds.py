@@ -16,6 +16,8 @@ from pkm_exact.certify.checker.mechanism_solutions import check_solutions
 from pkm_exact.certify.checker.mobility_checks import check_mobility
 from pkm_exact.certify.checker.mobility_document import read_mobility
 from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
+from pkm_exact.certify.checker.region_document import read_region
+from pkm_exact.certify.checker.region_paving_check import check_region
 from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
 from pkm_exact.certify.checker.system_document import read_system_document
 from pkm_exact.certify.checker.system_verdicts import check_system
@@ -27,6 +29,7 @@ POSES: Final = "pkm_exact certificate"
 TOLERANCES: Final = "pkm_exact tolerance certificate"
 SYSTEMS: Final = "pkm_exact system certificate"
 MOBILITY: Final = "pkm_exact mobility certificate"
+REGIONS: Final = "pkm_exact region certificate"
 
 
 @dataclass(frozen=True)
@@ -92,4 +95,5 @@ KINDS: Final = (
     CertificateKind(TOLERANCES, 1, lambda body: check_tolerances(read_tolerances(body))),
     CertificateKind(SYSTEMS, 1, lambda body: check_system(read_system_document(body))),
     CertificateKind(MOBILITY, 1, lambda body: check_mobility(read_mobility(body))),
+    CertificateKind(REGIONS, 1, lambda body: check_region(read_region(body))),
 )

@@ -1,0 +1,328 @@
+"""The conditions of a region certificate as polynomials, from the robot and the chart alone (``docs/regions.md``)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from flint import Ordering, fmpq, fmpq_mpoly_ctx
+
+from pkm_exact.certify.checker.budget import charge, polynomials_cost
+from pkm_exact.certify.checker.region_document import SQUARED_COSINES, Cone, LegEntry, RegionDocument
+from pkm_exact.certify.checker.verdict import malformed, rejected
+
+
+@dataclass(frozen=True, eq=False)
+class Test:
+    """A polynomial and what its sign must be: "+" positive, "0+" not negative, "/" not 0."""
+
+    polynomial: Any
+    sign: str
+
+
+Condition = Any
+"""A ``Test``, or ("and", conditions) or ("or", conditions)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Conditions:
+    """What is asked; the parts of the shape, not negative in the region; the D_i; the determinant."""
+
+    asked: Condition
+    shape: tuple[Test, ...]
+    roots: tuple[Any, ...]
+    determinant: Any
+
+
+class _Algebra:
+    """Polynomials of the variables of a chart and of y_1, y_2, ..: products are charged before they are made."""
+
+    def __init__(self, document: RegionDocument) -> None:
+        names = [*document.variables, *(f"y{k}" for k, leg in enumerate(document.legs) if leg.axes)]
+        self.ring = fmpq_mpoly_ctx.get(tuple(names), Ordering.lex)
+        self.named = dict(zip(names, self.ring.gens(), strict=True))
+        self.g = document.metric
+
+    def number(self, value: Fraction | int) -> Any:
+        exact = Fraction(value)
+        return self.ring.constant(fmpq(exact.numerator, exact.denominator))
+
+    def entry(self, value: Fraction | str) -> Any:
+        return self.named[value] if isinstance(value, str) else self.number(value)
+
+    def times(self, left: Any, right: Any) -> Any:
+        charge(polynomials_cost(max(len(left), len(right), 1), 8 * min(len(left), len(right), 64) + 1))
+        return left * right
+
+    def dot(self, left: Sequence[Any], right: Sequence[Any]) -> Any:
+        terms = [g * self.times(a, b) for g, a, b in zip(self.g, left, right, strict=True)]
+        return terms[0] + terms[1] + terms[2]
+
+
+class RegionEquations:
+    """The polynomials of a certificate."""
+
+    def __init__(self, document: RegionDocument) -> None:
+        self._document, self._ring = document, _Algebra(document)
+        self.norm, self._rotation = self._pose()
+        ring = self._ring
+        self._center = [ring.times(self.norm, ring.entry(value)) for value in document.place]
+
+    def conditions(self) -> Conditions:
+        """All of them.
+
+        Raises
+        ------
+        Refusal
+            If a form of the robot does not vanish all over the chart, or working modes are asked for and not named.
+        """
+        document, ring = self._document, self._ring
+        if any(not self._form_value(form).is_zero() for form in document.forms):
+            raise rejected("chart: its poses are not all among those that the joints of the robot allow")
+        legs = [self._leg(leg, k) for k, leg in enumerate(document.legs)]
+        parts: list[Condition] = [Test(leg.root, "0+") for leg in legs if leg.root is not None]
+        if "limits" in document.conditions:
+            for entry, leg in zip(document.legs, legs, strict=True):
+                parts += self._reach(entry, leg)
+            for cones, side in ((document.base_cones, "base"), (document.platform_cones, "platform")):
+                parts += [self._cone(cone, leg, side) for cone, leg in zip(cones, legs, strict=False)]
+            for c, (low, high) in zip(self._center, document.position, strict=False):
+                parts += [
+                    Test(c - ring.number(low) * self.norm, "0+"),
+                    Test(ring.number(high) * self.norm - c, "0+"),
+                ]
+        if "no_type_1" in document.conditions:
+            parts += [Test(leg.value[0] if leg.root is None else leg.root, "+") for leg in legs]
+        determinant = None
+        if "no_type_2" in document.conditions:
+            determinant = self._determinant(legs)
+            parts.append(Test(determinant, "/"))
+        shape = tuple(Test(self._shape(part), "0+") for part in document.shape)
+        return Conditions(("and", parts), shape, tuple(x.root for x in legs if x.root is not None), determinant)
+
+    def _pose(self) -> tuple[Any, list[list[Any]]]:
+        document, ring = self._document, self._ring
+        if document.quaternion is not None:
+            return ring.number(1), _rotation_of(document.quaternion, document.metric, ring)
+        norm, rotation = ring.number(1), None
+        for axis, turn in enumerate(document.turns):
+            c, s = (ring.number(1), ring.entry(turn[0])) if len(turn) == 1 else map(ring.entry, turn)
+            i, j = (axis + 1) % 3, (axis + 2) % 3
+            tail = document.metric[i] * document.metric[j] * s * s
+            matrix = [[ring.number(0)] * 3 for _ in range(3)]
+            matrix[axis][axis], matrix[i][i], matrix[j][j] = c * c + tail, c * c - tail, c * c - tail
+            matrix[i][j], matrix[j][i] = -2 * document.metric[j] * c * s, 2 * document.metric[i] * c * s
+            norm = ring.times(norm, c * c + tail)
+            rotation = matrix if rotation is None else self._matrix_product(matrix, rotation)
+        return norm, rotation or []
+
+    def _matrix_product(self, left: Any, right: Any) -> list[list[Any]]:
+        times = self._ring.times
+        return [
+            [
+                times(left[i][0], right[0][j]) + times(left[i][1], right[1][j]) + times(left[i][2], right[2][j])
+                for j in range(3)
+            ]
+            for i in range(3)
+        ]
+
+    def _turned(self, vector: Sequence[Fraction]) -> list[Any]:
+        exact, zero = [self._ring.number(b) for b in vector], self._ring.number(0)
+        return [sum((entry * b for entry, b in zip(row, exact, strict=True)), zero) for row in self._rotation]
+
+    def _leg(self, leg: LegEntry, k: int) -> _Leg:
+        ring, n = self._ring, self.norm
+        arm = self._turned(leg.platform)
+        e = [c + b - n * ring.number(a) for c, b, a in zip(self._center, arm, leg.base, strict=True)]
+        square = ring.dot(e, e)
+        if not leg.axes:
+            return _Leg(arm, e, (square, ring.times(n, n)), None, "")
+        mode, y = self._document.modes[k], ring.named[f"y{k}"]
+        self._require_mode(leg, mode)
+        rod_squared = ring.number(leg.rod_squared) * ring.times(n, n)
+        axes = [[ring.number(x) for x in axis] for axis in leg.axes]
+        if len(axes) == 1:
+            a, p = ring.dot(axes[0], axes[0]), ring.dot(axes[0], e)
+            way = p + mode * y
+            rod = [ring.times(a, x) - ring.times(way, d) for x, d in zip(e, axes[0], strict=True)]
+            root = ring.times(p, p) - ring.times(a, square - rod_squared)
+            return _Leg(arm, rod, (way, ring.times(a, n)), root, f"y{k}")
+        share = ring.number(Fraction(1, leg.weight))
+        a, p = (2 * ring.times(n, ring.dot(axis, e)) for axis in axes)
+        h = square + ring.times(ring.dot(axes[0], axes[0]), ring.times(n, n)) - rod_squared
+        m = ring.times(a, a) + share * ring.times(p, p)
+        cosine = ring.times(a, h) - mode * ring.times(p, y)
+        sine = share * ring.times(p, h) + mode * ring.times(a, y)
+        rod = [
+            ring.times(m, x) - ring.times(n, ring.times(cosine, u) + ring.times(sine, v))
+            for x, u, v in zip(e, *axes, strict=True)
+        ]
+        return _Leg(arm, rod, (cosine, sine), share * (m - ring.times(h, h)), f"y{k}")
+
+    def _require_mode(self, leg: LegEntry, mode: int) -> None:
+        asked = self._document.conditions
+        cones = self._document.base_cones or self._document.platform_cones
+        if not mode and ("no_type_2" in asked or ("limits" in asked and (leg.reach is not None or cones))):
+            raise malformed("modes: a working mode is needed and not named")
+
+    def _reach(self, entry: LegEntry, leg: _Leg) -> list[Condition]:
+        if entry.reach is None:
+            return []
+        low, high = entry.reach
+        if len(entry.axes) == 2:
+            return [self._crank_range(leg, low, high)]
+        if not entry.axes:
+            low, high = low * low, high * high
+        value, unit = leg.value
+        return [
+            Test(value - self._ring.number(low) * unit, "0+"),
+            Test(self._ring.number(high) * unit - value, "0+"),
+        ]
+
+    def _crank_range(self, leg: _Leg, low: Fraction, high: Fraction) -> Condition:
+        if high - low >= 360:
+            return ("and", [])
+        cosine, sine = leg.value
+        (c1, s1), (c2, s2) = _right_angle(low), _right_angle(high)
+        parts = [Test(c1 * sine - s1 * cosine, "0+"), Test(s2 * cosine - c2 * sine, "0+")]
+        if low == high:
+            parts.append(Test(c1 * cosine + s1 * sine, "0+"))
+        return ("or" if high - low > 180 else "and", parts)
+
+    def _cone(self, cone: Cone, leg: _Leg, side: str) -> Condition:
+        ring = self._ring
+        axis = [ring.number(x) for x in cone.axis] if side == "base" else self._turned(cone.axis)
+        along = ring.dot(axis, leg.rod) if side == "base" else -ring.dot(axis, leg.rod)
+        size = ring.times(ring.dot(axis, axis), self._reduced(ring.dot(leg.rod, leg.rod), leg))
+        difference = self._reduced(ring.times(along, along), leg) - ring.number(SQUARED_COSINES[cone.degrees]) * size
+        if cone.degrees <= 90:
+            return ("and", [Test(along, "0+"), Test(difference, "0+")])
+        return ("or", [Test(along, "0+"), Test(-difference, "0+")])
+
+    def _reduced(self, polynomial: Any, leg: _Leg) -> Any:
+        """With y^2 replaced by D."""
+        if leg.root is None:
+            return polynomial
+        place = list(self._ring.named).index(leg.name)
+        parts: dict[int, dict[tuple[int, ...], Any]] = {}
+        for exponents, coefficient in polynomial.to_dict().items():
+            power, odd = divmod(int(exponents[place]), 2)
+            left = tuple(odd if k == place else int(e) for k, e in enumerate(exponents))
+            parts.setdefault(power, {})[left] = coefficient
+        total = self._ring.number(0)
+        for power, terms in parts.items():
+            part = self._ring.ring.from_dict(terms)
+            for _ in range(power):
+                part = self._ring.times(part, leg.root)
+            total += part
+        return total
+
+    def _form_value(self, form: Sequence[Fraction]) -> Any:
+        """N^2 times the value of a form."""
+        ring, n, c, r = self._ring, self.norm, self._center, self._rotation
+        total = ring.number(form[0]) * ring.dot(c, c) + ring.number(form[16]) * ring.times(n, n)
+        for i in range(3):
+            weighted = (Fraction(g, self._document.metric[i]) for g in self._document.metric)
+            u = sum((ring.number(w) * ring.times(r[k][i], c[k]) for k, w in enumerate(weighted)), ring.number(0))
+            total += ring.number(form[1 + i]) * u + ring.number(form[4 + i]) * ring.times(n, c[i])
+            for j in range(3):
+                total += ring.number(form[7 + 3 * i + j]) * ring.times(n, r[i][j])
+        return total
+
+    def _wrench(self, form: Sequence[Fraction]) -> list[Any]:
+        """N^2 times the wrench of a form in rational coordinates."""
+        ring, n, c, r, g = self._ring, self.norm, self._center, self._rotation, self._document.metric
+        moved = [
+            sum((r[i][j] * ring.number(g[i] * form[1 + j] / g[j]) for j in range(3)), ring.number(0)) for i in range(3)
+        ]
+        force = [
+            ring.times(n, ring.number(2 * g[i] * form[0]) * c[i] + moved[i] + ring.number(form[4 + i]) * n)
+            for i in range(3)
+        ]
+        moment = []
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            total = g[k] * ring.times(moved[j], c[k]) - g[j] * ring.times(moved[k], c[j])
+            for column in range(3):
+                total += ring.times(n, r[j][column]) * ring.number(g[j] * form[7 + 3 * k + column])
+                total -= ring.times(n, r[k][column]) * ring.number(g[k] * form[7 + 3 * j + column])
+            moment.append(total)
+        return [*force, *moment]
+
+    def _determinant(self, legs: Sequence[_Leg]) -> Any:
+        ring, g, twist = self._ring, self._document.metric, self._document.twist
+        rows = []
+        for leg in legs:
+            b, k = leg.arm, leg.rod
+            moment = [
+                g[(i + 1) % 3]
+                * g[(i + 2) % 3]
+                * (ring.times(b[(i + 1) % 3], k[(i + 2) % 3]) - ring.times(b[(i + 2) % 3], k[(i + 1) % 3]))
+                for i in range(3)
+            ]
+            rows.append([*(g[i] * ring.times(self.norm, k[i]) for i in range(3)), *moment])
+        rows += [self._wrench(form) for form in self._document.forms]
+        if len(rows) != len(twist):
+            raise malformed("conditions: as many equations as freedoms are needed for no_type_2")
+        return self._expanded([[row[j] for j in twist] for row in rows])
+
+    def _expanded(self, rows: list[list[Any]]) -> Any:
+        """The determinant, along the first column again and again, minors remembered."""
+        ring, size = self._ring, len(rows)
+        known: dict[tuple[int, ...], Any] = {(): ring.number(1)}
+        for left in range(1, size + 1):
+            column = size - left
+            found = {}
+            for chosen in _subsets(size, left):
+                total = ring.number(0)
+                for place, row in enumerate(chosen):
+                    rest = chosen[:place] + chosen[place + 1 :]
+                    if not rows[row][column].is_zero():
+                        term = ring.times(rows[row][column], known[rest])
+                        total = total - term if place % 2 else total + term
+                found[chosen] = total
+            known = found
+        return known[tuple(range(size))]
+
+    def _shape(self, part: Any) -> Any:
+        ring, n = self._ring, self.norm
+        total = ring.number(part.constant) * ring.times(n, n)
+        for c, slope, weight in zip(self._center, part.linear, part.weights, strict=True):
+            total += ring.number(slope) * ring.times(n, c) - ring.number(weight) * ring.times(c, c)
+        return total
+
+
+@dataclass(frozen=True, eq=False)
+class _Leg:
+    arm: list[Any]
+    rod: list[Any]
+    value: tuple[Any, Any]
+    root: Any
+    name: str
+
+
+def _subsets(size: int, count: int) -> list[tuple[int, ...]]:
+    if not count:
+        return [()]
+    return [(*rest, last) for last in range(count - 1, size) for rest in _subsets(last, count - 1)]
+
+
+def _right_angle(degrees: Fraction) -> tuple[int, int]:
+    return ((1, 0), (0, 1), (-1, 0), (0, -1))[int(degrees // 90) % 4]
+
+
+def _rotation_of(e: Sequence[Fraction], g: Sequence[int], ring: _Algebra) -> list[list[Any]]:
+    """The rotation matrix of a quaternion in the metric."""
+    head = g[0] * g[1] * g[2] * e[0] ** 2
+    squares = [g[k] * e[1 + k] ** 2 for k in range(3)]
+    norm = head + sum(squares)
+    found = [[ring.number(0)] * 3 for _ in range(3)]
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        found[i][i] = ring.number((head + squares[i] - squares[j] - squares[k]) / norm)
+        mixed, turn = e[1 + i] * e[1 + j], g[k] * e[0] * e[1 + k]
+        found[i][j] = ring.number(2 * g[j] * (mixed - turn) / norm)
+        found[j][i] = ring.number(2 * g[i] * (mixed + turn) / norm)
+    return found

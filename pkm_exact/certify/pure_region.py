@@ -1,0 +1,870 @@
+"""Checks region certificates with Python's integers and nothing else.
+
+The part of the plain checker that ``pure.py``, beside this file, uses when it meets such a certificate. Written from
+the definition of the format and its proofs, ``docs/regions.md``; it shares no line with the other checker.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from functools import partial
+from itertools import pairwise
+from itertools import product as combinations_of
+from math import comb, isqrt, lcm, prod
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
+
+if TYPE_CHECKING or __package__:
+    from pkm_exact.certify import pure
+else:
+    import pure
+
+__all__ = ["replayed"]
+
+Polynomial: TypeAlias = dict[tuple[int, ...], Fraction]
+Numbers: TypeAlias = tuple[Fraction, ...]
+
+KEYS: Final = (
+    "format version robot chart shape conditions modes claim axes paving inside undecided measure counterexample"
+)
+VARIABLES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
+ASKED: Final = ("reachable", "limits", "no_type_1", "no_type_2")
+FREEDOMS: Final = {
+    "spatial": (0, 1, 2, 3, 4, 5),
+    "planar": (0, 1, 5),
+    "schoenflies": (0, 1, 2, 5),
+    "translation": (0, 1, 2),
+    "spherical": (3, 4, 5),
+}
+COSINES: Final = {30: "3/4", 45: "1/2", 60: "1/4", 90: "0", 120: "1/4", 135: "1/2", 150: "3/4", 180: "1"}
+MAX_LEGS: Final = 12
+MAX_PARTS: Final = 64
+MAX_STEPS: Final = 120
+MAX_COEFFICIENTS: Final = 1 << 20
+ROOT_BITS: Final = 80
+PRECISIONS: Final = (64, 256, 1024)
+ZERO: Final = Fraction(0)
+
+
+class Leg(NamedTuple):
+    """Joints, axes (none: own length; one: slide; two: crank), weight, rod squared, limits."""
+
+    base: Numbers
+    platform: Numbers
+    axes: tuple[Numbers, ...]
+    weight: int
+    rod: Fraction
+    reach: Numbers | None
+
+
+class Robot(NamedTuple):
+    """As the certificate has it."""
+
+    motion: str
+    g: tuple[int, ...]
+    legs: tuple[Leg, ...]
+    forms: tuple[Numbers, ...]
+    cones: tuple[tuple[tuple[Numbers, int], ...], ...]
+    position: tuple[Numbers, ...]
+
+
+class Chart(NamedTuple):
+    """Variables, their intervals, and what else is fixed."""
+
+    names: tuple[str, ...]
+    box: tuple[Numbers, ...]
+    position: tuple[Any, ...]
+    quaternion: Numbers | None
+    turns: tuple[tuple[Any, ...], ...]
+
+
+class Region(NamedTuple):
+    """What a certificate says."""
+
+    robot: Robot
+    chart: Chart
+    shape: tuple[tuple[Fraction, Numbers, Numbers], ...]
+    asked: tuple[str, ...]
+    modes: tuple[int, ...]
+    claim: str
+    axes: tuple[int, ...]
+    paving: str
+    inside: int
+    undecided: int
+    measure: Numbers | None
+    points: tuple[Numbers, ...]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Reading
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def read(body: dict[str, Any]) -> Region:
+    """The content of a certificate."""
+    values = pure.an_object(body, "certificate", KEYS)
+    version, robot_, chart_, shape, asked, modes, claim, axes, paving, inside, undecided, measure, points = values[1:]
+    pure.well_formed(type(version) is int and version == 1, "format: not a pkm_exact region certificate, version 1")
+    robot = a_robot(robot_)
+    chart = a_chart(chart_)
+    require_motion(robot.motion, chart)
+    conditions = pure.a_list(pure.one_of(ASKED))(asked, "conditions")
+    in_order = conditions and list(conditions) == [name for name in ASKED if name in conditions]
+    pure.well_formed(in_order, "conditions: none, or not in their order")
+    signs = pure.a_list(pure.an_integer, len(robot.legs))(modes, "modes")
+    pure.well_formed(all(sign in (-1, 0, 1) for sign in signs), "modes: one is not -1, 0 or 1")
+    steps = pure.a_list(pure.an_integer)(axes, "axes")
+    pure.affordable(len(steps) <= MAX_STEPS, f"axes: more than {MAX_STEPS}")
+    known = all(0 <= axis < len(chart.names) for axis in steps)
+    pure.well_formed(known, "axes: one is not that of a variable")
+    is_word = isinstance(paving, str) and not set(paving) - set("siou")
+    pure.well_formed(is_word, "paving: not a word of the letters s, i, o, u")
+    parts = pure.a_list(a_shape)(shape, "shape")
+    pure.affordable(len(parts) <= MAX_PARTS, f"shape: more than {MAX_PARTS}")
+    return Region(
+        robot,
+        chart,
+        parts,
+        conditions,
+        signs,
+        pure.one_of(("all", "not-all", "undecided", "map"))(claim, "claim"),
+        steps,
+        paving,
+        pure.a_number(inside, "inside"),
+        pure.a_number(undecided, "undecided"),
+        None if measure is None else a_pair(measure, "measure"),
+        pure.a_list(pure.a_list(pure.a_rational, len(chart.names)))(points, "counterexample"),
+    )
+
+
+def a_vector(value: Any, where: str) -> Numbers:
+    """Three rationals."""
+    return tuple(pure.a_list(pure.a_rational, 3)(value, where))
+
+
+def a_pair(value: Any, where: str) -> Numbers:
+    """Two rationals in order."""
+    pair: Numbers = pure.a_list(pure.a_rational, 2)(value, where)
+    pure.well_formed(pair[0] <= pair[1], f"{where}: ends out of order")
+    return pair
+
+
+def a_shape(value: Any, where: str) -> tuple[Fraction, Numbers, Numbers]:
+    """A part of the shape of the region."""
+    constant, linear, weights = pure.an_object(value, where, "constant linear weights")
+    found = a_vector(weights, f"{where}.weights")
+    pure.well_formed(min(found) >= 0, "shape: a weight is negative")
+    return pure.a_rational(constant, f"{where}.constant"), a_vector(linear, f"{where}.linear"), found
+
+
+def a_robot(value: Any) -> Robot:
+    """The robot."""
+    keys = "name unit source motion metric legs forms base_cones platform_cones position"
+    name, unit, source, motion, metric, legs, forms, base_cones, platform_cones, position = pure.an_object(
+        value, "robot", keys
+    )
+    for text, key in ((name, "name"), (unit, "unit"), (source, "source")):
+        pure.a_text(text, f"robot.{key}")
+    numbers = pure.a_list(pure.a_positive_rational, 3)(metric, "robot.metric")
+    pure.well_formed(all(x.denominator == 1 for x in numbers), "robot.metric: not whole numbers")
+    g = tuple(map(int, numbers))
+    found = pure.a_list(partial(a_leg, g))(legs, "robot.legs")
+    pure.affordable(len(found) <= MAX_LEGS, f"robot.legs: more than {MAX_LEGS}")
+    pure.well_formed(found, "robot.legs: none")
+    linear = pure.a_list(pure.a_list(pure.a_rational, 17))(forms, "robot.forms")
+    pure.affordable(len(linear) <= MAX_PARTS, f"robot.forms: more than {MAX_PARTS}")
+    sides = [
+        pure.a_list(a_cone)(cones, side)
+        for cones, side in ((base_cones, "base_cones"), (platform_cones, "platform_cones"))
+    ]
+    pure.well_formed(all(len(side) in (0, len(found)) for side in sides), "robot: cones are not as many as legs")
+    pairs = pure.a_list(a_pair)(position, "robot.position")
+    pure.well_formed(len(pairs) <= 3, "robot.position: more than 3")
+    return Robot(pure.one_of(tuple(FREEDOMS))(motion, "robot.motion"), g, found, linear, tuple(sides), pairs)
+
+
+def a_leg(g: Sequence[int], value: Any, where: str) -> Leg:
+    """A leg."""
+    name, base, platform, actuator, reach = pure.an_object(value, where, "name base platform actuator reach")
+    pure.a_text(name, f"{where}.name")
+    joints = a_vector(base, f"{where}.base"), a_vector(platform, f"{where}.platform")
+    limits = None if reach is None else a_pair(reach, f"{where}.reach")
+    kind = actuator.get("type") if isinstance(actuator, dict) else None
+    inside = f"{where}.actuator"
+    if kind not in ("slide", "crank"):
+        pure.an_object(actuator, inside, "type")
+        pure.one_of(("length",))(kind, f"{inside}.type")
+        pure.well_formed(limits is None or limits[0] >= 0, f"{where}.reach: a length is negative")
+        return Leg(*joints, (), 1, ZERO, limits)
+    if kind == "slide":
+        _, direction, rod = pure.an_object(actuator, inside, "type direction rod_squared")
+        axes: tuple[Numbers, ...] = (a_vector(direction, f"{inside}.direction"),)
+        weight = Fraction(1)
+    else:
+        _, first, second, share, rod = pure.an_object(actuator, inside, "type at_0 at_90 weight rod_squared")
+        axes = a_vector(first, f"{inside}.at_0"), a_vector(second, f"{inside}.at_90")
+        weight = pure.a_positive_rational(share, f"{inside}.weight")
+        exact = weight.denominator == 1 and (limits is None or (weight == 1 and not any(x % 90 for x in limits)))
+        pure.well_formed(
+            exact, f"{inside}: a weight that is no whole number, or limits that are no multiples of 90 degrees"
+        )
+    squares = [pure.scalar_product(g, axis, axis) for axis in axes]  # type: ignore[arg-type]
+    pure.well_formed(squares[0] != 0, "robot.legs: an axis is 0")
+    if len(axes) == 2:
+        circle = squares[1] == weight * squares[0] and pure.scalar_product(g, *axes) == 0  # type: ignore[arg-type]
+        pure.well_formed(circle, "robot.legs: a crank does not turn on a circle")
+    return Leg(*joints, axes, int(weight), pure.a_positive_rational(rod, f"{inside}.rod_squared"), limits)
+
+
+def a_cone(value: Any, where: str) -> tuple[Numbers, int]:
+    """An axis and an angle."""
+    axis, degrees = pure.an_object(value, where, "axis degrees")
+    angle = pure.a_rational(degrees, f"{where}.degrees")
+    pure.well_formed(angle in COSINES, f"{where}.degrees: its cosine has no rational square")
+    vector = a_vector(axis, f"{where}.axis")
+    pure.well_formed(any(vector), f"{where}.axis: is 0")
+    return vector, int(angle)
+
+
+def a_chart(value: Any) -> Chart:
+    """The chart."""
+    names_, box, position, quaternion, turns = pure.an_object(value, "chart", "variables box position quaternion turns")
+    names = pure.a_list(pure.one_of(VARIABLES))(names_, "chart.variables")
+    in_order = names and list(names) == [name for name in VARIABLES if name in names]
+    pure.well_formed(in_order, "chart.variables: none, or not in their order")
+    pairs = pure.a_list(a_pair, len(names))(box, "chart.box")
+    pure.well_formed(all(pair[0] < pair[1] for pair in pairs), "chart.box: an interval is a point")
+
+    def a_place(entry: Any, where: str) -> Any:
+        return entry if isinstance(entry, str) and entry in names else pure.a_rational(entry, where)
+
+    def a_turn(entry: Any, where: str) -> tuple[Any, ...]:
+        if isinstance(entry, list) and len(entry) == 1:
+            return (pure.one_of(names)(entry[0], where),)
+        pair: tuple[Any, ...] = pure.a_list(pure.a_rational, 2)(entry, where)
+        pure.well_formed(any(pair), f"{where}: is 0")
+        return pair
+
+    places = pure.a_list(a_place, 3)(position, "chart.position")
+    fixed = None if quaternion is None else pure.a_list(pure.a_rational, 4)(quaternion, "chart.quaternion")
+    angles = pure.a_list(a_turn, 0 if fixed is not None else 3)(turns, "chart.turns")
+    used = []
+    for name, entry in zip(VARIABLES, (*places, *angles), strict=False):
+        variable = (
+            entry if isinstance(entry, str) else entry[0] if isinstance(entry, tuple) and len(entry) == 1 else None
+        )
+        if variable is not None:
+            pure.well_formed(variable == name, "chart: the variables are not those of position and turns")
+            used.append(variable)
+    pure.well_formed(tuple(used) == names, "chart: the variables are not those of position and turns")
+    pure.well_formed(fixed is None or any(fixed), "chart.quaternion: is 0")
+    return Chart(names, pairs, places, fixed, angles)
+
+
+def require_motion(motion: str, chart: Chart) -> None:
+    """Refuse a chart with poses that the robot's motions do not have."""
+
+    def turns_about(axes: Sequence[int]) -> bool:
+        if chart.quaternion is not None:
+            return any(chart.quaternion[1 + axis] for axis in axes)
+        return any(len(chart.turns[axis]) == 1 or chart.turns[axis][1] for axis in axes)
+
+    flat = motion != "planar" or chart.position[2] == 0
+    pure.well_formed(flat, "chart.position: leaves the plane")
+    still = motion != "spherical" or all(value == 0 for value in chart.position)
+    pure.well_formed(still, "chart.position: moves")
+    straight = motion != "translation" or not turns_about((0, 1, 2))
+    pure.well_formed(straight, "chart: turns, but the robot does not")
+    upright = motion not in ("planar", "schoenflies") or not turns_about((0, 1))
+    pure.well_formed(upright, "chart: turns about an axis that the robot does not turn about")
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Polynomials: exponents of the variables, then of the roots y
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def plus(*terms: tuple[Any, Polynomial]) -> Polynomial:
+    """A sum of multiples."""
+    total: Polynomial = {}
+    for factor, polynomial in terms:
+        if factor:
+            for key, value in polynomial.items():
+                total[key] = total.get(key, ZERO) + factor * value
+    return {key: value for key, value in total.items() if value}
+
+
+def times(a: Polynomial, b: Polynomial) -> Polynomial:
+    """A product."""
+    pure.spend(3000 * len(a) * len(b) + 1000)
+    total: Polynomial = {}
+    for one, x in a.items():
+        for other, y in b.items():
+            key = tuple(map(int.__add__, one, other))
+            total[key] = total.get(key, ZERO) + x * y
+    return {key: value for key, value in total.items() if value}
+
+
+class Test(NamedTuple):
+    """A polynomial and its sign: positive "+", not negative "0+", not zero "/"."""
+
+    polynomial: Polynomial
+    sign: str
+
+
+class Equations:
+    """The conditions of a certificate as polynomials."""
+
+    def __init__(self, region: Region) -> None:
+        self.region, self.g = region, region.robot.g
+        self.driven = [k for k, leg in enumerate(region.robot.legs) if leg.axes]
+        self.count = len(region.chart.names)
+        self.size = self.count + len(self.driven)
+        self.norm, self.rotation = self.turned()
+        self.center = [times(self.norm, self.entry(value)) for value in region.chart.position]
+        self.square_norm = times(self.norm, self.norm)
+
+    def number(self, value: Fraction | int) -> Polynomial:
+        """A constant."""
+        return {(0,) * self.size: Fraction(value)} if value else {}
+
+    def generator(self, place: int) -> Polynomial:
+        """A variable."""
+        return {tuple(int(k == place) for k in range(self.size)): Fraction(1)}
+
+    def entry(self, value: Any) -> Polynomial:
+        """A number, or the variable of a name."""
+        return self.generator(self.region.chart.names.index(value)) if isinstance(value, str) else self.number(value)
+
+    def inner(self, a: Sequence[Polynomial], b: Sequence[Polynomial]) -> Polynomial:
+        """The product in the metric."""
+        return plus(*((weight, times(x, y)) for weight, x, y in zip(self.g, a, b, strict=True)))
+
+    def numbers(self, values: Sequence[Fraction]) -> list[Polynomial]:
+        """Constants."""
+        return [self.number(value) for value in values]
+
+    def turned(self) -> tuple[Polynomial, list[list[Polynomial]]]:
+        """N and N R."""
+        chart, g = self.region.chart, self.g
+        if chart.quaternion is not None:
+            e = chart.quaternion
+            placed = pure.motion(e, (0, 0, 0, 0), g)  # type: ignore[arg-type]
+            rows = [[self.number(Fraction(x) / placed.norm) for x in row] for row in placed.rotation]
+            return self.number(1), rows
+        norm = self.number(1)
+        matrix = [[self.number(int(i == j)) for j in range(3)] for i in range(3)]
+        for axis, turn in enumerate(chart.turns):
+            c, s = (
+                (self.number(1), self.entry(turn[0])) if len(turn) == 1 else (self.entry(turn[0]), self.entry(turn[1]))
+            )
+            i, j = (axis + 1) % 3, (axis + 2) % 3
+            cc, ss, cs = times(c, c), times(s, s), times(c, s)
+            weight = g[i] * g[j]
+            factor = [[self.number(0) for _ in range(3)] for _ in range(3)]
+            factor[axis][axis] = plus((1, cc), (weight, ss))
+            factor[i][i] = factor[j][j] = plus((1, cc), (-weight, ss))
+            factor[i][j], factor[j][i] = plus((-2 * g[j], cs)), plus((2 * g[i], cs))
+            norm = times(norm, factor[axis][axis])
+            matrix = [
+                [plus(*((1, times(factor[a][k], matrix[k][b])) for k in range(3))) for b in range(3)] for a in range(3)
+            ]
+        return norm, matrix
+
+    def moved(self, vector: Sequence[Fraction]) -> list[Polynomial]:
+        """N R v."""
+        return [plus(*zip(vector, row, strict=True)) for row in self.rotation]
+
+    def all(self) -> tuple[Any, list[Test], list[Polynomial], Polynomial | None]:
+        """What is asked; the shape; the D of slides and cranks; the determinant."""
+        region = self.region
+        for form in region.robot.forms:
+            pure.require(
+                not self.value_of(form), "chart: its poses are not all among those that the joints of the robot allow"
+            )
+        legs = [Placed(self, k) for k in range(len(region.robot.legs))]
+        parts: list[Any] = [Test(leg.root, "0+") for leg in legs if leg.root is not None]
+        if "limits" in region.asked:
+            for leg in legs:
+                parts += leg.limits()
+            for side, cones in enumerate(region.robot.cones):
+                parts += [
+                    leg.cone(axis, angle, platform=bool(side)) for leg, (axis, angle) in zip(legs, cones, strict=False)
+                ]
+            for c, (low, high) in zip(self.center, region.robot.position, strict=False):
+                parts += [Test(plus((1, c), (-low, self.norm)), "0+"), Test(plus((high, self.norm), (-1, c)), "0+")]
+        if "no_type_1" in region.asked:
+            parts += [Test(leg.square if leg.root is None else leg.root, "+") for leg in legs]
+        determinant = None
+        if "no_type_2" in region.asked:
+            determinant = self.determinant(legs)
+            parts.append(Test(determinant, "/"))
+        shape = [Test(self.shape(*part), "0+") for part in region.shape]
+        return ("and", parts), shape, [leg.root for leg in legs if leg.root is not None], determinant
+
+    def shape(self, constant: Fraction, linear: Numbers, weights: Numbers) -> Polynomial:
+        """N^2 times a part of the shape."""
+        terms = [(constant, self.square_norm)]
+        for c, slope, weight in zip(self.center, linear, weights, strict=True):
+            terms += [(slope, times(self.norm, c)), (-weight, times(c, c))]
+        return plus(*terms)
+
+    def value_of(self, form: Numbers) -> Polynomial:
+        """N^2 times the value of a form."""
+        g, c, r = self.g, self.center, self.rotation
+        terms = [(form[0], self.inner(c, c)), (form[16], self.square_norm)]
+        for i in range(3):
+            terms += [(form[1 + i] * Fraction(g[k], g[i]), times(r[k][i], c[k])) for k in range(3)]
+            terms.append((form[4 + i], times(self.norm, c[i])))
+            terms += [(form[7 + 3 * i + j], times(self.norm, r[i][j])) for j in range(3)]
+        return plus(*terms)
+
+    def wrench(self, form: Numbers) -> list[Polynomial]:
+        """N^2 times the wrench of a form: derivatives along C_i, and along the turns of the table of rows."""
+        g, c, r, n = self.g, self.center, self.rotation, self.norm
+        a = [plus(*((Fraction(g[i], g[j]) * form[1 + j], r[i][j]) for j in range(3))) for i in range(3)]
+        force = [times(n, plus((2 * g[i] * form[0], c[i]), (1, a[i]), (form[4 + i], n))) for i in range(3)]
+        moment = []
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            terms = [(g[k], times(a[j], c[k])), (-g[j], times(a[k], c[j]))]
+            for b in range(3):
+                terms += [
+                    (g[j] * form[7 + 3 * k + b], times(n, r[j][b])),
+                    (-g[k] * form[7 + 3 * j + b], times(n, r[k][b])),
+                ]
+            moment.append(plus(*terms))
+        return [*force, *moment]
+
+    def determinant(self, legs: Sequence[Placed]) -> Polynomial:
+        """Of the rows of legs and of the other constraints, on the freedoms."""
+        freedoms = FREEDOMS[self.region.robot.motion]
+        rows = [leg.row() for leg in legs] + [self.wrench(form) for form in self.region.robot.forms]
+        square = len(rows) == len(freedoms)
+        pure.well_formed(square, "conditions: as many equations as freedoms are needed for no_type_2")
+        return self.expanded([[row[k] for k in freedoms] for row in rows])
+
+    def expanded(self, rows: list[list[Polynomial]]) -> Polynomial:
+        """A determinant: the minors of the last rows, from those of one row less."""
+        minors: dict[tuple[int, ...], Polynomial] = {(): self.number(1)}
+        for row in reversed(rows):
+            wider: dict[tuple[int, ...], list[tuple[int, Polynomial]]] = {}
+            for columns, minor in minors.items():
+                for column, entry in enumerate(row):
+                    if column not in columns and entry:
+                        chosen = tuple(sorted((*columns, column)))
+                        sign = -1 if chosen.index(column) % 2 else 1
+                        wider.setdefault(chosen, []).append((sign, times(entry, minor)))
+            minors = {chosen: plus(*terms) for chosen, terms in wider.items()}
+        return minors.get(tuple(range(len(rows))), {})
+
+
+class Placed:
+    """A leg at the poses of the chart."""
+
+    def __init__(self, equations: Equations, k: int) -> None:
+        self.equations, self.leg, self.mode = equations, equations.region.robot.legs[k], equations.region.modes[k]
+        n, leg = equations.norm, self.leg
+        self.arm = equations.moved(leg.platform)
+        e = [plus((1, c), (1, b), (-a, n)) for c, b, a in zip(equations.center, self.arm, leg.base, strict=True)]
+        self.square = equations.inner(e, e)
+        self.rod, self.root = e, None
+        self.value = self.square, equations.square_norm
+        self.place = -1
+        if leg.axes:
+            self.require_mode()
+            self.place = equations.count + equations.driven.index(k)
+            self.drive(e)
+
+    def require_mode(self) -> None:
+        """Refuse a leg whose working mode matters and is not named."""
+        asked, robot = self.equations.region.asked, self.equations.region.robot
+        limited = "limits" in asked and (self.leg.reach is not None or any(robot.cones))
+        needed = "no_type_2" in asked or limited
+        pure.well_formed(self.mode or not needed, "modes: a working mode is needed and not named")
+
+    def drive(self, e: list[Polynomial]) -> None:
+        """The rod of a slide or a crank, its value and its root."""
+        eq, leg = self.equations, self.leg
+        y, axes = eq.generator(self.place), [eq.numbers(axis) for axis in leg.axes]
+        if len(axes) == 1:
+            a = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
+            p = eq.inner(axes[0], e)
+            way = plus((1, p), (self.mode, y))
+            self.root = plus((1, times(p, p)), (-a, self.square), (a * leg.rod, eq.square_norm))
+            self.rod = [plus((a, x), (-d, way)) for x, d in zip(e, leg.axes[0], strict=True)]
+            self.value = way, plus((a, eq.norm))
+            return
+        a, p = (plus((2, times(eq.norm, eq.inner(axis, e)))) for axis in axes)
+        size = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
+        h = plus((1, self.square), (size - leg.rod, eq.square_norm))
+        w = Fraction(1, leg.weight)
+        m = plus((1, times(a, a)), (w, times(p, p)))
+        self.root = plus((w, m), (-w, times(h, h)))
+        cosine = plus((1, times(a, h)), (-self.mode, times(p, y)))
+        sine = plus((w, times(p, h)), (self.mode, times(a, y)))
+        self.value = cosine, sine
+        turned = [plus((u, cosine), (v, sine)) for u, v in zip(*leg.axes, strict=True)]
+        self.rod = [plus((1, times(m, x)), (-1, times(eq.norm, t))) for x, t in zip(e, turned, strict=True)]
+
+    def limits(self) -> list[Any]:
+        """Those of its length, slide or crank."""
+        if self.leg.reach is None:
+            return []
+        low, high = self.leg.reach
+        first, second = self.value
+        if len(self.leg.axes) == 2:
+            return [self.between(low, high)]
+        if not self.leg.axes:
+            low, high = low * low, high * high
+        return [Test(plus((1, first), (-low, second)), "0+"), Test(plus((high, second), (-1, first)), "0+")]
+
+    def between(self, low: Fraction, high: Fraction) -> Any:
+        """Whether the crank's angle is in a range of right angles."""
+        cosine, sine = self.value
+        (c1, s1), (c2, s2) = ([(1, 0), (0, 1), (-1, 0), (0, -1)][int(angle / 90) % 4] for angle in (low, high))
+        parts = [Test(plus((c1, sine), (-s1, cosine)), "0+"), Test(plus((s2, cosine), (-c2, sine)), "0+")]
+        if low == high:
+            parts.append(Test(plus((c1, cosine), (s1, sine)), "0+"))
+        if high - low >= 360:
+            return ("and", [])
+        return ("or", parts) if high - low > 180 else ("and", parts)
+
+    def cone(self, axis: Numbers, angle: int, *, platform: bool) -> Any:
+        """Whether the rod is in a cone about an axis of the base, or the opposite of it in one of the platform."""
+        eq = self.equations
+        direction = eq.moved(axis) if platform else eq.numbers(axis)
+        along = plus((-1 if platform else 1, eq.inner(direction, self.rod)))
+        squares = self.without_squares(times(along, along))
+        sizes = times(eq.inner(direction, direction), self.without_squares(eq.inner(self.rod, self.rod)))
+        rest = plus((1, squares), (-Fraction(COSINES[angle]), sizes))
+        if angle > 90:
+            return ("or", [Test(along, "0+"), Test(plus((-1, rest)), "0+")])
+        return ("and", [Test(along, "0+"), Test(rest, "0+")])
+
+    def without_squares(self, polynomial: Polynomial) -> Polynomial:
+        """With y^2 = D."""
+        if self.root is None:
+            return polynomial
+        total: list[tuple[int, Polynomial]] = []
+        for key, value in polynomial.items():
+            power = key[self.place]
+            term: Polynomial = {tuple(power % 2 if k == self.place else x for k, x in enumerate(key)): value}
+            for _ in range(power // 2):
+                term = times(term, self.root)
+            total.append((1, term))
+        return plus(*total)
+
+    def row(self) -> list[Polynomial]:
+        """Its row of the matrix of wrenches."""
+        g, b, k = self.equations.g, self.arm, self.rod
+        force = [plus((g[i], times(self.equations.norm, k[i]))) for i in range(3)]
+        moment = []
+        for i in range(3):
+            j, l = (i + 1) % 3, (i + 2) % 3  # noqa: E741 - cyclic indices
+            weight = g[j] * g[l]
+            moment.append(plus((weight, times(b[j], k[l])), (-weight, times(b[l], k[j]))))
+        return [*force, *moment]
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Bernstein coefficients
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Table(NamedTuple):
+    """For each combination of roots integers, 2^exponent over a denominator times coefficients, row by row."""
+
+    roots: tuple[int, ...]
+    degrees: tuple[int, ...]
+    parts: dict[tuple[int, ...], list[int]]
+    denominator: int
+    exponent: int
+
+
+def table_of(polynomial: Polynomial, box: Sequence[Numbers], roots: int) -> Table:
+    """The coefficients on a box."""
+    count = len(box)
+    degrees = tuple(max((key[k] for key in polynomial), default=0) for k in range(count))
+    used = tuple(k for k in range(roots) if any(key[count + k] for key in polynomial))
+    pure.well_formed(all(key[count + k] <= 1 for key in polynomial for k in used), "conditions: a root appears squared")
+    size = prod(d + 1 for d in degrees) << len(used)
+    pure.affordable(size <= MAX_COEFFICIENTS, f"conditions: a polynomial of more than {MAX_COEFFICIENTS} coefficients")
+    pure.spend(20_000 * size * (1 + max(degrees)))
+    parts: dict[tuple[int, ...], list[Fraction]] = {}
+    for combination in combinations_of((0, 1), repeat=len(used)):
+        values = [ZERO] * (size >> len(used))
+        for key, value in polynomial.items():
+            if tuple(key[count + k] for k in used) == combination:
+                place = 0
+                for exponent, degree in zip(key, degrees, strict=False):
+                    place = place * (degree + 1) + exponent
+                values[place] = value
+        for k, (low, high) in enumerate(box):
+            values = along(values, degrees, k, partial(converted, low=low, width=high - low))
+        parts[combination] = values
+    denominator = lcm(1, *(number.denominator for values in parts.values() for number in values))
+    whole = {key: [int(value * denominator) for value in values] for key, values in parts.items()}
+    return Table(used, degrees, whole, denominator, 0)
+
+
+def along(values: list[Any], degrees: Sequence[int], k: int, change: Callable[[list[Any]], list[Any]]) -> list[Any]:
+    """The table with every line along a variable changed."""
+    stride = prod(d + 1 for d in degrees[k + 1 :])
+    length = degrees[k] + 1
+    found = list(values)
+    for block in range(0, len(values), stride * length):
+        for start in range(block, block + stride):
+            place = slice(start, start + stride * length, stride)
+            found[place] = change(values[place])
+    return found
+
+
+def converted(line: list[Fraction], low: Fraction, width: Fraction) -> list[Fraction]:
+    """From powers of x to Bernstein coefficients on [low, low + width]."""
+    d = len(line) - 1
+    moved = [
+        sum((comb(p, j) * low ** (p - j) * line[p] for p in range(j, d + 1)), ZERO) * width**j for j in range(d + 1)
+    ]
+    return [sum((Fraction(comb(i, j), comb(d, j)) * moved[j] for j in range(i + 1)), ZERO) for i in range(d + 1)]
+
+
+def lower(line: list[int]) -> list[int]:
+    """2^d times the coefficients on the lower half."""
+    d = len(line) - 1
+    found, level = [line[0] << d], line
+    for r in range(1, d + 1):
+        level = [a + b for a, b in pairwise(level)]
+        found.append(level[0] << d - r)
+    return found
+
+
+def upper(line: list[int]) -> list[int]:
+    """The same on the upper half."""
+    return lower(line[::-1])[::-1]
+
+
+def halves(table: Table, k: int) -> tuple[Table, Table]:
+    """A table on both halves along a variable."""
+    exponent = table.exponent + table.degrees[k]
+    first, second = (
+        {key: along(values, table.degrees, k, half) for key, values in table.parts.items()} for half in (lower, upper)
+    )
+    return table._replace(parts=first, exponent=exponent), table._replace(parts=second, exponent=exponent)
+
+
+def extremes(table: Table, ends: Sequence[tuple[Fraction, Fraction]]) -> tuple[Any, Any]:
+    """The least and the greatest coefficient at the corners of the intervals of the roots, times something positive."""
+    if not table.roots:
+        values = table.parts[()]
+        return min(values), max(values)
+    scale = 1
+    for k in table.roots:
+        scale *= max(ends[k][0].denominator, ends[k][1].denominator)  # powers of two
+    low = high = None
+    for corner in combinations_of((0, 1), repeat=len(table.roots)):
+        y = [ends[k][side] for k, side in zip(table.roots, corner, strict=True)]
+        weights = {
+            key: int(prod((b for b, used in zip(y, key, strict=True) if used), start=Fraction(scale)))
+            for key in table.parts
+        }
+        values = [
+            sum(x) for x in zip(*([weights[key] * v for v in line] for key, line in table.parts.items()), strict=True)
+        ]
+        low = min(values) if low is None else min(low, *values)
+        high = max(values) if high is None else max(high, *values)
+    return low, high
+
+
+def root_ends(table: Table) -> tuple[Fraction, Fraction]:
+    """Rational bounds of the root of a D on a part."""
+    unit = Fraction(1, table.denominator << table.exponent)
+    low, high = (value * unit for value in extremes(table, ()))
+    return rational_root(low, up=False), rational_root(high, up=True)
+
+
+def rational_root(square: Fraction, *, up: bool) -> Fraction:
+    """A root rounded down or up, by less than 2^-80 of it; 0 of what is not positive."""
+    if square <= 0:
+        return ZERO
+    size = square.numerator.bit_length() - square.denominator.bit_length()
+    shift = max(0, ROOT_BITS + 2 - size // 2)
+    scaled = square * (1 << 2 * shift)
+    floor = isqrt(scaled.numerator // scaled.denominator)
+    return Fraction(floor + up, 1 << shift) if not up or floor * floor != scaled else Fraction(floor, 1 << shift)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Checks
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+def replayed(body: dict[str, Any]) -> Iterator[str]:
+    """The content, read at once, and its checks, one after another."""
+    return checks(read(body))
+
+
+def checks(region: Region) -> Iterator[str]:
+    """One line per claim that is proved."""
+    asked, shape, roots, determinant = Equations(region).all()
+    yield f"conditions: {', '.join(region.asked)}, as polynomials in {', '.join(region.chart.names)}"
+    if region.claim == "not-all":
+        nothing = not region.paving and not region.inside and not region.undecided and region.measure is None
+        pure.well_formed(nothing, "paving: there is one, but a pose refutes the question")
+        yield refuted(region, asked, shape, roots, determinant)
+        return
+    pure.well_formed(not region.points, "counterexample: there is one, but the claim is another")
+    beyond = [Test(plus((-1, part.polynomial)), "+") for part in shape]
+    condition = ("and", [*shape, asked]) if region.claim == "map" else ("or", [*beyond, asked])
+    shares = followed(region, condition, roots)
+    outside, undecided = region.paving.count("o"), region.paving.count("u")
+    agree = (region.paving.count("i"), undecided) == (region.inside, region.undecided)
+    pure.require(agree, "inside, undecided: not as many parts as the paving has")
+    yield f"paving: {region.inside} parts inside, {outside} outside, each proved; {undecided} undecided"
+    if region.claim == "all":
+        pure.require(not outside and not undecided, "claim: not all parts are inside")
+        yield "claim: all poses of the region are good"
+    if region.claim == "undecided":
+        pure.require(outside or undecided, "claim: all parts are inside, which is more than claimed")
+        yield "claim: none but what is proved of the parts"
+    if region.claim == "map" and set(region.chart.names) <= {"x", "y", "z"}:
+        size = prod((high - low for low, high in region.chart.box), start=Fraction(1))
+        bounds = size * shares["i"], size * (shares["i"] + shares["u"])
+        pure.require(
+            region.measure == bounds, "measure: not that of the parts inside, and of these with the undecided ones"
+        )
+        yield "measure: between that of the parts inside, and that of these with the undecided ones"
+    else:
+        pure.require(region.measure is None, "measure: claimed where there is none")
+
+
+def polynomials_in(condition: Any) -> Iterator[Test]:
+    """The tests of a condition."""
+    if isinstance(condition, Test):
+        yield condition
+    else:
+        for part in condition[1]:
+            yield from polynomials_in(part)
+
+
+def followed(region: Region, condition: Any, roots: Sequence[Polynomial]) -> dict[str, Fraction]:
+    """The shares of the letters of a paving, each of which is proved."""
+    box = region.chart.box
+    tests = list(polynomials_in(condition))
+    start = [table_of(root, box, len(roots)) for root in roots]
+    start += [table_of(test.polynomial, box, len(roots)) for test in tests]
+    coefficients = sum(len(values) << len(table.roots) for table in start for values in table.parts.values())
+    degree = max((d for table in start for d in table.degrees), default=0)
+    bits = max((pure.most_bits(values) for table in start for values in table.parts.values()), default=1)
+    words = (bits + (degree + 1) * len(region.axes)) // 64 + 1
+    cost = 50_000 + 25 * coefficients * (2 + degree) * (4 + words)
+    shares = dict.fromkeys("iou", ZERO)
+    waiting = [(0, start)]
+    for number, letter in enumerate(region.paving, 1):
+        pure.require(waiting, "paving: it goes on after its end")
+        depth, tables = waiting.pop()
+        pure.spend(cost)
+        if letter == "s":
+            deep = depth < len(region.axes)
+            pure.require(deep, f"paving: letter {number} halves a part deeper than the axes say")
+            pairs = [halves(table, region.axes[depth]) for table in tables]
+            waiting.append((depth + 1, [second for _, second in pairs]))
+            waiting.append((depth + 1, [first for first, _ in pairs]))
+            continue
+        if letter != "u":
+            ends = [root_ends(table) for table in tables[: len(roots)]]
+            ranges = {
+                id(test): partial(extremes, table, ends)
+                for test, table in zip(tests, tables[len(roots) :], strict=True)
+            }
+            proved = holds(condition, ranges) if letter == "i" else fails(condition, ranges)
+            name = "inside" if letter == "i" else "outside"
+            pure.require(proved, f"paving: the part of letter {number} is not proved to be {name}")
+        shares[letter] += Fraction(1, 1 << depth)
+    pure.require(not waiting, "paving: parts of the region are missing")
+    return shares
+
+
+def holds(condition: Any, ranges: dict[int, Callable[[], tuple[Any, Any]]]) -> bool:
+    """Whether a condition holds all over a part."""
+    if isinstance(condition, Test):
+        low, high = ranges[id(condition)]()
+        return bool(low > 0 or (condition.sign == "0+" and low >= 0) or (condition.sign == "/" and high < 0))
+    results = (holds(part, ranges) for part in condition[1])
+    return all(results) if condition[0] == "and" else any(results)
+
+
+def fails(condition: Any, ranges: dict[int, Callable[[], tuple[Any, Any]]]) -> bool:
+    """Whether a condition holds nowhere in a part."""
+    if isinstance(condition, Test):
+        if condition.sign == "/":
+            return False
+        _, high = ranges[id(condition)]()
+        return bool(high < 0 or (condition.sign == "+" and high <= 0))
+    results = (fails(part, ranges) for part in condition[1])
+    return any(results) if condition[0] == "and" else all(results)
+
+
+def refuted(
+    region: Region, asked: Any, shape: Sequence[Test], roots: Sequence[Polynomial], determinant: Polynomial | None
+) -> str:
+    """One pose that is not good, or two with determinants of opposite signs, in the region."""
+    for point in region.points:
+        inside = all(low <= x <= high for x, (low, high) in zip(point, region.chart.box, strict=True))
+        inside = inside and all(value_at(part.polynomial, point, ()) >= 0 for part in shape)
+        pure.require(inside, "counterexample: a pose is not one of the region")
+    if len(region.points) == 1:
+        found = is_broken(asked, region.points[0], roots)
+        pure.require(found, "counterexample: no condition is proved to fail there")
+        return "claim: not all poses of the region are good, as one shows"
+    pair = len(region.points) == 2 and determinant is not None
+    pure.well_formed(pair, "counterexample: neither one pose, nor two between which a determinant changes its sign")
+    signs = [sign_at(determinant or {}, point, roots) for point in region.points]
+    opposite = sorted(signs, key=repr) == [-1, 1]
+    pure.require(opposite, "counterexample: the determinants are not proved to have opposite signs")
+    return "claim: not all poses of the region are good, as the determinant has both signs in it, which is convex"
+
+
+def is_broken(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bool:
+    """Whether a condition is proved to fail at a pose."""
+    if isinstance(condition, Test):
+        sign = sign_at(condition.polynomial, point, roots)
+        if sign is None:
+            return False
+        return {"+": sign <= 0, "0+": sign < 0, "/": sign == 0}[condition.sign]
+    results = (is_broken(part, point, roots) for part in condition[1])
+    return any(results) if condition[0] == "and" else all(results)
+
+
+def value_at(polynomial: Polynomial, point: Numbers, used: tuple[int, ...]) -> Fraction:
+    """The value at a point of the terms with exactly these roots."""
+    pure.spend(20_000 * (1 + len(polynomial)))
+    count = len(point)
+    total = ZERO
+    for key, coefficient in polynomial.items():
+        if tuple(k for k, power in enumerate(key[count:]) if power) == used:
+            total += prod((x**power for x, power in zip(point, key, strict=False)), start=coefficient)
+    return total
+
+
+def sign_at(polynomial: Polynomial, point: Numbers, roots: Sequence[Polynomial]) -> int | None:
+    """The sign at a point, if it is proved."""
+    count = len(point)
+    groups = {tuple(k for k, power in enumerate(key[count:]) if power) for key in polynomial}
+    values = {group: value_at(polynomial, point, group) for group in groups}
+    if groups <= {()}:
+        value = values.get((), ZERO)
+        return (value > 0) - (value < 0)
+    squares = [value_at(root, point, ()) for root in roots]
+    if min(squares) < 0:
+        return None
+    for bits in PRECISIONS:
+        floors = [isqrt((square.numerator << 2 * bits) // square.denominator) for square in squares]
+        low = high = ZERO
+        for group, value in values.items():
+            small = prod((Fraction(floors[k], 1 << bits) for k in group), start=Fraction(1))
+            great = prod((Fraction(floors[k] + 1, 1 << bits) for k in group), start=Fraction(1))
+            low, high = low + min(value * small, value * great), high + max(value * small, value * great)
+        if low > 0 or high < 0:
+            return 1 if low > 0 else -1
+    return None

@@ -1,0 +1,140 @@
+"""Region certificates: a paving and what follows from it, written down for the checkers (``docs/regions.md``)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Final
+
+from pkm_exact.certify.build import sealed
+from pkm_exact.certify.certificate_entries import texts
+from pkm_exact.errors import InputError
+from pkm_exact.regions.region_legs import OnCrank, OnSlide, RegionLeg, RegionMachine
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.limits import Cones
+    from pkm_exact.regions.chart import Chart
+    from pkm_exact.regions.region_solver import RegionAnswer
+
+FORMAT: Final = "pkm_exact region certificate"
+VERSION: Final = 1
+CONE_ANGLES: Final = (30, 45, 60, 90, 120, 135, 150, 180)
+"""In degrees: those whose cosines have rational squares."""
+
+
+def region_certificate(answer: RegionAnswer) -> dict[str, Any]:
+    """The certificate of an answer about all of a region, or of a map, as a JSON object with its digest.
+
+    Raises
+    ------
+    InputError
+        If a limit has an irrational number in it, for which certificates have no word.
+    """
+    question, machine = answer.question, answer.machine
+    _require_rational(machine)
+    found = answer.counterexample
+    return sealed(
+        {
+            "format": FORMAT,
+            "version": VERSION,
+            "robot": _robot(machine),
+            "chart": _chart(question.chart),
+            "shape": [
+                {"constant": str(part.constant), "linear": texts(part.linear), "weights": texts(part.weights)}
+                for part in question.shape
+            ],
+            "conditions": list(question.conditions.asked),
+            "modes": list(question.conditions.modes),
+            "claim": claim_of(answer),
+            "axes": list(answer.axes),
+            "paving": answer.word if found is None else "",
+            "inside": answer.counts["inside"] if found is None else 0,
+            "undecided": answer.counts["undecided"] if found is None else 0,
+            "measure": None if answer.measures is None else texts(answer.measures),
+            "counterexample": [] if found is None else [texts(point) for point in found.points],
+        }
+    )
+
+
+def claim_of(answer: RegionAnswer) -> str:
+    """What the certificate claims: "map", "all", "not-all", or "undecided"."""
+    if answer.question.answer.kind == "map":
+        return "map"
+    if answer.counterexample is not None:
+        return "not-all"
+    return "all" if answer.is_proved else "undecided"
+
+
+def _robot(machine: RegionMachine) -> dict[str, Any]:
+    return {
+        "name": machine.name,
+        "unit": machine.unit,
+        "source": machine.source,
+        "motion": machine.motion,
+        "metric": texts(machine.metric),
+        "legs": [_leg(leg) for leg in machine.legs],
+        "forms": [texts(form) for form in machine.forms],
+        "base_cones": _cones(machine.base_cones),
+        "platform_cones": _cones(machine.platform_cones),
+        "position": _pairs(machine.position),
+    }
+
+
+def _leg(leg: RegionLeg) -> dict[str, Any]:
+    return {
+        "name": leg.name,
+        "base": texts(leg.base),
+        "platform": texts(leg.platform),
+        "actuator": _actuator(leg),
+        "reach": None if leg.reach is None else texts(leg.reach),
+    }
+
+
+def _actuator(leg: RegionLeg) -> dict[str, Any]:
+    found = leg.actuator
+    if isinstance(found, OnSlide):
+        return {"type": "slide", "direction": texts(found.direction), "rod_squared": str(found.rod_squared)}
+    if isinstance(found, OnCrank):
+        return {
+            "type": "crank",
+            "at_0": texts(found.at_0),
+            "at_90": texts(found.at_90),
+            "weight": str(found.weight),
+            "rod_squared": str(found.rod_squared),
+        }
+    return {"type": "length"}
+
+
+def _chart(chart: Chart) -> dict[str, Any]:
+    return {
+        "variables": list(chart.variables),
+        "box": _pairs(chart.box),
+        "position": [str(value) for value in chart.position],
+        "quaternion": None if chart.quaternion is None else texts(chart.quaternion),
+        "turns": [[turn] if isinstance(turn, str) else texts(turn) for turn in chart.turns],
+    }
+
+
+def _cones(cones: Cones | None) -> list[dict[str, Any]]:
+    if cones is None:
+        return []
+    return [{"axis": texts(axis), "degrees": str(angle)} for axis, angle in zip(cones.axes, cones.angles, strict=True)]
+
+
+def _pairs(pairs: Iterable[Any]) -> list[list[str]]:
+    return [texts(pair) for pair in pairs]
+
+
+def _require_rational(machine: RegionMachine) -> None:
+    for cones in (machine.base_cones, machine.platform_cones):
+        for angle in () if cones is None else cones.angles:
+            if angle not in CONE_ANGLES:
+                raise InputError(
+                    f"-o: a cone of {angle} degrees has no rational cosine squared, and certificates have no word for "
+                    f"others; give one of {', '.join(map(str, CONE_ANGLES))}, or leave -o out"
+                )
+    for leg in machine.legs:
+        if isinstance(leg.actuator, OnCrank) and leg.reach is not None and any(end % 90 for end in leg.reach):
+            raise InputError(
+                f"-o: {leg.name}: certificates have a word only for limits of cranks at multiples of 90 degrees; "
+                "give such, or leave -o out"
+            )
