@@ -6,7 +6,7 @@ the definition of the format and its proofs, ``docs/regions.md``; it shares no l
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
@@ -412,7 +412,7 @@ class Equations:
     def value_of(self, form: Numbers) -> Polynomial:
         """N^2 times the value of a form."""
         g, c, r = self.g, self.center, self.rotation
-        terms = [(form[0], self.inner(c, c)), (form[16], self.square_norm)]
+        terms: list[tuple[Any, Polynomial]] = [(form[0], self.inner(c, c)), (form[16], self.square_norm)]
         for i in range(3):
             terms += [(form[1 + i] * Fraction(g[k], g[i]), times(r[k][i], c[k])) for k in range(3)]
             terms.append((form[4 + i], times(self.norm, c[i])))
@@ -427,7 +427,7 @@ class Equations:
         moment = []
         for i in range(3):
             j, k = (i + 1) % 3, (i + 2) % 3
-            terms = [(g[k], times(a[j], c[k])), (-g[j], times(a[k], c[j]))]
+            terms: list[tuple[Any, Polynomial]] = [(g[k], times(a[j], c[k])), (-g[j], times(a[k], c[j]))]
             for b in range(3):
                 terms += [
                     (g[j] * form[7 + 3 * k + b], times(n, r[j][b])),
@@ -468,7 +468,8 @@ class Placed:
         self.arm = equations.moved(leg.platform)
         e = [plus((1, c), (1, b), (-a, n)) for c, b, a in zip(equations.center, self.arm, leg.base, strict=True)]
         self.square = equations.inner(e, e)
-        self.rod, self.root = e, None
+        self.rod = e
+        self.root: Polynomial | None = None
         self.value = self.square, equations.square_norm
         self.place = -1
         if leg.axes:
@@ -488,12 +489,13 @@ class Placed:
         eq, leg = self.equations, self.leg
         y, axes = eq.generator(self.place), [eq.numbers(axis) for axis in leg.axes]
         if len(axes) == 1:
-            a = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
-            p = eq.inner(axes[0], e)
-            way = plus((1, p), (self.mode, y))
-            self.root = plus((1, times(p, p)), (-a, self.square), (a * leg.rod, eq.square_norm))
-            self.rod = [plus((a, x), (-d, way)) for x, d in zip(e, leg.axes[0], strict=True)]
-            self.value = way, plus((a, eq.norm))
+            length = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
+            along_it = eq.inner(axes[0], e)
+            way = plus((1, along_it), (self.mode, y))
+            terms = (1, times(along_it, along_it)), (-length, self.square), (length * leg.rod, eq.square_norm)
+            self.root = plus(*terms)
+            self.rod = [plus((length, x), (-d, way)) for x, d in zip(e, leg.axes[0], strict=True)]
+            self.value = way, plus((length, eq.norm))
             return
         a, p = (plus((2, times(eq.norm, eq.inner(axis, e)))) for axis in axes)
         size = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
@@ -785,7 +787,7 @@ def followed(region: Region, condition: Any, roots: Sequence[Polynomial]) -> dic
     return shares
 
 
-def holds(condition: Any, ranges: dict[int, Callable[[], tuple[Any, Any]]]) -> bool:
+def holds(condition: Any, ranges: Mapping[int, Callable[[], tuple[Any, Any]]]) -> bool:
     """Whether a condition holds all over a part."""
     if isinstance(condition, Test):
         low, high = ranges[id(condition)]()
@@ -794,7 +796,7 @@ def holds(condition: Any, ranges: dict[int, Callable[[], tuple[Any, Any]]]) -> b
     return all(results) if condition[0] == "and" else any(results)
 
 
-def fails(condition: Any, ranges: dict[int, Callable[[], tuple[Any, Any]]]) -> bool:
+def fails(condition: Any, ranges: Mapping[int, Callable[[], tuple[Any, Any]]]) -> bool:
     """Whether a condition holds nowhere in a part."""
     if isinstance(condition, Test):
         if condition.sign == "/":

@@ -208,5 +208,5 @@ def _driven(found: Distance, drive: Drive, part: Part, reach: dict[str, Pair]) -
     axes: Any = part.axes
     actuator: Actuator = OnSlide(axes[0], found.length_squared)
     if drive.is_crank:
-        actuator = OnCrank(*axes, drive.weight, found.length_squared)
+        actuator = OnCrank(axes[0], axes[1], drive.weight, found.length_squared)
     return RegionLeg(found.name, found.base, found.platform, actuator, reach.get(drive.name))

@@ -226,7 +226,8 @@ def _require_cranks(legs: Sequence[LegEntry], metric: Sequence[int]) -> None:
             raise malformed("robot.legs: an axis is 0")
         if len(leg.axes) == 2:
             u, v = leg.axes
-            if squares[1] != leg.weight * squares[0] or sum(g * a * b for g, a, b in zip(metric, u, v, strict=True)):
+            product = sum(g * a * b for g, a, b in zip(metric, u, v, strict=True))
+            if squares[1] != leg.weight * squares[0] or product != 0:
                 raise malformed("robot.legs: a crank does not turn on a circle")
 
 
@@ -245,7 +246,7 @@ def _leg(value: object, where: str) -> LegEntry:
         _, first, second, weight, rod = entries(actuator, inside, ("type", "at_0", "at_90", "weight", "rod_squared"))
         axes = _vector(first, f"{inside}.at_0"), _vector(second, f"{inside}.at_90")
         share = positive(weight, f"{inside}.weight")
-        if share.denominator != 1 or (limits is not None and (share != 1 or any(end % 90 for end in limits))):
+        if share.denominator != 1 or (limits is not None and (share != 1 or any(end % 90 != 0 for end in limits))):
             raise malformed(
                 f"{inside}: a weight that is no whole number, or limits that are no multiples of 90 degrees"
             )
