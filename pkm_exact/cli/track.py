@@ -39,9 +39,14 @@ _SECONDS_PER_LINE: Final = 0.1
     "--start",
     "number",
     type=click.IntRange(min=1),
-    required=True,
     metavar="POSE",
-    help="The pose to follow: its number in the list that `solve` prints for the path's first row.",
+    help="The pose to follow: its number in the list that `solve` prints for the path's first row. Not for poses.",
+)
+@click.option(
+    "--working-modes",
+    "modes",
+    metavar="SIGNS",
+    help="For a path of poses of slides or cranks: a sign for each leg, such as +,-,+.",
 )
 @arguments.width_option
 @click.option(
@@ -53,13 +58,19 @@ _SECONDS_PER_LINE: Final = 0.1
     help="Write the samples to OUT.csv or OUT.json.",
 )
 @click.option("-v", "--verbose", is_flag=True, help="Say more: stages and rows on a terminal.")
-def track(model: str, path: str, number: int, width: Fraction, output: str, verbose: bool) -> int:
+def track(
+    model: str, path: str, number: int | None, modes: str | None, width: Fraction, output: str, verbose: bool
+) -> int:
     """Follow one pose of the robot in the file MODEL along a path of joint values, and prove that it is one branch.
 
     PATH.csv has one row per sample: leg lengths (slide positions q1,.., or half tangents h1,.. of crank angles; values
     of actuated constraints under their names), all exact, and before them, if wanted, the time; between rows the path
     is straight. OUT gets a certified box of the pose at every row. Every step in between is proved to stay on the same
     branch, away from singularities; where that cannot be proved, OUT ends there, with exit code 3.
+
+    With columns of poses instead (x,y,z,roll,pitch,yaw in degrees, R = Rz(yaw) Ry(pitch) Rx(roll), or x,y,z,q0,..,q3;
+    planar x,y,theta; named in the first line) the joint values follow from them, and over every whole step it is
+    proved that the poses are reached, away from singularities, within the limits; or it is said where that ends.
 
     An interrupted run leaves OUT.partial beside OUT; the same command goes on from there.
 
@@ -72,12 +83,23 @@ def track(model: str, path: str, number: int, width: Fraction, output: str, verb
         raise click.UsageError(f"-o: {printable(output)} ends neither in .csv nor in .json; give it one of these.")
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.geometry.path_reader import read_path
+    from pkm_exact.geometry.pose_path_reader import read_pose_path
 
     robot = announced_model(model)
-    joints = read_path(path, robot)
+    poses = read_pose_path(path, robot)
     arguments.require_other_file(target, model, "-o")
     arguments.require_other_file(target, path, "-o", "the file of the path")
     arguments.require_writable(target, "-o")
+    if poses is not None:
+        if number is not None:
+            raise click.UsageError("--start: the poses of the path say themselves which are meant; leave it out.")
+        from pkm_exact.cli.pose_track import follow_poses
+
+        return follow_poses(robot, poses, target, modes, verbose=verbose)
+    joints = read_path(path, robot)
+    if number is None or modes is not None:
+        what = "--working-modes: is for a path of poses" if modes is not None else "--start: is missing"
+        raise click.UsageError(f"{what}; a path of joint values needs --start and nothing else.")
 
     from pkm_exact.cli.track_report import start_line, written
     from pkm_exact.cli.track_store import TrackStore

@@ -64,12 +64,13 @@ def read_path(path: str | os.PathLike[str], robot: Machine) -> JointPath:
     """
     name = os.fspath(path)
     try:
-        return path_from_csv(_text(name), robot)
+        return path_from_csv(path_text(name), robot)
     except InputError as error:
         raise InputError(f"{printable(name)}: {error}") from None
 
 
-def _text(name: str) -> str:
+def path_text(name: str) -> str:
+    """The text of a file of a path."""
     try:
         with Path(name).open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)

@@ -136,7 +136,7 @@ def _regular_jacobian(matrix: arb_mat, length: Fraction) -> LegJacobian | None:
             return None
         sign = 1 if determinant > 0 else -1
     try:
-        largest, inverse = _largest_singular_value(matrix), _largest_singular_value(_left_inverse(matrix))
+        largest, inverse = largest_singular_value(matrix), largest_singular_value(_left_inverse(matrix))
     except ZeroDivisionError:
         return None
     if largest is None or inverse is None:
@@ -155,7 +155,7 @@ def _left_inverse(matrix: arb_mat) -> arb_mat:
     return (transpose * matrix).inv() * transpose
 
 
-def _largest_singular_value(matrix: arb_mat) -> arb | None:
+def largest_singular_value(matrix: arb_mat) -> arb | None:
     """An enclosure of the largest singular value; None if the entries are too wide for one.
 
     With approximate singular vectors U, V, floating but exact as they stand, U^T A V is nearly diagonal: its singular

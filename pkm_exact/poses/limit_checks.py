@@ -109,7 +109,7 @@ def _actuator_verdicts(
 ) -> dict[str, LimitVerdict]:
     values = _actuator_values(machine, locked, problem)
     found = {}
-    for name, holds in (("lengths", _within_squares), ("slides", _within), ("angles", _turned_within)):
+    for name, holds in (("lengths", _within_squares), ("slides", _within), ("angles", _angle_within)):
         pairs: tuple[Pair, ...] = getattr(limits, name)
         if pairs:
             compare: Callable[[Any, Pair], LimitVerdict] = holds
@@ -141,12 +141,15 @@ def _within(value: Fraction, pair: Pair) -> LimitVerdict:
     return LimitVerdict.YES if pair[0] <= value <= pair[1] else LimitVerdict.NO
 
 
-def _turned_within(direction: tuple[Fraction, Fraction], pair: Pair) -> LimitVerdict:
-    """Whether an angle, given by cosine and sine, lies between two angles in degrees, whole turns aside."""
+def _angle_within(direction: tuple[Fraction, Fraction], pair: Pair) -> LimitVerdict:
+    return turned_within(ball(direction[0]), ball(direction[1]), pair)
+
+
+def turned_within(c: arb, s: arb, pair: Pair) -> LimitVerdict:
+    """Whether an angle, given by multiples of cosine and sine, lies between two in degrees, whole turns aside."""
     least, greatest = pair
     if greatest - least >= 360:
         return LimitVerdict.YES
-    c, s = map(ball, direction)
 
     def turned(angle: Fraction, towards: int) -> tuple[arb, arb]:
         """Cosine and sine of what the direction is beyond an angle, or short of it."""
@@ -156,12 +159,12 @@ def _turned_within(direction: tuple[Fraction, Fraction], pair: Pair) -> LimitVer
 
     (cosine, after), (_, before) = turned(least, 1), turned(greatest, -1)
     if greatest - least > 180:
-        return _any((_at_least(after), _at_least(before)))
+        return _any((at_least(after), at_least(before)))
     if least == greatest:
-        return together((_at_least(after), _at_least(before), _at_least(cosine)))
+        return together((at_least(after), at_least(before), at_least(cosine)))
     if greatest - least == 180:
-        return _at_least(after)
-    return together((_at_least(after), _at_least(before)))
+        return at_least(after)
+    return together((at_least(after), at_least(before)))
 
 
 def _any(verdicts: Iterable[LimitVerdict]) -> LimitVerdict:
@@ -169,7 +172,7 @@ def _any(verdicts: Iterable[LimitVerdict]) -> LimitVerdict:
     return next((v for v in (LimitVerdict.YES, LimitVerdict.UNDECIDED) if v in found), LimitVerdict.NO)
 
 
-def _at_least(value: arb) -> LimitVerdict:
+def at_least(value: arb) -> LimitVerdict:
     """Whether an enclosed number is 0 or more."""
     return LimitVerdict.YES if value >= 0 else LimitVerdict.NO if value < 0 else LimitVerdict.UNDECIDED
 
@@ -190,11 +193,11 @@ def _pose_verdicts(limits: Limits, problem: ForwardProblem, pose: Pose) -> dict[
         axes = [_turned(rotation, _ordinary(axis, roots)) for axis in limits.platform_cones.axes]
         found["platform_cones"] = _in_cones(limits.platform_cones, axes, tips, feet)
     if limits.leg_distance is not None:
-        found["leg_distance"] = _are_apart(ball(limits.leg_distance), legs, feet, tips)
+        found["leg_distance"] = are_apart(ball(limits.leg_distance), legs, feet, tips)
     if limits.position:
         sides = zip(position, roots, limits.position, strict=False)
         found["position"] = together(
-            _at_least(side) for c, root, (low, high) in sides for side in (c - ball(low) * root, ball(high) * root - c)
+            at_least(side) for c, root, (low, high) in sides for side in (c - ball(low) * root, ball(high) * root - c)
         )
     return found
 
@@ -220,29 +223,30 @@ def _minus(left: Point, right: Point) -> list[arb]:
 
 def _in_cones(cones: Cones, axes: Sequence[Point], here: Sequence[Point], there: Sequence[Point]) -> LimitVerdict:
     return together(
-        _in_cone(axis, _minus(end, start), angle)
+        in_cone(axis, _minus(end, start), angle)
         for axis, start, end, angle in zip(axes, here, there, cones.angles, strict=True)
     )
 
 
-def _in_cone(axis: Point, leg: Point, angle: Fraction) -> LimitVerdict:
+def in_cone(axis: Point, leg: Point, angle: Fraction) -> LimitVerdict:
     """Whether axis.leg >= cos(angle) |axis| |leg|."""
     cosine = arb.cos_pi_fmpq(fmpq(angle.numerator, 180 * angle.denominator))
     square = _dot(axis, axis) * _dot(leg, leg)
     size = square.sqrt() if square > 0 else arb(0).union(square.abs_upper().sqrt())
-    return _at_least(_dot(axis, leg) - cosine * size)
+    return at_least(_dot(axis, leg) - cosine * size)
 
 
-def _are_apart(least: arb, legs: Sequence[Distance], feet: Sequence[Point], tips: Sequence[Point]) -> LimitVerdict:
+def are_apart(least: arb, legs: Sequence[Any], feet: Sequence[Point], tips: Sequence[Point]) -> LimitVerdict:
+    """Whether all legs that share no joint are at least that far apart, as segments."""
     segments = list(zip(legs, feet, tips, strict=True))
     return together(
-        _distance_verdict(least, (foot, tip), (other_foot, other_tip))
+        distance_verdict(least, (foot, tip), (other_foot, other_tip))
         for (leg, foot, tip), (other, other_foot, other_tip) in combinations(segments, 2)
         if leg.base != other.base and leg.platform != other.platform
     )
 
 
-def _distance_verdict(least: arb, one: tuple[Point, Point], other: tuple[Point, Point]) -> LimitVerdict:
+def distance_verdict(least: arb, one: tuple[Point, Point], other: tuple[Point, Point]) -> LimitVerdict:
     shares = nearest_shares(_floats(one), _floats(other))
     if shares is None:
         return LimitVerdict.UNDECIDED

@@ -115,8 +115,14 @@ class RegionMachine:
     position: tuple[Pair, ...] = ()
 
 
-def region_machine(machine: Machine) -> RegionMachine:
+def region_machine(machine: Machine, *, with_leg_distance: bool = False) -> RegionMachine:
     """The legs of a robot, with its limits.
+
+    Parameters
+    ----------
+    machine : Machine
+    with_leg_distance : bool
+        Whether a least distance of legs is no reason to refuse.
 
     Raises
     ------
@@ -124,7 +130,7 @@ def region_machine(machine: Machine) -> RegionMachine:
         If joint values do not follow from the pose leg by leg, or a limit is not of a sort that regions know.
     """
     limits = machine.limits or Limits()
-    if limits.leg_distance is not None:
+    if limits.leg_distance is not None and not with_leg_distance:
         raise InputError("limits.leg_distance: regions do not know this limit; remove it from the model")
     legs, forms = (
         _mechanism_legs(machine, limits)
