@@ -24,6 +24,8 @@ from pkm_exact.certify.certified_machine import (
     certified_squares,
 )
 from pkm_exact.certify.check import check_bytes
+from pkm_exact.certify.system_build import FORMAT as SYSTEM_FORMAT
+from pkm_exact.certify.system_build import system_certificate
 from pkm_exact.certify.tolerance_build import FORMAT as TOLERANCE_FORMAT
 from pkm_exact.certify.tolerance_build import tolerance_certificate
 from pkm_exact.engine import solve
@@ -34,6 +36,8 @@ from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.numeric_engine import FALLBACK_NOTE, solve_exactly_instead, solve_krawczyk
 from pkm_exact.policy import Policy
 from pkm_exact.stages import Progress
+from pkm_exact.systems.system_engine import solved_system
+from pkm_exact.systems.system_sources import polynomial_system
 from pkm_exact.wording import counted, shown
 
 if TYPE_CHECKING:
@@ -87,7 +91,7 @@ def recompute(
     Parameters
     ----------
     data : bytes
-        Content of a certificate of poses or of tolerances.
+        Content of a certificate of poses, of tolerances or of a polynomial system.
     robot : Machine, optional
         A robot or mechanism whose configuration of the same name is to be solved (its lengths, if the certificate's
         have no name); by default the one that is written in the certificate.
@@ -123,8 +127,11 @@ def recompute(
         outcome = {"rejected": Outcome.REJECTED, "malformed": Outcome.MALFORMED}.get(verdict.status, Outcome.TOO_LARGE)
         return Recomputation(outcome, verdict.lines[-1], None)
     content = json.loads(data)
-    asked = _Question.of(content, robot)
-    for found in _answers(content, asked, policy, progress or (lambda _: None)):
+    if content["format"] == SYSTEM_FORMAT:
+        answers = _system_answers(content, robot, policy, progress)
+    else:
+        answers = _answers(content, _Question.of(content, robot), policy, progress or (lambda _: None))
+    for found in answers:
         if canonical_bytes(found) == data:
             return Recomputation(Outcome.SAME, _summary(content), data)
     answer = canonical_bytes(found)
@@ -169,6 +176,18 @@ def _answers(
     yield certificate(asked.robot, asked.name, solution)
 
 
+def _system_answers(
+    content: dict[str, Any], robot: Machine | None, policy: Policy | None, progress: Progress | None
+) -> Iterator[dict[str, Any]]:
+    """The certificate of the polynomial system that is written in one."""
+    if robot is not None:
+        raise InputError("certificate: is one of a polynomial system, and not of a robot; recompute it without a model")
+    polynomials = ["+".join(terms) for terms in content["polynomials"]]
+    system = polynomial_system(polynomials, content["variables"])
+    width = Fraction(2, 1 << content["box_exponent"])
+    yield system_certificate(solved_system(system, width=width, policy=policy, progress=progress), content["title"])
+
+
 def _tolerance_answers(
     content: dict[str, Any], asked: _Question, policy: Policy | None, progress: Progress
 ) -> Iterator[dict[str, Any]]:
@@ -191,6 +210,8 @@ def _summary(content: dict[str, Any]) -> str:
         total = proved + len(content["unproved"])
         claim = "complete within tolerance" if content["complete"] else "not proven complete within tolerance"
         return f"{claim}, {proved} of {total} poses proved"
+    if content["format"] == SYSTEM_FORMAT:
+        return f"{content['claim'].replace('-', ' ')}, {counted(content['real_solutions'], 'real solution')}"
     return f"{content['claim'].replace('-', ' ')}, {counted(content['real_poses'], 'pose')}"
 
 

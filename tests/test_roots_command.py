@@ -134,3 +134,13 @@ def test_within_limits_the_answer_is_the_same(circle: str, capsys: Capture) -> N
 def test_every_help_has_examples(name: str, capsys: Capture) -> None:
     assert run(*([name] if name else []), "--help") == ExitCode.DONE
     assert "Examples:\n    certify-roots" in capsys.readouterr().out
+
+
+def test_commands_for_robots_say_that_it_is_none(circle: str, tmp_path: Path, capsys: Capture) -> None:
+    target = str(tmp_path / "circle.json")
+    assert run(circle, "-o", target) == ExitCode.DONE
+    for words in (["report", target, "-o", str(tmp_path / "x.html")], ["plot", target, "-o", str(tmp_path / "x.svg")]):
+        assert main(words) == ExitCode.BAD_INPUT
+        assert "internal" not in capsys.readouterr().err
+    assert main(["check", "--recompute", target]) == ExitCode.DONE
+    assert "same bytes, complete, 2 real solutions" in capsys.readouterr().out

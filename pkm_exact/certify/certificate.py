@@ -105,7 +105,7 @@ class Certificate:
         except InputError:
             return "no JSON object; not checked yet"
         robot = content.get("robot")
-        name = robot.get("name") if isinstance(robot, dict) else None
+        name = robot.get("name") if isinstance(robot, dict) else content.get("title")
         return f"{printable(str(name))}, claim: {printable(str(content.get('claim')))}; not checked yet"
 
     def __repr__(self) -> str:

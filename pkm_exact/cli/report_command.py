@@ -63,6 +63,10 @@ def _page(document: dict[str, object], lines: tuple[str, ...], certificate: str,
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.report_page.page import report_page
 
+    if "polynomials" in document:
+        raise InputError(
+            f"{certificate}: certifies a polynomial system, of which there is no page; use certify-roots check"
+        )
     robot = None if model is None else announced_model(model)
     try:
         return report_page(document, lines, Path(certificate).name, robot)
