@@ -83,7 +83,18 @@ TYPES: dict[str, Callable[[Pose], Sequence[Constraint]]] = {
     "axis-distance": lambda at: [at.axis_distance((1, 2, 3), (2, -1, 1), (3, 1, -2))],
     **{
         f"on-line along {direction}": lambda at, direction=direction: [at.on_line(direction, (2, -1, 3))]  # type: ignore[misc]
-        for direction in ((5, 1, 2), (1, 5, 2), (1, 2, 5), (0, 0, 1), (6, 0, 0), (-3, 3, 0), (0, 3, -2), (2, 0, 1))
+        for direction in (
+            (5, 1, 2),
+            (1, 5, 2),
+            (1, 2, 5),
+            (0, 0, 1),
+            (6, 0, 0),
+            (-3, 3, 0),
+            (-5, 2, 1),
+            (1, -6, 2),
+            (0, 3, -2),
+            (2, 0, 1),
+        )
     },
 }
 KINDS = {
@@ -211,6 +222,17 @@ CLAIMED: dict[str, Case] = {
         REJECTED,
     ),
     "the method krawczyk and a motion": (lambda: _of("parallelogram", "representation", method="krawczyk"), REJECTED),
+    **{
+        f"nothing, said to be {claim} by no route": (
+            lambda claim=claim: _of("contradictory leg", claim=claim, completeness_route=None),  # type: ignore[misc]
+            REJECTED,
+        )
+        for claim in ("inconsistent", "complete", "positive-dimensional-proved")
+    },
+    "four of eight poses, a motion detected": (
+        lambda: _lacking("cylinders", 0, **DETECTED, completeness_route=None, complex_solutions=4),
+        REJECTED,
+    ),
     "a motion beside poses": (lambda: _of("H4", self_motion=MOVES), REJECTED),
     "a motion beside nothing": (lambda: _of("contradictory leg", self_motion=MOVES), REJECTED),
     "a motion that is proved by nothing": (lambda: _of("few legs", "self_motion"), REJECTED),

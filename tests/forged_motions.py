@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from held_mechanisms import PLACED, Content, Numbers, Pose, listing, moving
@@ -135,6 +136,22 @@ def _symmetric() -> Iterator[tuple[str, Case]]:
             )
 
 
+def _cylinders(place: int) -> Content:
+    """All around one line, but for one of them."""
+    point, direction = LINES["elsewhere"]
+    axes = [direction] * 3
+    axes[place] = (1, 1, -2)
+    parts = zip(_on_line(point, direction), axes, ANY, strict=False)
+    legs = [PLACED.distance(point, OTHERS[0])]
+    return moving(
+        listing("spatial", [PLACED], [*(PLACED.axis_distance(*part) for part in parts), *legs], None), "symmetry"
+    )
+
+
+COAXIAL: dict[str, Case] = {
+    f"cylinder {n + 1} of three around another line": (partial(_cylinders, n), REJECTED) for n in range(3)
+}
+
 # Dependent constraints
 
 IDENTITY = Pose((1, 0, 0, 0), (0, 0, 0, 0))
@@ -254,6 +271,7 @@ def _slices(change: Callable[[list[Any]], list[Any]], *, real: bool = True, **en
 
 
 SLICES: dict[str, Case] = {
+    "slices by the method krawczyk": (lambda: _slices(lambda cuts: cuts) | {"method": "krawczyk"}, REJECTED),
     "as many poses as can be isolated": (lambda: _slices(lambda cuts: cuts[:-1], real=False), REJECTED),
     "the first two slices in the other order": (lambda: _slices(lambda cuts: [cuts[1], cuts[0], *cuts[2:]]), REJECTED),
     "the last two slices in the other order": (lambda: _slices(lambda cuts: [*cuts[:2], cuts[3], cuts[2]]), REJECTED),
@@ -284,4 +302,4 @@ SLICES: dict[str, Case] = {
     ),
 }
 
-MOTIONS: dict[str, Case] = {**dict(_symmetric()), **DEPENDENT, **EQUAL, **SLICES}
+MOTIONS: dict[str, Case] = {**dict(_symmetric()), **COAXIAL, **DEPENDENT, **EQUAL, **SLICES}

@@ -142,19 +142,23 @@ def differing(
             os.close(reader)
             _probe_all(mutants, list(enumerate(examples))[start : start + BATCH], check, replace, unlimited, writer)
         os.close(writer)
+        answers: dict[int, list[int] | None] = {}
         with os.fdopen(reader, "rb") as stream:
             while True:
                 try:
                     place, numbers = pickle.load(stream)  # noqa: S301 - our own child
-                except EOFError:
+                except (EOFError, pickle.UnpicklingError):
                     break
-                for number in probed if numbers is None else numbers:
-                    found[probed[number]].append(place)
+                answers[place] = numbers
         os.waitpid(child, 0)
+        for place in range(start, min(start + BATCH, len(examples))):
+            numbers = answers.get(place)
+            for number in probed if numbers is None else numbers:
+                found[probed[number]].append(place)
     return found
 
 
-BATCH = 100
+BATCH = 1000
 """Certificates that one process looks at: what it does not answer is tried with all mutants."""
 
 
