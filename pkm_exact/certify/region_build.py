@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 from pkm_exact.certify.build import sealed
 from pkm_exact.certify.certificate_entries import texts
 from pkm_exact.errors import InputError
-from pkm_exact.regions.region_legs import OnCrank, OnSlide, RegionLeg, RegionMachine
+from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, RegionLeg, RegionMachine
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.limits import Cones
@@ -133,6 +133,8 @@ def _require_rational(machine: RegionMachine) -> None:
                     f"others; give one of {', '.join(map(str, CONE_ANGLES))}, or leave -o out"
                 )
     for leg in machine.legs:
+        if isinstance(leg.actuator, OnHinge):
+            raise InputError(f"-o: {leg.name}: certificates have no word for driven hinges; leave -o out")
         if isinstance(leg.actuator, OnCrank) and leg.reach is not None and any(end % 90 for end in leg.reach):
             raise InputError(
                 f"-o: {leg.name}: certificates have a word only for limits of cranks at multiples of 90 degrees; "

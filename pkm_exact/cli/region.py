@@ -69,6 +69,10 @@ def region(
     except InputError as error:
         raise InputError(f"{model}: {error}") from None
     asked = read_question(question, machine)
+    if asked.answer.kind == "locus":
+        if output is not None or picture is not None:
+            raise InputError(f"{question}: answer.kind: a locus has neither certificate nor picture; leave -o out")
+        return _locus(machine, asked, question, layout)
     for path, option in ((output, "-o"), (picture, "--picture")):
         if path is not None:
             arguments.require_other_file(Path(path), model, option)
@@ -88,6 +92,19 @@ def region(
     text = region_report.as_json(answer) if layout == "json" else region_report.as_text(answer)
     sys.stdout.write(text)
     return ExitCode.WEAKER_CLAIM if region_report.is_undecided(answer) else ExitCode.DONE
+
+
+def _locus(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str) -> int:
+    from pkm_exact.cli import region_report
+    from pkm_exact.regions.locus import locus
+
+    try:
+        found = locus(machine, asked)
+    except InputError as error:
+        raise InputError(f"{question}: {error}") from None
+    said = region_report.locus_json if layout == "json" else region_report.locus_text
+    sys.stdout.write(said(machine, found))
+    return ExitCode.DONE
 
 
 def _answer(

@@ -16,6 +16,9 @@ from pkm_exact.roots.interval import Interval
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from pkm_exact.regions.locus import Locus
+    from pkm_exact.regions.region_legs import RegionMachine
+
 _DIGITS: Final = 9
 _MEASURES: Final = {1: "length", 2: "area", 3: "volume"}
 
@@ -157,6 +160,39 @@ def as_object(answer: RegionAnswer) -> dict[str, Any]:
         "components": None if found is None else {"at_least": found.separated, "inside_pieces": found.connected},
         "enlarged": answer.question.enlarged,
     }
+
+
+def locus_text(machine: RegionMachine, found: Locus) -> str:
+    """Where a machine is singular, in a few lines."""
+    lines = [f"{machine.name}: singular poses, by {', '.join(found.variables)}"]
+    if found.is_identical:
+        lines.append("everywhere: the determinant is identically 0")
+    elif not found.factors:
+        lines.append("nowhere: the determinant is never 0")
+    lines += [f"{factor} = 0" + (f", {power} times" if power > 1 else "") for factor, power in found.factors]
+    if found.points is not None:
+        lines += [f"in the region: {found.variables[0]} = {point}" for point in found.points] or ["none in the region"]
+    if set(machine.metric) != {1}:
+        lines.append(f"note: coordinates are those of the model, in the metric {', '.join(map(str, machine.metric))}")
+    if found.is_redundant:
+        lines.append("note: common to all determinants; more equations than freedoms may fail in smaller sets besides")
+    return "\n".join(lines) + "\n"
+
+
+def locus_json(machine: RegionMachine, found: Locus) -> str:
+    """The same as a JSON object."""
+    points = None if found.points is None else [[str(point.lo), str(point.hi)] for point in found.points]
+    content = {
+        "robot": machine.name,
+        "answer": "locus",
+        "variables": list(found.variables),
+        "factors": [{"polynomial": factor, "power": power} for factor, power in found.factors],
+        "identical": found.is_identical,
+        "points": points,
+        "redundant": found.is_redundant,
+        "metric": list(machine.metric),
+    }
+    return json.dumps(content, indent=1) + "\n"
 
 
 def draw(answer: RegionAnswer | LargestAnswer, path: Path) -> None:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from pkm_exact.interactive.answers import Solution
     from pkm_exact.policy import Policy
     from pkm_exact.poses.pose import Pose
+    from pkm_exact.regions.locus import Locus
     from pkm_exact.regions.region_solver import LargestAnswer, RegionAnswer
     from pkm_exact.statics.at_pose import AtPose
 
@@ -156,7 +157,7 @@ class Asked(Machine):
 
         return machine_at(self, pose, configuration, modes)
 
-    def region(self, question: str | os.PathLike[str], *, workers: int = 1) -> RegionAnswer | LargestAnswer:
+    def region(self, question: str | os.PathLike[str], *, workers: int = 1) -> RegionAnswer | LargestAnswer | Locus:
         """The answer to a question about all poses of a region.
 
         Parameters
@@ -178,6 +179,7 @@ class Asked(Machine):
         >>> Robot.load("models/3-rpr-merlet-p.toml").region(text).is_proved
         True
         """
+        from pkm_exact.regions.locus import locus
         from pkm_exact.regions.question_reader import of_size, question_from_toml, read_question
         from pkm_exact.regions.region_legs import region_machine
         from pkm_exact.regions.region_solver import answered, largest
@@ -186,6 +188,8 @@ class Asked(Machine):
         machine = region_machine(self)
         is_text = isinstance(question, str) and "\n" in question
         asked = question_from_toml(str(question), machine) if is_text else read_question(question, machine)
+        if asked.answer.kind == "locus":
+            return locus(machine, asked)
         with working(machine, workers) as run:
             if asked.answer.kind == "largest":
                 return largest(machine, asked, lambda size: of_size(asked, machine, size), run=run)

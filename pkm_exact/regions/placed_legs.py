@@ -3,6 +3,7 @@
 With N the norm of the chart and e = N (C + R B - A), products in the metric, s the sign of the working mode:
 
     own length   N^2 l^2 = |e|^2,                                        rod e
+    hinge        p = N (u.(C + R B) - o_1), q = N (v.(C + R B) - o_2),   p v - q u instead of a rod
     slide        a = |d|^2, b = d.e, D = b^2 - a (|e|^2 - r^2 N^2),      rod a e - (b + s y) d
                  a N q = b + s y, y = sqrt(D)
     crank        a = 2 N u.e, b = 2 N v.e, h = |e|^2 + (|u|^2 - r^2) N^2, m = a^2 + b^2 / w, D = (m - h^2) / w,
@@ -21,7 +22,7 @@ from typing import Any
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.regions.chart import Polynomial, PosePolynomials, moved, rational
-from pkm_exact.regions.region_legs import OnCrank, OnSlide, RegionLeg
+from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, RegionLeg
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +83,11 @@ def placed_leg(leg: RegionLeg, pose: PosePolynomials, metric: Metric, mode: int,
         return _on_slide(leg, leg.actuator, pose, metric, arm, offset, mode, place)
     if isinstance(leg.actuator, OnCrank):
         return _on_crank(leg, leg.actuator, pose, metric, arm, offset, mode, place)
+    if isinstance(leg.actuator, OnHinge):
+        # n.(C + R B) = o for (c, s) = (-q, p), so that n is a multiple of p v - q u.
+        (u, v), (first, second) = map(exact_vector, leg.actuator.normals), map(rational, leg.actuator.offsets)
+        p, q = (product(metric, w, tip) - o * pose.norm for w, o in ((u, first), (v, second)))
+        return PlacedLeg(leg, arm, [p * b - q * a for a, b in zip(u, v, strict=True)], (p * p + q * q, pose.norm))
     return PlacedLeg(leg, arm, offset, (product(metric, offset, offset), pose.norm * pose.norm))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Final
 
@@ -15,7 +15,7 @@ from pkm_exact.regions.chart import POSITIONS, Chart, Polynomial, PosePolynomial
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some
 from pkm_exact.regions.near_angles import squared_cosines, turn_directions
 from pkm_exact.regions.placed_legs import PlacedLeg, placed_leg, product, without_squares
-from pkm_exact.regions.region_legs import OnCrank, OnSlide, OwnLength, RegionMachine
+from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, OwnLength, RegionMachine
 
 CONDITIONS: Final = ("reachable", "limits", "no_type_1", "no_type_2")
 """In the order of certificates. That no constraint is singular is part of the last."""
@@ -65,20 +65,8 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
     InputError
         If the structure of the robot does not allow all poses of the chart, or working modes are needed and not named.
     """
-    driven = [k for k, leg in enumerate(machine.legs) if not isinstance(leg.actuator, OwnLength)]
-    pose = pose_polynomials(chart, machine.metric, tuple(f"s{k + 1}" for k in driven))
-    for form in machine.forms:
-        if not form_at(form, pose, machine.metric).is_zero():
-            raise InputError(
-                "region: its poses are not all among those that the joints of the mechanism allow; fix the coordinates "
-                "that these fix"
-            )
+    pose, placed = _placed_legs(machine, chart, conditions)
     _require_modes(machine, conditions)
-    places = {k: len(chart.variables) + i for i, k in enumerate(driven)}
-    placed = [
-        placed_leg(leg, pose, machine.metric, conditions.modes[k] or 1, places.get(k, -1))
-        for k, leg in enumerate(machine.legs)
-    ]
     parts: list[Formula] = []
     parts += [Atom(f"{leg.leg.name} reaches", leg.root) for leg in placed if leg.root is not None]
     if "limits" in conditions.asked:
@@ -94,6 +82,41 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
     return Asked(All(tuple(parts)), roots, determinant, pose)
 
 
+def _placed_legs(
+    machine: RegionMachine, chart: Chart, conditions: Conditions
+) -> tuple[PosePolynomials, list[PlacedLeg]]:
+    """The poses of a chart, which the structure allows, and the legs there."""
+    driven = [k for k, leg in enumerate(machine.legs) if isinstance(leg.actuator, OnSlide | OnCrank)]
+    pose = pose_polynomials(chart, machine.metric, tuple(f"s{k + 1}" for k in driven))
+    for form in machine.forms:
+        if not form_at(form, pose, machine.metric).is_zero():
+            raise InputError(
+                "region: its poses are not all among those that the joints of the mechanism allow; fix the coordinates "
+                "that these fix"
+            )
+    places = {k: len(chart.variables) + i for i, k in enumerate(driven)}
+    placed = [
+        placed_leg(leg, pose, machine.metric, conditions.modes[k] or 1, places.get(k, -1))
+        for k, leg in enumerate(machine.legs)
+    ]
+    return pose, placed
+
+
+def constraint_rows(
+    machine: RegionMachine, chart: Chart, conditions: Conditions
+) -> tuple[PosePolynomials, list[list[Polynomial]]]:
+    """The wrenches of legs and structure on a chart, on the freedoms of the motion group.
+
+    Raises
+    ------
+    InputError
+        As ``asked_of``.
+    """
+    pose, placed = _placed_legs(machine, chart, conditions)
+    _require_modes(machine, replace(conditions, asked=("no_type_2",)))
+    return pose, _rows(machine, pose, placed)
+
+
 def form_at(form: Sequence[Fraction], pose: PosePolynomials, metric: Metric) -> Polynomial:
     """N^2 times the value of a linear form."""
     n, values = pose.norm, [pose.constant(value) for value in form]
@@ -105,7 +128,7 @@ def form_at(form: Sequence[Fraction], pose: PosePolynomials, metric: Metric) -> 
 
 def _require_modes(machine: RegionMachine, conditions: Conditions) -> None:
     for k, leg in enumerate(machine.legs):
-        if isinstance(leg.actuator, OwnLength) or conditions.modes[k]:
+        if isinstance(leg.actuator, OwnLength | OnHinge) or conditions.modes[k]:
             continue
         if "no_type_2" in conditions.asked or ("limits" in conditions.asked and leg.reach is not None):
             raise InputError(
@@ -204,6 +227,16 @@ def constraint_determinant(machine: RegionMachine, pose: PosePolynomials, placed
     InputError
         If there are not as many as freedoms.
     """
+    rows = _rows(machine, pose, placed)
+    if len(rows) != len(machine.twist):
+        raise InputError(
+            f"conditions.no_type_2: {len(rows)} equations for {len(machine.twist)} freedoms; regions know "
+            "this condition where there are as many"
+        )
+    return determinant(rows, pose.constant(0))
+
+
+def _rows(machine: RegionMachine, pose: PosePolynomials, placed: Sequence[PlacedLeg]) -> list[list[Polynomial]]:
     g1, g2, g3 = machine.metric
     rows = []
     for leg in placed:
@@ -215,13 +248,7 @@ def constraint_determinant(machine: RegionMachine, pose: PosePolynomials, placed
         ]
         wrench = [pose.norm * g * x for g, x in zip(machine.metric, k, strict=True)] + moment
         rows.append([wrench[j] for j in machine.twist])
-    rows += [_structural(form, machine, pose) for form in machine.forms]
-    if len(rows) != len(machine.twist):
-        raise InputError(
-            f"conditions.no_type_2: {len(rows)} equations for {len(machine.twist)} freedoms; regions know "
-            "this condition where there are as many"
-        )
-    return determinant(rows, pose.constant(0))
+    return rows + [_structural(form, machine, pose) for form in machine.forms]
 
 
 def _structural(form: Sequence[Fraction], machine: RegionMachine, pose: PosePolynomials) -> list[Polynomial]:

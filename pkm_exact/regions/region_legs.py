@@ -8,6 +8,7 @@ from typing import Any, Final, TypeAlias
 
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Form, Vector
+from pkm_exact.constraints.in_plane import InPlane
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, Slide
 from pkm_exact.geometry.drives import Drive, Part
@@ -61,7 +62,23 @@ class OnCrank:
     rod_squared: Fraction
 
 
-Actuator: TypeAlias = OwnLength | OnSlide | OnCrank
+@dataclass(frozen=True)
+class OnHinge:
+    """The leg's direction is actuated: its platform joint lies in a plane that turns, n.(C + R B) = o.
+
+    Attributes
+    ----------
+    normals : tuple of 2 vectors
+        n = c normals[0] + s normals[1].
+    offsets : tuple of 2 Fraction
+        o = c offsets[0] + s offsets[1].
+    """
+
+    normals: tuple[Vector, Vector]
+    offsets: tuple[Fraction, Fraction]
+
+
+Actuator: TypeAlias = OwnLength | OnSlide | OnCrank | OnHinge
 
 
 @dataclass(frozen=True)
@@ -178,6 +195,9 @@ def _mechanism_legs(mechanism: Mechanism, limits: Limits) -> tuple[tuple[RegionL
     reach = _reach(mechanism, limits)
     legs, forms = [], []
     for found in mechanism.constraints:
+        if isinstance(found, InPlane) and found.name in moved:
+            legs.append(_hinged(found, mechanism))
+            continue
         actuated = found.name in mechanism.actuated
         if not actuated and found.name not in moved:
             if found.squares(mechanism.metric):
@@ -196,6 +216,21 @@ def _mechanism_legs(mechanism: Mechanism, limits: Limits) -> tuple[tuple[RegionL
             continue
         legs.append(_driven(found, *moved[found.name], reach))
     return tuple(legs), tuple(forms)
+
+
+def _hinged(found: InPlane, mechanism: Mechanism) -> RegionLeg:
+    """A leg whose hinge on the base is driven: both normal and offset turn with it."""
+    drives = [drive for drive in mechanism.drives if any(part.constraint == found.name for part in drive.parts)]
+    parts: dict[str, Any] = {part.field: part.axes for part in drives[0].parts}
+    alone = len(drives) == 1 and drives[0].is_crank and set(parts) == {"normal", "offset"} and len(drives[0].parts) == 2
+    if not alone or any(found.normal) or found.offset:
+        raise InputError(
+            f"constraint {shown(found.name)}: regions know planes that turn with one hinge; ask of another robot"
+        )
+    if mechanism.limits is not None and mechanism.limits.angles:
+        raise InputError("limits.angles: regions do not know this limit of driven hinges; remove it from the model")
+    zero = (Fraction(0),) * 3
+    return RegionLeg(found.name, zero, found.platform, OnHinge(parts["normal"], parts["offset"]))
 
 
 def _reach(mechanism: Mechanism, limits: Limits) -> dict[str, Pair]:

@@ -10,7 +10,7 @@ from pkm_exact.regions.chart import Chart
 from pkm_exact.regions.region_conditions import Conditions
 from pkm_exact.regions.region_shapes import Quadratic
 
-ANSWERS: Final = ("all", "map", "largest")
+ANSWERS: Final = ("all", "map", "largest", "locus")
 DEFAULT_STEPS: Final = 30
 DEFAULT_BOXES: Final = 200_000
 

@@ -1,0 +1,108 @@
+"""Where a machine is singular: the determinant of its constraints as an exact polynomial of the pose, factored.
+
+With slides and cranks the roots y of their discriminants are variables too (``formula``), y_k that of leg k.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from math import gcd, lcm
+from typing import Any, Final
+
+from flint import fmpz_poly
+
+from pkm_exact.errors import InputError
+from pkm_exact.regions.chart import Polynomial, rational
+from pkm_exact.regions.region_conditions import constraint_rows, determinant
+from pkm_exact.regions.region_legs import RegionMachine
+from pkm_exact.regions.region_question import RegionQuestion
+from pkm_exact.roots.interval import Interval
+
+MOST_TERMS: Final = 20_000
+"""Larger determinants are not factored."""
+
+
+@dataclass(frozen=True)
+class Locus:
+    """The poses of a chart at which locked actuators do not hold the platform.
+
+    Attributes
+    ----------
+    variables : tuple of str
+        Of the chart, then the roots.
+    factors : tuple of (str, int)
+        Polynomials over the integers that are not positive everywhere by their form, with their multiplicities; the
+        determinant is their product times a number, and powers of norms 1 + w t^2. None: it is never 0, or always.
+    is_identical : bool
+        Whether the determinant is 0 at every pose.
+    points : tuple of Interval, or None
+        If one variable moves and there are no roots: isolating intervals of the singular poses in the region.
+    is_redundant : bool
+        Whether there are more equations than freedoms: then the factors are common to all determinants, and there may
+        be singular poses besides, in sets of less dimension.
+    """
+
+    variables: tuple[str, ...]
+    factors: tuple[tuple[str, int], ...]
+    is_identical: bool
+    points: tuple[Interval, ...] | None
+    is_redundant: bool = False
+
+
+def locus(machine: RegionMachine, question: RegionQuestion) -> Locus:
+    """The singularity locus in the chart of a question.
+
+    Raises
+    ------
+    InputError
+        As ``region_conditions.asked_of``, and if there are fewer equations than freedoms.
+    """
+    chart = question.chart
+    pose, rows = constraint_rows(machine, chart, question.conditions)
+    size, variables = len(machine.twist), tuple(map(str, pose.ring.gens()))
+    if len(rows) < size:
+        raise InputError(f"conditions.no_type_2: {len(rows)} equations do not hold {size} freedoms anywhere")
+    common = pose.constant(0)
+    for chosen in combinations(rows, size):
+        common = common.gcd(determinant(chosen, pose.constant(0)))
+    redundant = len(rows) > size
+    if common.is_zero():
+        return Locus(variables, (), True, None, redundant)
+    if len(common) > MOST_TERMS:
+        return Locus(variables, ((spelled(common), 1),), False, None, redundant)
+    norms = {spelled(factor) for factor, _ in pose.norm.factor()[1]}
+    kept = [(factor, int(power)) for factor, power in common.factor()[1] if spelled(factor) not in norms]
+    points = None
+    if len(variables) == 1:
+        found = (point for factor, _ in kept for point in _roots(factor, *chart.box[0]))
+        points = tuple(sorted(found, key=lambda point: point.lo))
+    return Locus(variables, tuple((spelled(factor), power) for factor, power in kept), False, points, redundant)
+
+
+def spelled(polynomial: Polynomial) -> str:
+    """The polynomial with the least integer coefficients, the first of them positive."""
+    values = [Fraction(int(v.p), int(v.q)) for v in polynomial.to_dict().values()]
+    scale = Fraction(lcm(*(v.denominator for v in values)), gcd(*(v.numerator for v in values)))
+    return str(polynomial * rational(scale if values[0] > 0 else -scale))
+
+
+def _roots(factor: Polynomial, low: Fraction, high: Fraction) -> Iterator[Interval]:
+    """Isolating intervals of the real roots of an irreducible polynomial of one variable in [low, high]."""
+    coefficients = [0] * (int(factor.degrees()[0]) + 1)
+    scale = lcm(*(int(value.q) for value in factor.to_dict().values()))
+    for exponents, value in factor.to_dict().items():
+        coefficients[int(exponents[0])] = int(value.p) * (scale // int(value.q))
+    roots: Any = fmpz_poly(coefficients).complex_roots()
+    for root, _ in roots:
+        if root.imag == 0:
+            first, last = (_exact(end) for end in (root.real.lower(), root.real.upper()))
+            if low <= last and first <= high:
+                yield Interval(first, last)
+
+
+def _exact(value: Any) -> Fraction:
+    mantissa, exponent = value.mid().man_exp()
+    return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)

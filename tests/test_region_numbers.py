@@ -1,0 +1,189 @@
+"""Published numbers of workspaces and singularities: areas, thresholds, loci."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from samples import MODELS, model, solved
+from test_regions import asked
+
+from pkm_exact.cli.main import main
+from pkm_exact.geometry.reader import robot_from_toml
+from pkm_exact.regions.locus import locus
+from pkm_exact.regions.question_reader import of_size, question_from_toml
+from pkm_exact.regions.region_legs import RegionMachine, region_machine
+from pkm_exact.regions.region_solver import largest
+
+FILES = {path.stem: path for path in MODELS}
+LOCUS = "[conditions]\nno_type_2 = true\n[answer]\nkind = 'locus'\n"
+SQUARES = """schema = 1
+name = "4-RPR driven in turns"
+kind = "4-RPR"
+unit = "m"
+source = "Firmani et al. in Parallel Manipulators: Towards New Applications (2008), chapter 6: edges 0.5, 0.2"
+[base]
+joints = [["-1/4", "-1/4"], ["1/4", "-1/4"], ["1/4", "1/4"], ["-1/4", "1/4"]]
+[platform]
+joints = [["-1/10", "-1/10"], ["1/10", "-1/10"], ["1/10", "1/10"], ["-1/10", "1/10"]]
+[actuators]
+driven = "R"
+"""
+
+
+HEXAPOD = """schema = 1
+name = "Hexapod on inclined slides"
+kind = "6-PUS"
+unit = "m"
+source = "Sinatra and Xi in Parallel Manipulators (2008), chapter 12, table 1; guides inward in pairs"
+metric = [1, 3, 3]
+[base]
+joints = [
+    ["-1/2", "-59/300", 0],
+    ["1/2", "-59/300", 0],
+    ["109/200", "-91/600", 0],
+    ["9/200", "209/600", 0],
+    ["-9/200", "209/600", 0],
+    ["-109/200", "-91/600", 0],
+]
+[platform]
+joints = [
+    ["-1/4", "-17/150", 0],
+    ["1/4", "-17/150", 0],
+    ["59/200", "-41/600", 0],
+    ["9/200", "109/600", 0],
+    ["-9/200", "109/600", 0],
+    ["-59/200", "-41/600", 0],
+]
+[slides]
+directions = [
+    ["3/2", "1/2", 1],
+    ["-3/2", "1/2", 1],
+    ["-3/2", "1/2", 1],
+    [0, -1, 1],
+    [0, -1, 1],
+    ["3/2", "1/2", 1],
+]
+[rods]
+length = 0.5
+"""
+
+
+def bipod(base: int) -> RegionMachine:
+    text = FILES["bipod"].read_text().replace("[60, 0]", f"[{base}, 0]")
+    return region_machine(
+        robot_from_toml(text.replace("[[configurations]]", "[limits]\nlengths = [80, 130]\n[[configurations]]", 1))
+    )
+
+
+@pytest.mark.parametrize(("base", "area"), [(60, 4863.87799035), (62, 4693.32601787)])
+def test_the_area_of_a_bipod(base: int, area: float) -> None:
+    """Stan, Maties and Balan, chapter 14: the half plane above; what they print for 60 is the area for 62."""
+    answer = asked(
+        bipod(base),
+        "position = [[-64, 128], [0, 128], 0]",
+        "limits = true",
+        "kind = 'map'\nsteps = 20\nboxes = 1000000",
+    )
+    assert answer.measures is not None
+    low, high = map(float, answer.measures)
+    assert low < area < high < low + 90
+
+
+def jl1(height: str) -> RegionMachine:
+    text = FILES["2-ups-u"].read_text().replace("height = 4", f'height = "{height}"')
+    return region_machine(robot_from_toml(text))
+
+
+def test_the_threshold_of_a_reconfigurable_joint() -> None:
+    """Chapter 16, plate-mounted struts: both angles within 45 degrees; free of singularities from 2 sqrt(2) on."""
+    region = "position = [0, 0, 0]\nrpy_degrees = [[-45, 45], [-45, 45], 0]"
+    assert asked(jl1("2.9"), region, "no_type_2 = true").is_proved
+    assert asked(jl1("2.8"), region, "no_type_2 = true").counterexample is not None
+    assert asked(jl1("2.829"), region, "no_type_2 = true").is_proved
+    assert asked(jl1("2.828"), region, "no_type_2 = true").counterexample is not None
+
+
+def test_a_singular_circle_of_a_planar_robot() -> None:
+    """Firmani et al., chapter 6: at the angle 0 x^2 + y^2 = 3/100; the y of the model is y / sqrt(3)."""
+    machine = region_machine(model("3-rpr-turned"))
+    found = locus(
+        machine, question_from_toml(f"[region]\nposition = [[-1, 1], [-1, 1]]\ndegrees = 0\n{LOCUS}", machine)
+    )
+    assert found.factors == (("100*x^2 + 300*y^2 - 3", 1),)
+
+
+def test_the_common_circle_of_four_legs() -> None:
+    machine = region_machine(robot_from_toml(SQUARES))
+    found = locus(
+        machine, question_from_toml(f"[region]\nposition = [[-1, 1], [-1, 1]]\ndegrees = 0\n{LOCUS}", machine)
+    )
+    assert found.factors == (("200*x^2 + 200*y^2 - 9", 1),)
+    assert found.is_redundant
+
+
+def test_singular_poses_on_a_line() -> None:
+    """Merlet's planar robot at the angle 0: y = 0, or 5 x + 2 y = 21."""
+    machine = region_machine(model("3-rpr-merlet-p"))
+    found = locus(machine, question_from_toml(f"[region]\nposition = [[-9, 9], 5]\ndegrees = 0\n{LOCUS}", machine))
+    assert found.points is not None
+    (point,) = found.points
+    assert point.contains(Fraction(11, 5))
+    none = locus(machine, question_from_toml(f"[region]\nposition = [[3, 9], 5]\ndegrees = 0\n{LOCUS}", machine))
+    assert none.points == ()
+    plane = locus(machine, question_from_toml(f"[region]\nposition = [[0, 9], [0, 9]]\ndegrees = 0\n{LOCUS}", machine))
+    assert dict(plane.factors) == {"y": 1, "5*x + 2*y - 21": 1}
+
+
+def test_the_largest_cube_about_a_pose_of_rollands_robot() -> None:
+    """About pose 10, at its orientation to nine digits, to one per cent."""
+    machine, pose = region_machine(model("rolland-6-6")), solved("rolland-6-6").poses[9]
+    turn = [str(q.midpoint.limit_denominator(10**9)) for q in pose.quaternion]
+    place = [str(c.midpoint.limit_denominator(10**6)) for c in pose.position]
+    text = (
+        f"[region]\nquaternion = {turn}\n[conditions]\nno_type_2 = true\n[answer]\nkind = 'largest'\nshape = 'cube'\n"
+    )
+    question = question_from_toml(f"{text}about = {place}\n", machine)
+    answer = largest(machine, question, lambda size: of_size(question, machine, size))
+    assert answer.refused is not None
+    assert answer.refused.counterexample is not None
+    assert 2300 < answer.size < (answer.refused_size or 0) < 1.011 * float(answer.size) < 2450
+
+
+def test_the_command_says_where(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    question = tmp_path / "locus.toml"
+    question.write_text(f"[region]\nposition = [[-9, 9], 5]\ndegrees = 0\n{LOCUS}")
+    assert main(["region", str(FILES["3-rpr-merlet-p"]), str(question)]) == 0
+    out = capsys.readouterr().out
+    assert "5*x - 11 = 0\n" in out
+    assert "in the region: x = 2.2" in out
+    assert main(["region", str(FILES["3-rpr-merlet-p"]), str(question), "--format", "json"]) == 0
+    content = json.loads(capsys.readouterr().out)
+    assert content["factors"] == [{"polynomial": "5*x - 11", "power": 1}]
+    assert main(["region", str(FILES["3-rpr-merlet-p"]), str(question), "-o", str(tmp_path / "a.json")]) == 2
+
+
+def test_the_singular_point_on_the_path_of_a_hexapod(tmp_path: Path) -> None:
+    """Sinatra and Xi, chapter 12: six vertical parallel legs at z = 1/2 + 1/(2 sqrt(3)), on the way from 0.7 to 0.8."""
+    robot, path, target = tmp_path / "robot.toml", tmp_path / "path.csv", tmp_path / "out.json"
+    robot.write_text(HEXAPOD)
+    path.write_text("x,y,z,roll,pitch,yaw\n0,0,0.7,0,0,0\n0,0,0.8,0,0,0\n")
+    command = ["track", str(robot), str(path), "-o", str(target), "--working-modes=-,-,-,-,-,-"]
+    assert main(command) == 3
+    low, high = map(float, json.loads(target.read_text())["stopped"]["at"]["z"])
+    assert low < high < 0.5 + 1 / (2 * 3**0.5) < low + 1e-6
+    path.write_text("x,y,z,roll,pitch,yaw\n0,0,0.7,0,0,0\n0,0,0.788,0,0,0\n")
+    assert main(command) == 0
+
+
+def test_driven_hinges_have_no_certificates(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    question = tmp_path / "question.toml"
+    lines = "[region]\nposition = [[0, '1/10'], [0, '1/20']]\ndegrees = 0\n[conditions]\nno_type_2 = true\n"
+    question.write_text(f"{lines}[answer]\nkind = 'all'\n")
+    path = str(FILES["3-rpr-turned"])
+    assert main(["region", path, str(question)]) == 0
+    assert "proved" in capsys.readouterr().out
+    assert main(["region", path, str(question), "-o", str(tmp_path / "a.json")]) == 2
+    assert "no word for driven hinges" in capsys.readouterr().err
