@@ -14,6 +14,7 @@ from pkm_exact.constraints.angle import Angle
 from pkm_exact.engine import solve
 from pkm_exact.geometry.drive_modes import joint_values
 from pkm_exact.geometry.inverse import rotation_of
+from pkm_exact.geometry.machines.carriage import carriage_branches
 from pkm_exact.geometry.machines.machine_kinds import MACHINES
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.reader import robot_from_toml
@@ -174,6 +175,33 @@ def test_similar_hexagons_with_matching_labels_are_an_architecture_singularity(b
     assert "architecture singularity" in " ".join(equal.notes)
 
 
+HEXAM = (
+    'schema = 1\nname = "r"\nkind = "6-PUS"\nunit = "m"\nsource = "a test"\nmetric = [1, 3, 1]\n'
+    "[base]\nhexagon = { sides = [1, 0.09] }\n[platform]\nhexagon = { sides = [0.5, 0.09] }\n[rods]\nlength = 0.5\n"
+    "[slides]\ndirections = DIRECTIONS\n"
+)
+
+
+def test_positions_of_inclined_slides() -> None:
+    """Table 1 of chapter 12, guides inwards at 45 degrees: s = 0.179684, 0.292805, 0.425146 at z = 0.6, 0.7, 0.8."""
+    from pkm_exact.geometry.hexagons import semi_regular_hexagon
+
+    corners = semi_regular_hexagon(1, "0.09")
+    radius = Fraction("0.605006887")
+    directions = [[str(-x), str(-y), str(radius)] for x, y, _ in corners]
+    robot = robot_from_toml(HEXAM.replace("DIRECTIONS", str(directions)))
+    assert corners[0][0] ** 2 + 3 * corners[0][1] ** 2 == pytest.approx(0.3660333333)
+    for height, expected in (("0.6", 0.179684), ("0.7", 0.292805), ("0.8", 0.425146)):
+        modes = joint_modes(robot, (ZERO, ZERO, Fraction(height)), rotation_of((ONE, ZERO, ZERO, ZERO), (1, 3, 1)))  # type: ignore[arg-type]
+        lower = [_float(leg[0].position) * float(radius) * sqrt(2) for leg in modes]  # type: ignore[union-attr]
+        upper = [_float(leg[1].position) * float(radius) * sqrt(2) for leg in modes]  # type: ignore[union-attr]
+        assert lower == pytest.approx([expected] * 6, abs=1e-6)
+        assert min(upper) > 0.6, "beyond the guides"
+    outwards = robot_from_toml(HEXAM.replace("DIRECTIONS", str([[str(x), str(y), str(radius)] for x, y, _ in corners])))
+    modes = joint_modes(outwards, (ZERO, ZERO, Fraction("0.7")), rotation_of((ONE, ZERO, ZERO, ZERO), (1, 3, 1)))  # type: ignore[arg-type]
+    assert modes == [()] * 6
+
+
 # Chapter 13: 3-PRRR
 
 
@@ -257,6 +285,44 @@ def test_unturned_and_turned_by_a_right_angle_the_models_compose() -> None:
             corners = [rz @ [1, y, 0] for y in (-1, 1)]
             lengths = [np.linalg.norm(middle(pose)[1] @ [1, y, 4] - a) for y, a in zip((-1, 1), corners, strict=True)]
             assert lengths == pytest.approx([17 / 4, 15 / 4])
+
+
+# Chapter 17: a hexapod on a carriage
+
+
+def test_the_carriage_takes_its_hexapod_along() -> None:
+    """Forty poses; moved by X, Y and the heading they move along."""
+    robot = drawn("carriage-hexapod")
+    squares, carriage = robot.configuration().values[:6], robot.configuration().values[6:]
+    solution = solve(robot.problem([*squares, *carriage]))
+    assert (solution.claim, solution.complex_solutions) == (Claim.COMPLETE, 40)
+    moved = solve(robot.problem([*squares, Fraction(11), Fraction(-2), carriage[2]]))
+    assert {(round(x + 10, 5), round(y - 4, 5), z) for x, y, z in places(solution, 5)} == {
+        (round(x, 5), round(y, 5), z) for x, y, z in places(moved, 5)
+    }
+    turned = drawn("carriage-hexapod", 'heading="90"')
+    other = solve(turned.problem([*squares, Fraction(-2), Fraction(1), carriage[2]]))
+    assert {(round(-y, 4) + 0.0, round(x, 4) + 0.0, round(z, 4)) for x, y, z in places(solution, 6)} == {
+        (round(x, 4) + 0.0, round(y, 4) + 0.0, round(z, 4)) for x, y, z in places(other, 6)
+    }
+
+
+@pytest.mark.parametrize("heading", ["0", "90", "180", "-90"])
+def test_both_branches_of_the_carriage_bring_the_arm_to_a_point(heading: str) -> None:
+    """The arm's end is where a leg of length 0 would stand: the foot of one whose base joint is the end itself."""
+    end = Fraction(1), Fraction(2), Fraction(3)
+    branches = carriage_branches(end, Fraction(2), Fraction(5), heading)
+    assert len(branches) == 2
+    robot = drawn(
+        "carriage-hexapod",
+        f'heading="{heading}"',
+        "base=[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0], [2, 1, 1]]",
+    )
+    for x, y, cosine, sine in branches:
+        values = [*[Fraction(1)] * 6, x.p, y.p, (cosine.p, sine)]
+        assert robot.locked(values, "x")[0].base == end  # type: ignore[attr-defined]
+    assert carriage_branches((ZERO, ZERO, Fraction(6)), Fraction(2), Fraction(5), heading) == ()
+    assert len(carriage_branches((ZERO, ZERO, Fraction(5)), Fraction(2), Fraction(5), heading)) == 1
 
 
 # Chapter 18: P-FUS

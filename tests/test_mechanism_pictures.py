@@ -7,6 +7,8 @@ from math import dist, isclose
 from pathlib import Path
 
 import pytest
+from certificate_tools import golden
+from samples import model
 
 from pkm_exact.certify.certified_machine import certified_machine
 from pkm_exact.cli.main import main
@@ -110,3 +112,17 @@ def test_the_machine_of_a_certificate_is_a_mechanism(certificate: Path) -> None:
     machine = certified_machine(json.loads(certificate.read_bytes()))
     assert isinstance(machine, Mechanism)
     assert [constraint.name for constraint in machine.constraints][:2] == ["leg 1", "leg 2"]
+
+
+@pytest.mark.parametrize(("name", "sort"), [("delta", "crank"), ("triglide", "slide"), ("3-prrr", "")])
+def test_cranks_and_slides_of_a_known_machine_are_drawn(name: str, sort: str) -> None:
+    """Of the 3-PRRR no rod is a leg, so that nothing stands on its cranks."""
+    robot, document = model(name), golden(name)
+    scene = scene_of(document, robot)
+    assert scene.chain == sort
+    assert scene_of(document, None).chain == ""
+    for pose in scene.poses:
+        assert len(pose.knees) == (3 if sort else 0)
+    if sort == "crank":
+        for knee, foot in zip(scene.poses[0].knees, scene.base, strict=True):
+            assert sum((a - b) ** 2 for a, b in zip(knee, foot, strict=True)) == pytest.approx(1.73**2)

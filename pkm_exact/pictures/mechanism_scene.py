@@ -11,7 +11,8 @@ from pkm_exact.certify.certified_machine import certified_configuration
 from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
-from pkm_exact.geometry.machine import CONSTRAINTS_KIND
+from pkm_exact.geometry.machine import CONSTRAINTS_KIND, Machine
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.pictures.coordinates import listed_poses, placed_poses
 from pkm_exact.pictures.scene import Point, Scene, view_of
@@ -20,8 +21,11 @@ from pkm_exact.pictures.shapes import AXIS, LINE, PLANE, POINT, Shape, unit
 _ROOTS = tuple[float, float, float]
 
 
-def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem) -> Scene:
-    """The scene of an accepted certificate of a mechanism, and the problem that it answers."""
+def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem, machine: Machine | None = None) -> Scene:
+    """The scene of an accepted certificate of a mechanism, the problem that it answers, and its model if that is known.
+
+    With the model, cranks or slides are drawn, if every rod stands on one of the same sort.
+    """
     robot = document["robot"]
     axes = sqrt(mechanism.metric[0]), sqrt(mechanism.metric[1]), sqrt(mechanism.metric[2])
     legs = [found for found in mechanism.constraints if isinstance(found, Distance)]
@@ -32,6 +36,14 @@ def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem) -> S
     pairs = tuple(
         (base.index(_ordinary(leg.base, axes)), platform.index(_ordinary(leg.platform, axes))) for leg in legs
     )
+    feet, chain = _feet(machine, legs)
+    knees: tuple[Point, ...] = ()
+    if feet:
+        knees = tuple(_ordinary(leg.base, axes) for leg in legs)
+        base, platform = (
+            tuple(_ordinary(point, axes) for point in points) for points in (feet, [leg.platform for leg in legs])
+        )
+        pairs = tuple((k, k) for k in range(len(legs)))
     places = placed_poses(listed_poses(document), mechanism)
     poses = zip(document["poses"], places, strict=True)
     return Scene(
@@ -46,14 +58,33 @@ def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem) -> S
         platform=platform,
         legs=pairs,
         lengths=tuple(sqrt(leg.length_squared) for leg in legs),
-        chain="",
-        poses=tuple(view_of(number, listed, place, platform, ()) for number, (listed, place) in enumerate(poses, 1)),
+        chain=chain,
+        poses=tuple(view_of(number, listed, place, platform, knees) for number, (listed, place) in enumerate(poses, 1)),
         shapes=tuple(
             shape
             for number, constraint in enumerate(mechanism.constraints, 1)
             if (shape := shape_of(number, constraint, axes, mechanism.metric)) is not None
         ),
     )
+
+
+def _feet(machine: Machine | None, legs: Sequence[Distance]) -> tuple[list[Vector], str]:
+    """Where the cranks or slides of the rods stand, and which of them they are; nothing if they are not all alike."""
+    if not isinstance(machine, Mechanism):
+        return [], ""
+    own = {constraint.name: constraint for constraint in machine.constraints}
+    feet: list[Vector] = []
+    sorts = set()
+    for leg in legs:
+        drives = [
+            drive for drive in machine.drives if (leg.name, "base") in ((p.constraint, p.field) for p in drive.parts)
+        ]
+        if len(drives) != 1:
+            return [], ""
+        found = own[leg.name]
+        feet += [found.base] if isinstance(found, Distance) else []
+        sorts.add("crank" if drives[0].is_crank else "slide")
+    return (feet, sorts.pop()) if len(sorts) == 1 else ([], "")
 
 
 def _joints(constraints: Sequence[Constraint], role: Role, axes: _ROOTS) -> tuple[Point, ...]:

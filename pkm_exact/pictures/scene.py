@@ -219,7 +219,7 @@ def _scene(document: Mapping[str, Any], machine: Machine | None) -> Scene:
             raise InputError(f"robot: the certificate is not one of a {machine.kind} robot; give its model, or none")
         if machine is not None:
             _require_problem(machine, problem)
-        return mechanism_scene(document, problem)
+        return mechanism_scene(document, problem, machine)
     robot = None if machine is None else jointed(machine, "a certificate of legs")
     legs = problem.distances
     axes = _axes(problem.metric)

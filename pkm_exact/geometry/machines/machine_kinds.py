@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Final
 
+from pkm_exact.geometry.machines.carriage import CARRIAGE
 from pkm_exact.geometry.machines.cartesian import CARTESIAN
 from pkm_exact.geometry.machines.central_joint import THREE_PSS_C, TWO_UPS_U
 from pkm_exact.geometry.machines.delta import DELTA
@@ -27,7 +28,7 @@ _FAMILIES: Final[Mapping[str, Callable[[int], MachineKind]]] = MappingProxyType(
 )
 _ROWS: Final = (
     *(DELTA, LINEAR_DELTA, TRIGLIDE, CARTESIAN, H4),
-    *(THREE_RPS, THREE_PRS, THREE_PSS_C, TWO_UPS_U, P_FUS, PENTAPOD),
+    *(THREE_RPS, THREE_PRS, THREE_PSS_C, TWO_UPS_U, P_FUS, PENTAPOD, CARRIAGE),
     *(SPHERICAL_3_RRR, n_ups_s(3), n_ups(8), n_rpr(4), n_rrr(4), n_prr(4)),
     *(RANGES, BIGLIDE, V_SHAPE, PMAR, X_Y),
 )
