@@ -166,7 +166,12 @@ HEXAGONS = (
 
 
 @pytest.mark.parametrize(
-    ("base", "platform"), [("400, 100", "800, 200"), ("1000, 250", "800, 200"), ("100, 100", "50, 50")]
+    ("base", "platform"),
+    [
+        ("400, 100", "800, 200"),
+        pytest.param("1000, 250", "800, 200", marks=pytest.mark.slow),
+        pytest.param("100, 100", "50, 50", marks=pytest.mark.slow),
+    ],
 )
 def test_similar_hexagons_with_matching_labels_are_an_architecture_singularity(base: str, platform: str) -> None:
     """Table 3 of chapter 12 with equal sliders, and the aligned model of chapter 18: of the forms, so at every pose."""
