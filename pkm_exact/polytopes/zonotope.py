@@ -8,7 +8,7 @@ facets that more than n - 1 generators span are found once. Lengths w_k may be s
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -21,6 +21,7 @@ from flint import fmpz_mat
 from pkm_exact.errors import InputError
 from pkm_exact.polytopes.enclosures import interval_of
 from pkm_exact.polytopes.polytope import Facet, Polytope
+from pkm_exact.polytopes.slabs import Slabs
 from pkm_exact.radicals import RootSum
 from pkm_exact.roots.interval import Interval
 
@@ -162,6 +163,28 @@ class Zonotope:
         for square in self.squares:
             scale *= square
         return interval_of(self.exact_volume * RootSum.root(scale))
+
+    def section(self, fixed: Mapping[int, Any]) -> Slabs:
+        """The points at which some coordinates have given values, in the others: forces at a given moment, for example.
+
+        Raises
+        ------
+        InputError
+            If there are none.
+        """
+        free = [j for j in range(self.dimension) if j not in fixed]
+        rows, low, high = [], [], []
+        for normal, products in self.hyperplanes:
+            shift = sum((normal[j] * RootSum.of(value) for j, value in fixed.items()), RootSum())
+            ends = -1 * self._reach([-x for x in products]) - shift, self._reach(products) - shift
+            row = tuple(Fraction(normal[j]) for j in free)
+            if any(row):
+                rows.append(row)
+                low.append(ends[0])
+                high.append(ends[1])
+            elif ends[0].sign() > 0 or ends[1].sign() < 0:
+                raise InputError("polytope: has no such points")
+        return Slabs(tuple(rows), tuple(low), tuple(high), tuple(self.squares[j] for j in free))
 
     def polytope(self) -> Polytope:
         """The same by vertices and facets."""
