@@ -19,6 +19,7 @@ from pkm_exact.certify import (
     mobility_build,
     pure,
     region_build,
+    statics_build,
     system_build,
     tolerance_build,
 )
@@ -31,6 +32,7 @@ SECOND = "certificate-2.schema.json"
 MOBILITY = "mobility-certificate-1.schema.json"
 SYSTEMS = "system-certificate-1.schema.json"
 REGIONS = "region-certificate-1.schema.json"
+STATICS = "statics-certificate-1.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
 
@@ -48,7 +50,7 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(_schema(name))
 
 
-@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, REGIONS])
+@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, REGIONS, STATICS])
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
 
@@ -194,6 +196,11 @@ def test_the_page_of_regions_defines_every_key_in_its_order() -> None:
     assert all(f'"{word}"' in page for word in root["properties"]["claim"]["enum"])
 
 
+def test_the_page_of_statics_defines_every_key_in_its_order() -> None:
+    root = _schema(STATICS)
+    assert _tables("Format", "### Claims", "certificates-statics.md") == [_keys(root)]
+
+
 def test_words_and_limits_are_the_same_everywhere() -> None:
     root = _schema(POSES)["properties"]
     for words, key in ((document.METHODS, "method"), (document.CLAIMS, "claim")):
@@ -209,7 +216,7 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
-    writers = (build, build_constraints, tolerance_build, system_build, mobility_build, region_build)
+    writers = (build, build_constraints, tolerance_build, system_build, mobility_build, region_build, statics_build)
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.given_pose import given_pose, pose_of, pose_options
+from pkm_exact.cli.given_pose import GivenPose, given_pose, pose_of, pose_options
 from pkm_exact.cli.main import PROGRAM, ExitCode
 from pkm_exact.cli.shell_completion import configurations
 from pkm_exact.errors import InputError
 from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
+    from pkm_exact.cli.statics_answers import StaticsAnswers
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.statics.at_pose import AtPose
 
@@ -45,6 +46,13 @@ if TYPE_CHECKING:
 )
 @click.option("--stiffness", metavar="K1,..", help="Of the actuators: the stiffness matrix of the platform.")
 @click.option(
+    "-o",
+    "--output",
+    type=arguments.FilePath(),
+    metavar="CERT.json",
+    help="Write a certificate of polytopes, ellipsoid and singular values, at an exact pose of legs.",
+)
+@click.option(
     "--format",
     "layout",
     type=click.Choice(["table", "json"]),
@@ -65,6 +73,7 @@ def statics(
     load_at: str | None,
     limits: tuple[str, ...],
     stiffness: str | None,
+    output: str | None,
     layout: str,
     **turns: str | None,
 ) -> int:
@@ -80,13 +89,7 @@ def statics(
       certify-poses statics models/3-rpr-merlet-p.toml --pose 1 --limits speeds=0.2 --limits length=3 --load 0,-10
       certify-poses statics certs/3-rps.json --pose 2 --format json
     """
-    given = None
-    if position is not None:
-        if number is not None:
-            raise click.UsageError("--pose and --position exclude each other.")
-        given = given_pose(position, in_metric=in_metric, nearest=nearest, **turns)
-    elif any(turns.values()):
-        raise click.UsageError("--position: is missing, give the platform's origin as well.")
+    given = _given(number, position, in_metric=in_metric, nearest=nearest, **turns)
     if _is_certificate(source):
         for name, value in (("--position", position), ("--configuration", configuration), ("--modes", modes)):
             if value is not None:
@@ -102,11 +105,36 @@ def statics(
     from pkm_exact.cli.statics_answers import answers
 
     extra = answers(found, load, load_at, limits, stiffness)
+    if output is not None:
+        _write(output, source, extra)
     if layout == "json":
         sys.stdout.write(json.dumps(statics_report.as_object(found, used, extra), indent=1) + "\n")
     else:
         sys.stdout.write(statics_report.as_text(found, used, extra))
     return ExitCode.DONE
+
+
+def _given(number: int | None, position: str | None, **options: Any) -> GivenPose | None:
+    """The pose that the options give, if they give one."""
+    if position is not None:
+        if number is not None:
+            raise click.UsageError("--pose and --position exclude each other.")
+        return given_pose(position, **options)
+    if any(value for key, value in options.items() if key not in ("in_metric", "nearest")):
+        raise click.UsageError("--position: is missing, give the platform's origin as well.")
+    return None
+
+
+def _write(output: str, source: str, extra: StaticsAnswers) -> None:
+    """Write a certificate of what was asked."""
+    from pkm_exact.certify.statics_build import statics_certificate_bytes
+    from pkm_exact.geometry.reader import read_robot
+
+    arguments.require_other_file(Path(output), source, "-o")
+    arguments.require_writable(Path(output), "-o")
+    if extra.measures is None or _is_certificate(source):
+        raise InputError("-o: is for an exact pose of a model, at which there is a J; give --position and a rotation")
+    arguments.write_output(output, statics_certificate_bytes(read_robot(source), extra.measures))
 
 
 def _is_certificate(source: str) -> bool:

@@ -74,6 +74,18 @@ class Slabs:
         UndecidedError
             If balls are too wide to tell.
         """
+        n, found = self.dimension, self.corners()
+        keys = sorted(found)
+        facets = [
+            Facet(*self._half_space(*side), tuple(k for k, key in enumerate(keys) if side in key))
+            for side in outer_sides(keys)
+        ]
+        if len(facets) <= n:
+            raise InputError("polytope: has no interior, or is not bounded")
+        return Polytope(tuple(found[key] for key in keys), tuple(facets), self._squares)
+
+    def corners(self) -> dict[tuple[tuple[int, int], ...], tuple[Any, ...]]:
+        """All vertices, each under the sides on which it lies: an index of a row, and -1 or 1 for its bounds."""
         count, n = len(self.rows), self.dimension
         if comb(count, n) * 2**n > MOST_CANDIDATES:
             raise InputError(f"polytope: {count} rows in {n} dimensions are too many to be intersected one by one")
@@ -84,17 +96,7 @@ class Slabs:
                 self._collect(chosen, *ratios, found)
         if not found:
             raise InputError("polytope: no point satisfies all bounds, or they leave some direction free")
-        keys = sorted(found)
-        sides = sorted({side for key in keys for side in key})
-        sets = [frozenset(i for i, key in enumerate(keys) if side in key) for side in sides]
-        facets = [
-            Facet(*self._half_space(*sides[index]), tuple(sorted(sets[index])))
-            for index in maximal_sets(sets)
-            if len(sets[index]) >= n
-        ]
-        if len(facets) <= n:
-            raise InputError("polytope: has no interior, or is not bounded")
-        return Polytope(tuple(found[key] for key in keys), tuple(facets), self._squares)
+        return found
 
     @property
     def _squares(self) -> tuple[Fraction, ...]:
@@ -152,6 +154,13 @@ class Slabs:
         if side > 0:
             return row, self.high[index]
         return tuple(-value for value in row), -1 * self.low[index]
+
+
+def outer_sides(keys: Sequence[tuple[tuple[int, int], ...]]) -> list[tuple[int, int]]:
+    """The sides that are facets, of those on which vertices lie; of equal ones the first."""
+    sides = sorted({side for key in keys for side in key})
+    sets = [frozenset(k for k, key in enumerate(keys) if side in key) for side in sides]
+    return [sides[index] for index in maximal_sets(sets)]
 
 
 def _sum(factors: Sequence[Any], values: Sequence[Any]) -> Any:

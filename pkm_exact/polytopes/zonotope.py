@@ -115,6 +115,11 @@ class Zonotope:
                 total = total + (value * (high if value > 0 else low)) * weight
         return total
 
+    @property
+    def cells(self) -> tuple[tuple[int, ...], ...]:
+        """A vertex for each, as signs: -1 where a generator is at the least of its range, 1 at the greatest."""
+        return self._cells
+
     @cached_property
     def _cells(self) -> tuple[tuple[int, ...], ...]:
         """A vertex for each, as signs: at which end of its range each generator is."""

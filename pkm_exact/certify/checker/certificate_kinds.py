@@ -19,6 +19,9 @@ from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real
 from pkm_exact.certify.checker.region_document import read_region
 from pkm_exact.certify.checker.region_paving_check import check_region
 from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
+from pkm_exact.certify.checker.statics_checks import check_statics
+from pkm_exact.certify.checker.statics_document import FORMAT as STATICS
+from pkm_exact.certify.checker.statics_document import read_statics
 from pkm_exact.certify.checker.system_document import read_system_document
 from pkm_exact.certify.checker.system_verdicts import check_system
 from pkm_exact.certify.checker.tolerance_checks import check_tolerances
@@ -96,4 +99,5 @@ KINDS: Final = (
     CertificateKind(SYSTEMS, 1, lambda body: check_system(read_system_document(body))),
     CertificateKind(MOBILITY, 1, lambda body: check_mobility(read_mobility(body))),
     CertificateKind(REGIONS, 1, lambda body: check_region(read_region(body))),
+    CertificateKind(STATICS, 1, lambda body: check_statics(read_statics(body))),
 )

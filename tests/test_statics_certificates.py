@@ -1,0 +1,217 @@
+"""Certificates of statics: honest ones are accepted by both checkers, forged ones by neither."""
+
+import copy
+import json
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from samples import model
+from test_statics import POSES, at, vector
+
+from pkm_exact import Mechanism
+from pkm_exact.certify import pure
+from pkm_exact.certify.build import canonical_bytes, sealed
+from pkm_exact.certify.check import check_bytes
+from pkm_exact.certify.statics_build import statics_certificate, statics_certificate_bytes
+from pkm_exact.cli.main import main
+from pkm_exact.constraints.distance import Distance
+from pkm_exact.errors import InputError
+from pkm_exact.motions.motion_groups import PLANAR
+from pkm_exact.statics.asking import machine_at
+
+Capture = pytest.CaptureFixture[str]
+SCHEMA = Path(pure.__file__).with_name("statics-certificate-1.schema.json")
+
+
+def redundant() -> Mechanism:
+    """Four legs in the plane, two of them in one line: facets are merged, a side is none."""
+    joints = [((3, 0), (1, 0)), ((0, 4), (0, 1)), ((-3, 0), (-1, 0)), ((3, 4), (1, 1))]
+    legs = [Distance(vector(*a, 0), vector(*b, 0), Fraction(1), f"leg {k}") for k, (a, b) in enumerate(joints, 1)]
+    return Mechanism("redundant", "m", "made up", tuple(legs), tuple(leg.name for leg in legs), PLANAR)
+
+
+def made(name: str) -> dict[str, Any]:
+    limits = {"speeds": [1, "1/2", 2, 3] if name == "redundant" else 1, "forces": 2, "length": 3}
+    if name == "redundant":
+        machine = redundant()
+        found = machine.at({"position": ["1/10", 0], "half_tangent": 0})
+        return statics_certificate(machine, found.measures(**limits))
+    return statics_certificate(model(name), at(name).measures(**limits))
+
+
+@pytest.fixture(scope="module")
+def small() -> dict[str, Any]:
+    return made("redundant")
+
+
+def verdicts(content: dict[str, Any]) -> tuple[str, str]:
+    data = canonical_bytes(sealed({key: value for key, value in content.items() if key != "digest"}))
+    return str(check_bytes(data).status), pure.check_bytes(data).status
+
+
+@pytest.mark.parametrize("name", ["3-rpr-merlet-p", "redundant", pytest.param("robocrane-r", marks=pytest.mark.slow)])
+def test_honest_certificates_are_accepted_with_the_same_lines(name: str) -> None:
+    content = made(name)
+    data = canonical_bytes(content)
+    fast, plain = check_bytes(data), pure.check_bytes(data)
+    assert (fast.status, plain.status) == ("accepted", "accepted")
+    assert fast.lines == plain.lines
+    assert len(fast.lines) == 6
+    jsonschema.Draft202012Validator(json.loads(SCHEMA.read_text())).validate(content)
+
+
+def forged(content: dict[str, Any], change: Callable[[dict[str, Any]], None]) -> dict[str, Any]:
+    found = copy.deepcopy(content)
+    change(found)
+    return found
+
+
+def _times(text: str, factor: Fraction) -> str:
+    return str(Fraction(text) * factor)
+
+
+def _scaled(content: dict[str, Any], factor: Fraction) -> None:
+    content["ellipsoid"]["matrix"] = [[_times(x, factor) for x in row] for row in content["ellipsoid"]["matrix"]]
+
+
+def _moved(content: dict[str, Any]) -> None:
+    content["velocity_polytope"]["vertices"][0][0][0] = _times(
+        content["velocity_polytope"]["vertices"][0][0][0] or "1", 1 + Fraction(1, 10**9)
+    )
+    first = content["velocity_polytope"]["vertices"][0]
+    for line in first:
+        for k, x in enumerate(line):
+            if x != "0":
+                line[k] = _times(x, 1 - Fraction(1, 10**9))
+                return
+
+
+def _offset(content: dict[str, Any]) -> None:
+    offset = content["wrench_polytope"]["facets"][0]["offset"]
+    place = next(k for k, x in enumerate(offset) if x != "0")
+    offset[place] = _times(offset[place], 1 + Fraction(1, 10**9))
+
+
+def _flipped(content: dict[str, Any]) -> None:
+    content["wrench_polytope"]["vertices"][0] = [-x for x in content["wrench_polytope"]["vertices"][1]]
+
+
+def _bound(name: str, end: int, factor: Fraction) -> Callable[[dict[str, Any]], None]:
+    def change(content: dict[str, Any]) -> None:
+        pair = content["indices"][name]
+        pair[end] = _times(pair[end], factor)
+        pair[1 - end] = max(pair, key=Fraction) if end == 0 and Fraction(pair[0]) > Fraction(pair[1]) else pair[1 - end]
+        if Fraction(pair[0]) > Fraction(pair[1]):
+            pair[1 - end] = pair[end]
+
+    return change
+
+
+MORE, LESS = 1 + Fraction(1, 10**9), 1 - Fraction(1, 10**9)
+FRAUDS: dict[str, Callable[[dict[str, Any]], None]] = {
+    "a facet of twists dropped": lambda c: c["velocity_polytope"]["facets"].pop(),
+    "a facet of twists too many": lambda c: c["velocity_polytope"]["facets"].append(
+        next([leg, 1] for leg in (1, 2, 3, 4) if [leg, 1] not in c["velocity_polytope"]["facets"])
+    ),
+    "a facet of twists twice": lambda c: c["velocity_polytope"]["facets"].append(c["velocity_polytope"]["facets"][0]),
+    "a vertex of twists dropped": lambda c: c["velocity_polytope"]["vertices"].pop(),
+    "a vertex of twists twice": lambda c: c["velocity_polytope"]["vertices"].append(
+        c["velocity_polytope"]["vertices"][0]
+    ),
+    "a vertex of twists moved": _moved,
+    "a facet of wrenches dropped": lambda c: c["wrench_polytope"]["facets"].pop(),
+    "a facet of wrenches twice": lambda c: c["wrench_polytope"]["facets"].append(c["wrench_polytope"]["facets"][0]),
+    "a facet of wrenches moved": _offset,
+    "a vertex of wrenches dropped": lambda c: c["wrench_polytope"]["vertices"].pop(),
+    "a vertex of wrenches twice": lambda c: c["wrench_polytope"]["vertices"].append(
+        c["wrench_polytope"]["vertices"][0]
+    ),
+    "a vertex of wrenches instead of another": _flipped,
+    "the ellipsoid larger": lambda c: _scaled(c, MORE * MORE),
+    "the ellipsoid smaller": lambda c: _scaled(c, LESS * LESS),
+    "weights whose sum is 2": lambda c: c["ellipsoid"].update(
+        weights=[_times(x, Fraction(2)) for x in c["ellipsoid"]["weights"]]
+    ),
+    "sigma_min too high": _bound("sigma_min", 0, Fraction(11, 10)),
+    "sigma_min too low": _bound("sigma_min", 1, Fraction(9, 10)),
+    "sigma_max too low": _bound("sigma_max", 1, Fraction(9, 10)),
+    "sigma_max too high": _bound("sigma_max", 0, Fraction(11, 10)),
+    "condition too high": _bound("condition", 0, Fraction(11, 10)),
+    "condition too low": _bound("condition", 1, Fraction(9, 10)),
+    "a joint moved": lambda c: c["legs"][0]["base"].__setitem__(0, "301/100"),
+    "another metric": lambda c: c.update(
+        metric=["1", "1", "2"], rotation=[["1", "0", "0"], ["0", "0", "1"], ["0", "-1", "0"]]
+    ),
+    "a reflection": lambda c: c.update(rotation=[["1", "0", "0"], ["0", "1", "0"], ["0", "0", "-1"]]),
+    "greater speeds": lambda c: c["speeds"].__setitem__(0, "2"),
+    "greater forces": lambda c: c["forces"].__setitem__(0, ["-3", "2"]),
+    "another length": lambda c: c.update(length="4"),
+}
+
+
+@pytest.mark.parametrize("name", FRAUDS)
+def test_frauds_are_rejected_by_both(name: str, small: dict[str, Any]) -> None:
+    assert verdicts(small) == ("accepted", "accepted")
+    assert verdicts(forged(small, FRAUDS[name])) == ("rejected", "rejected")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda c: c.update(freedoms=[0, 0, 5]),
+        lambda c: c.update(metric=["1", "0", "1"]),
+        lambda c: c.update(speeds=None),
+        lambda c: c.update(forces=None),
+        lambda c: c["speeds"].__setitem__(0, "2/4"),
+        lambda c: c["forces"].__setitem__(0, ["2", "2"]),
+        lambda c: c["legs"].__delitem__(slice(0, 2)),
+        lambda c: c["wrench_polytope"]["vertices"][0].__setitem__(0, 0),
+        lambda c: c["velocity_polytope"]["facets"].append([9, 1]),
+        lambda c: c["indices"].update(sigma_min=["2", "1"]),
+        lambda c: c.update(version=2),
+    ],
+)
+def test_what_is_not_of_the_format_is_malformed(
+    change: Callable[[dict[str, Any]], None], small: dict[str, Any]
+) -> None:
+    assert verdicts(forged(small, change)) == ("malformed", "malformed")
+
+
+def test_every_number_matters(small: dict[str, Any]) -> None:
+    """A number of every list of the certificate changed by a part in 10^9 or by 1: nobody accepts."""
+    for key in ("position", "speeds"):
+        for place in range(2):
+            wrong = forged(
+                small,
+                lambda c, key=key, place=place: c[key].__setitem__(
+                    place, _times(c[key][place], MORE) if c[key][place] != "0" else "1/1000"
+                ),
+            )
+            assert "accepted" not in verdicts(wrong)
+
+
+def test_too_many_choices_are_too_large(small: dict[str, Any]) -> None:
+    def change(content: dict[str, Any]) -> None:
+        content["freedoms"] = [0, 1, 2, 3, 4, 5]
+        legs = [{"base": [str(k * k), str(k), "0"], "platform": ["0", str(k), str(k * k * k)]} for k in range(1, 13)]
+        content["legs"], content["speeds"], content["forces"] = legs, ["1"] * 12, [["-1", "1"]] * 12
+        content["velocity_polytope"] = {"facets": [], "vertices": []}
+        content["wrench_polytope"] = content["ellipsoid"] = content["indices"] = None
+
+    assert verdicts(forged(small, change)) == ("too-large", "too-large")
+
+
+def test_the_command_writes_what_the_checkers_accept(tmp_path: Path, capsys: Capture) -> None:
+    target = tmp_path / "statics.json"
+    words = ["statics", "models/3-rpr-merlet-p.toml", "--position", "5,9/2", "--half-tangent", "1/3", "-o", str(target)]
+    assert main([*words, "--limits", "speeds=1", "--limits", "forces=2", "--limits", "length=3"]) == 0
+    measures = machine_at(model("3-rpr-merlet-p"), POSES["3-rpr-merlet-p"]).measures(speeds=1, forces=2, length=3)
+    assert target.read_bytes() == statics_certificate_bytes(model("3-rpr-merlet-p"), measures)
+    assert main(["check", str(target)]) == 0
+    assert "and no others" in capsys.readouterr().out
+    with pytest.raises(InputError, match="exact poses of machines of legs"):
+        statics_certificate(model("3-rrr"), measures)
