@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from pkm_exact.statics.interval_arrays import Intervals
-from pkm_exact.statics.planar_legs import PlanarLeg, prr, rpr, rrr, stacked
+from pkm_exact.statics.planar_leg_wrenches import PlanarLeg, prr, rpr, rrr, stacked
 
 LAYOUTS = {
     "3-RRR": ("RRR", 3, False),
