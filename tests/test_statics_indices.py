@@ -77,6 +77,9 @@ def test_dual_v_has_the_exact_indices() -> None:
         "resolution_p": Fraction(25, 3),
         "resolution_o": Fraction(25, 8),
     }
+    assert is_narrow_around(found["v_iso"], 25 / sqrt(89))
+    assert is_narrow_around(found["f_iso"], 96 / (25 * sqrt(109)))
+    assert is_narrow_around(found["fvi"], 5 / sqrt(89))
     for name, value in wanted.items():
         assert Fraction(value) in found[name], name
         assert found[name].width < Fraction(1, 10**13), name
@@ -369,15 +372,25 @@ def test_every_index_says_what_it_is_and_agrees_with_floating_point(index: objec
     found = at_dual_v()
     values, refused = enclosed_indices(found.measures(**ALL))
     name = index.name  # type: ignore[attr-defined]
-    assert name in values or name == "fvi"
-    assert name in values or "mixes translations and turns" in refused[name]
+    assert name in values
+    assert name not in refused
     assert index.definition  # type: ignore[attr-defined]
     assert "(" in index.source or "20" in index.source  # type: ignore[attr-defined]
 
 
 def test_what_mixes_units_is_refused() -> None:
     _, refused = enclosed_indices(at_dual_v().measures())
-    for name in ("condition", "sigma_min", "sigma_max", "manipulability", "ms", "transmission"):
+    for name in (
+        "condition",
+        "sigma_min",
+        "sigma_max",
+        "manipulability",
+        "ms",
+        "transmission",
+        "v_iso",
+        "f_iso",
+        "fvi",
+    ):
         assert "give a length" in refused[name]
     values, _ = enclosed_indices(
         h4().at({"position": [0, 0, -42], "quaternion": [1, 0, 0, 0]}, modes="++++").measures(length=1)

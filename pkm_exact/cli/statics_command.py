@@ -215,7 +215,10 @@ def _at_certified_pose(source: str, number: int | None, model: str | None) -> At
         raise InputError(f"{source}: is no certificate of poses; give one that certify-poses solve wrote")
     problem, chosen = certified_problem(document), None
     machine: Machine = certified_machine(document)
-    if model is not None:
+    if model is None:
+        note = "legs of a certificate are taken as actuators; --model MODEL says how slides or cranks drive them"
+        click.echo(f"{PROGRAM}: note: {printable(source)}: {note}", err=True)
+    else:
         machine = announced_model(model)
         name = certified_configuration(document)
         chosen = machine.configuration(name)

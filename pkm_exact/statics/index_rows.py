@@ -86,9 +86,9 @@ def _turning(m: Measures) -> list[int]:
 
 
 def _whole(m: Measures) -> list[int]:
-    """All components, if they are of one unit."""
-    if m.freedom.has_both:
-        raise RefusedError("mixes translations and turns: see its parts with the endings _p and _o")
+    """All components; of both sorts only with a length by which turns are multiplied."""
+    if m.freedom.has_both and m.limits.length is None:
+        raise RefusedError("mixes translations and turns: give a length, or see its parts with the endings _p and _o")
     return list(range(len(m.freedom.at.twist)))
 
 
@@ -114,6 +114,20 @@ STATICS_INDICES: Final[tuple[StaticsIndex, ...]] = (
     ),
     StaticsIndex(
         "transmission", "1", "freedoms / (|J| |J^+|), norms of Frobenius: 1 if isotropic", STAN, _transmission
+    ),
+    StaticsIndex(
+        "v_iso",
+        "length/time",
+        "norm of the twist, turns by the length, reached in every direction",
+        f"{SHAYYA}, equation 7",
+        lambda m: m.isotropic_speed(_whole(m)),
+    ),
+    StaticsIndex(
+        "f_iso",
+        "force",
+        "norm of the wrench, moments divided by the length, borne in every direction by actuator forces of least norm",
+        f"{SHAYYA}, equation 7",
+        lambda m: m.isotropic_force(_whole(m)),
     ),
     StaticsIndex(
         "v_iso_p",

@@ -106,12 +106,12 @@ class Measures:
 
     def isotropic_speed(self, columns: Sequence[int], spin: Sequence[Any] | None = None) -> arb:
         """The speed that is reached in every direction of these components, the others 0 or an imposed spin."""
-        speeds = self.known("speeds")
+        speeds, factors = self.known("speeds"), self._factors(columns)
         matrix = self.unscaled
         with working_precision(BITS):
             least: arb | None = None
             for i, speed in enumerate(speeds):
-                norm = sum((matrix[i, j] * matrix[i, j] for j in columns), arb(0)).sqrt()
+                norm = sum(((matrix[i, j] / factors[j]) ** 2 for j in columns), arb(0)).sqrt()
                 left = ball_of(speed)
                 if spin is not None:
                     turning = self.columns(turning=True)
@@ -130,13 +130,13 @@ class Measures:
 
     def isotropic_force(self, rows: Sequence[int]) -> arb:
         """The force that is borne in every direction of these components, actuator forces of least norm."""
-        forces, matrix = self.known("forces"), self.inverse
+        forces, matrix, factors = self.known("forces"), self.inverse, self._factors(rows)
         if self.limits.least_forces is not None:
             raise RefusedError("is for forces that are limited both ways alike; see the wrench polytope")
         with working_precision(BITS):
             least: arb | None = None
             for i, force in enumerate(forces):
-                norm = sum((matrix[j, i] * matrix[j, i] for j in rows), arb(0)).sqrt()
+                norm = sum(((matrix[j, i] * factors[j]) ** 2 for j in rows), arb(0)).sqrt()
                 if norm.contains(0):
                     if not norm.is_zero():
                         raise RefusedError("is not decided: the pose is not enclosed narrowly enough")
@@ -146,6 +146,14 @@ class Measures:
         if least is None:
             raise RefusedError("is infinite: no actuator takes part in these forces")
         return least
+
+    def _factors(self, places: Sequence[int]) -> list[arb]:
+        """By what components of a twist are multiplied: turns by the length, where translations are meant too."""
+        twist = self.freedom.at.motion.twist
+        if len({twist[j] < 3 for j in places}) < 2:
+            return [arb(1)] * len(twist)
+        length = ball_of(self.known("length"))
+        return [arb(1) if k < 3 else length for k in twist]
 
     def known(self, name: str) -> Any:
         """A limit that must have been given."""

@@ -1,0 +1,91 @@
+"""Pictures of polytopes in two or three dimensions, and of the ellipses and ellipsoids in them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pkm_exact.errors import InputError, PkmExactError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from pkm_exact.polytopes.polytope import Polytope
+    from pkm_exact.statics.largest_ellipsoid import LargestEllipsoid
+
+
+def polytope_figure(
+    polytope: Polytope, names: tuple[str, ...] = ("x", "y", "z"), ellipsoid: LargestEllipsoid | None = None
+) -> Figure:
+    """A polytope of two or three dimensions in ordinary coordinates, with an ellipsoid in it if there is one.
+
+    Parameters
+    ----------
+    polytope : Polytope
+    names : tuple of str
+        Of the axes.
+    ellipsoid : LargestEllipsoid, optional
+        About the origin, in the same coordinates.
+
+    Raises
+    ------
+    InputError
+        If it has another dimension.
+    PkmExactError
+        If matplotlib is not installed.
+    """
+    if polytope.dimension not in (2, 3):
+        raise InputError(f"picture: {polytope.dimension} dimensions cannot be drawn; take a section with 2 or 3")
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise PkmExactError("picture: matplotlib is not installed; pip install 'pkm_exact[plots]'") from None
+    scale = np.sqrt([float(square) for square in polytope.squares])
+    points = np.array(
+        [[float(value.mid() if hasattr(value, "mid") else value) for value in v] for v in polytope.vertices]
+    )
+    points = points * scale
+    figure = Figure(figsize=(5, 5), layout="constrained")
+    if polytope.dimension == 2:
+        axes: Any = figure.add_subplot()
+        order = np.argsort(np.arctan2(*(points - points.mean(axis=0)).T[::-1]))
+        axes.fill(*points[order].T, facecolor="tab:blue", alpha=0.3, edgecolor="tab:blue")
+        axes.set_aspect("equal")
+    else:
+        from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+        axes = figure.add_subplot(projection="3d")
+        faces = [_ordered(points[list(facet.vertices)]) for facet in polytope.facets]
+        axes.add_collection3d(Poly3DCollection(faces, alpha=0.3, edgecolor="tab:blue", facecolor="tab:blue"))
+        axes.set_zlabel(names[2])
+        for set_limits, values in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), points.T, strict=True):
+            set_limits(values.min(), values.max())
+    if ellipsoid is not None:
+        _draw_ellipsoid(axes, np.linalg.cholesky(ellipsoid.matrix.to_numpy()))
+    axes.set_xlabel(names[0])
+    axes.set_ylabel(names[1])
+    return figure
+
+
+def _ordered(points: Any) -> Any:
+    """The corners of a face, one after another around it."""
+    offsets = points - points.mean(axis=0)
+    first, second = np.linalg.svd(offsets)[2][:2]
+    return points[np.argsort(np.arctan2(offsets @ second, offsets @ first))]
+
+
+def _draw_ellipsoid(axes: Any, root: Any) -> None:
+    turn = np.linspace(0, 2 * np.pi, 61)
+    if root.shape[0] == 2:
+        axes.plot(*(root @ [np.cos(turn), np.sin(turn)]), color="tab:orange")
+        return
+    height = np.linspace(0, np.pi, 31)
+    sphere = np.array(
+        [
+            np.outer(np.cos(turn), np.sin(height)),
+            np.outer(np.sin(turn), np.sin(height)),
+            np.outer(np.ones(61), np.cos(height)),
+        ]
+    )
+    axes.plot_wireframe(*np.tensordot(root, sphere, axes=1), color="tab:orange", linewidth=0.5)
