@@ -157,6 +157,12 @@ def cartesian() -> ForwardProblem:
     return ForwardProblem(tuple(cylinders), motion=TRANSLATION)
 
 
+def sliding() -> ForwardProblem:
+    """3-PRRR with its slides driven: each is a coordinate of the platform, whatever the axes of the guides."""
+    planes = (plane(vector(*(int(i == k) for i in range(3))), Fraction(k + 1, 7), ORIGIN) for k in range(3))
+    return ForwardProblem(tuple(planes), motion=TRANSLATION)
+
+
 def turning_lines() -> ForwardProblem:
     """3-RPR whose turning joints are driven: three lines in the plane."""
     normals = [vector(1, "1/3", 0), vector(-2, "1/5", 0), vector("1/7", 1, 0)]
@@ -184,6 +190,9 @@ MECHANISMS: dict[str, tuple[Callable[[], ForwardProblem], int]] = {
     "1 plane, 5 spheres": (lambda: general(101, distance=5, in_plane=1), 40),
     "5 planes of the base, 1 of the platform": (lambda: general(3, in_plane=5, carries=1), 16),
     "3 planes of the base, 3 of the platform": (lambda: general(5, in_plane=3, carries=3), 20),
+    "4 planes of the base, 2 of the platform": (lambda: general(11, in_plane=4, carries=2), 20),
+    "4 planes of the base, 1 of the platform, sphere": (lambda: general(12, in_plane=4, carries=1, distance=1), 32),
+    "3 planes of the base, 2 of the platform, sphere": (lambda: general(13, in_plane=3, carries=2, distance=1), 40),
     "3 lines": (lambda: general(8, on_line=3), 8),
     "1 line, 4 spheres": (lambda: general(7, on_line=1, distance=4), 28),
     "1 point, 3 spheres": (lambda: general(9, at_point=1, distance=3), 8),
@@ -195,6 +204,7 @@ MECHANISMS: dict[str, tuple[Callable[[], ForwardProblem], int]] = {
     "2-UPS+U": (two_legs_and_universal_joint, 8),
     "3-RPR, driven in turns": (turning_lines, 2),
     "3-PRRR, driven in turns": (cartesian, 8),
+    "3-PRRR, sliding": (sliding, 1),
     "3 legs about a point": (spherical, 8),
 }
 """Each with its number of complex poses."""

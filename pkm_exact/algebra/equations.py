@@ -50,12 +50,12 @@ class SystemEquations:
 
     def values(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
         """The square system at a point."""
-        values = _MonomialValues(ring, point)
+        values = PointProducts(ring, point)
         return [values.evaluate(polynomial) for polynomial in self.combinations]
 
     def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
         """The Jacobian matrix at a point."""
-        values = _MonomialValues(ring, point)
+        values = PointProducts(ring, point)
         return [[values.evaluate(polynomial) for polynomial in row] for row in self.derivatives]
 
     def completion(self, form: Sequence[int]) -> None:  # noqa: ARG002  # the protocol names it
@@ -63,21 +63,23 @@ class SystemEquations:
         return
 
 
-class _MonomialValues:
-    """Monomials at a point, each multiplied out once."""
+class PointProducts:
+    """Monomials at a point of a residue ring, each multiplied out once."""
 
     def __init__(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> None:
         self.ring = ring
         self.point = point
-        self.known = {(0,) * len(point): ring.one}
+        self.known: dict[tuple[int, ...], fmpz_mod_poly] = {(0,) * len(point): ring.one}
 
     def evaluate(self, polynomial: fmpz_mpoly) -> fmpz_mod_poly:
+        """A polynomial at the point."""
         total = self.ring.one * 0
         for exponents, coefficient in polynomial.to_dict().items():
             total += self.monomial(tuple(map(int, exponents))) * int(coefficient)
         return total
 
     def monomial(self, exponents: tuple[int, ...]) -> fmpz_mod_poly:
+        """A monomial at the point."""
         if exponents not in self.known:
             index = next(i for i, exponent in enumerate(exponents) if exponent)
             smaller = (*exponents[:index], exponents[index] - 1, *exponents[index + 1 :])

@@ -14,13 +14,12 @@ from json.encoder import encode_basestring_ascii
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.certify.build_constraints import constraints_content
-from pkm_exact.certify.certificate_entries import isolated_entry, solutions_entry, steps_entry, texts
+from pkm_exact.certify.certificate_entries import claim_entries, pose_entries, steps_entry, texts
 from pkm_exact.claim import CompletenessRoute
 from pkm_exact.files import write_whole
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.poses.pose_spelling import pose_entry
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
@@ -75,19 +74,9 @@ def _content(machine: Machine, configuration_name: str | None, solution: Solutio
         "version": VERSION,
         "robot": robot_entry(robot),
         "configuration": {"name": configuration_name, "lengths_squared": texts(lengths_squared)},
-        "formulation": solution.formulation,
-        "method": solution.method,
-        "claim": str(solution.claim),
-        "completeness_route": None if solution.completeness_route is None else str(solution.completeness_route),
-        "complex_solutions": solution.complex_solutions,
-        "distinct_solutions": solution.distinct_solutions,
-        "real_poses": len(solution.poses),
-        "representation": solutions_entry(solution),
+        **claim_entries(solution),
         "elimination": steps_entry(solution),
-        "krawczyk": None if solution.isolated is None else isolated_entry(solution.isolated),
-        "box_exponent": solution.box_exponent if solution.poses else 0,
-        "poses": [pose_entry(pose) for pose in solution.poses],
-        "notes": list(solution.notes),
+        **pose_entries(solution),
     }
 
 

@@ -9,14 +9,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.certify.certificate_entries import (
+    claim_entries,
     coefficients,
-    isolated_entry,
+    pose_entries,
     representation_entry,
-    solutions_entry,
     steps_entry,
     texts,
 )
-from pkm_exact.poses.pose_spelling import pose_entry
 
 if TYPE_CHECKING:
     from pkm_exact.completeness.infinity import PointsAtInfinity
@@ -47,21 +46,11 @@ def constraints_content(machine: Machine, configuration_name: str | None, soluti
             "constraints": [constraint_entry(constraint, problem.metric) for constraint in problem.constraints],
         },
         "configuration": configuration_name,
-        "formulation": solution.formulation,
-        "method": solution.method,
-        "claim": str(solution.claim),
-        "completeness_route": None if solution.completeness_route is None else str(solution.completeness_route),
-        "complex_solutions": solution.complex_solutions,
-        "distinct_solutions": solution.distinct_solutions,
-        "real_poses": len(solution.poses),
-        "representation": solutions_entry(solution),
+        **claim_entries(solution),
         "infinity": None if proof is None or proof.infinity is None else infinity_entry(proof.infinity),
         "elimination": steps_entry(solution),
         "self_motion": _self_motion(solution),
-        "krawczyk": None if solution.isolated is None else isolated_entry(solution.isolated),
-        "box_exponent": solution.box_exponent if solution.poses else 0,
-        "poses": [pose_entry(pose) for pose in solution.poses],
-        "notes": list(solution.notes),
+        **pose_entries(solution),
     }
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.certify.witness import translation_witnesses
+from pkm_exact.poses.pose_spelling import pose_entry
 
 if TYPE_CHECKING:
     from pkm_exact.poses.isolated_solutions import IsolatedSolutions
@@ -16,6 +17,30 @@ if TYPE_CHECKING:
 def texts(values: Iterable[object]) -> list[str]:
     """Rationals as "p" or "p/q"."""
     return [str(value) for value in values]
+
+
+def claim_entries(solution: Solution) -> dict[str, Any]:
+    """What is claimed, by which engine, and the representation of the solutions: entries in their order."""
+    return {
+        "formulation": solution.formulation,
+        "method": solution.method,
+        "claim": str(solution.claim),
+        "completeness_route": None if solution.completeness_route is None else str(solution.completeness_route),
+        "complex_solutions": solution.complex_solutions,
+        "distinct_solutions": solution.distinct_solutions,
+        "real_poses": len(solution.poses),
+        "representation": solutions_entry(solution),
+    }
+
+
+def pose_entries(solution: Solution) -> dict[str, Any]:
+    """Boxes with one solution, the poses and the notes: entries in their order."""
+    return {
+        "krawczyk": None if solution.isolated is None else isolated_entry(solution.isolated),
+        "box_exponent": solution.box_exponent if solution.poses else 0,
+        "poses": [pose_entry(pose) for pose in solution.poses],
+        "notes": list(solution.notes),
+    }
 
 
 def solutions_entry(solution: Solution) -> dict[str, Any] | None:

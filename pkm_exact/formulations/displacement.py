@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
-from flint import fmpq, fmpz_mat, fmpz_poly
+from flint import fmpq, fmpq_mpoly_ctx, fmpz_mat, fmpz_poly
 
 from pkm_exact.constraints.form import Form
 from pkm_exact.formulations.acceptance import needs_all_motions
@@ -33,6 +33,7 @@ from pkm_exact.geometry.rotation import quaternion_norm, quaternion_products, sc
 
 POSITION_UNKNOWNS = ("c1", "c2", "c3")
 ROTATION_UNKNOWNS = tuple(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3))
+PLACEMENT_UNKNOWNS = POSITION_UNKNOWNS + ROTATION_UNKNOWNS
 QUATERNION_UNKNOWNS = ("q0", "q1", "q2", "q3")
 
 
@@ -78,6 +79,12 @@ def rotation_equations(
     return equations
 
 
+def _placement() -> tuple[fmpq_mpoly_ctx, tuple[Expression, ...], list[list[Expression]]]:
+    """The ring of C and R, and both in its unknowns."""
+    context, generators = rational_ring(PLACEMENT_UNKNOWNS)
+    return context, generators[:3], [list(generators[3 + 3 * i : 6 + 3 * i]) for i in range(3)]
+
+
 @dataclass(frozen=True)
 class AFD3:
     """Rotation matrix with its six quadrics.
@@ -97,16 +104,13 @@ class AFD3:
 
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns c1..c3, r11..r33."""
-        unknowns = POSITION_UNKNOWNS + ROTATION_UNKNOWNS
-        context, generators = rational_ring(unknowns)
-        position = generators[:3]
-        rotation = [list(generators[3 + 3 * i : 6 + 3 * i]) for i in range(3)]
+        context, position, rotation = _placement()
         metric = [rational(g) for g in problem.metric]
         inverse = [1 / g for g in metric]
         equations = constraint_equations(problem, position, rotation)
         for i in range(3):
             equations += [dot(inverse, rotation[i], rotation[j]) - (inverse[i] if i == j else 0) for j in range(i, 3)]
-        system = over_integers(unknowns, equations)
+        system = over_integers(PLACEMENT_UNKNOWNS, equations)
         determinant = sum((a * b for a, b in zip(rotation[0], cross(rotation[1], rotation[2]), strict=True)), -1)
         products = quaternion_products(rotation, context.constant(1), metric)
         pose_map = PoseMap(tuple(map(tuple, products)), tuple(position))
@@ -146,17 +150,14 @@ class AFD4:
 
     def formulate(self, problem: ForwardProblem) -> FormulatedProblem:
         """The problem in the unknowns c1..c3, r11..r33."""
-        unknowns = POSITION_UNKNOWNS + ROTATION_UNKNOWNS
-        context, generators = rational_ring(unknowns)
-        position = generators[:3]
-        rotation = [list(generators[3 + 3 * i : 6 + 3 * i]) for i in range(3)]
+        context, position, rotation = _placement()
         metric = [rational(g) for g in problem.metric]
         unit = context.constant(1)
         equations = constraint_equations(problem, position, rotation)
         equations += reduced(rotation_equations(rotation, unit, metric))
         products = quaternion_products(rotation, unit, metric)
         pose_map = PoseMap(tuple(map(tuple, products)), tuple(position))
-        system = over_integers(unknowns, equations)
+        system = over_integers(PLACEMENT_UNKNOWNS, equations)
         return FormulatedProblem(self.code, system, pose_map, fibre=1, branches=(system,))
 
 

@@ -12,6 +12,7 @@ from random import Random
 
 from flint import fmpz_mod_poly, fmpz_mpoly
 
+from pkm_exact.algebra.equations import PointProducts
 from pkm_exact.algebra.residue_ring import ResidueRing, combination
 from pkm_exact.algebra.system import PolynomialSystem
 
@@ -60,27 +61,3 @@ class MixedEquations:
     def completion(self, form: Sequence[int]) -> None:  # noqa: ARG002  # the protocol names it
         """None: no coordinates are known to follow from others."""
         return
-
-
-class PointProducts:
-    """Monomials at a point of a residue ring, each multiplied out once."""
-
-    def __init__(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> None:
-        self.ring = ring
-        self.point = point
-        self.known: dict[tuple[int, ...], fmpz_mod_poly] = {(0,) * len(point): ring.one}
-
-    def evaluate(self, polynomial: fmpz_mpoly) -> fmpz_mod_poly:
-        """A polynomial at the point."""
-        total = self.ring.one * 0
-        for exponents, coefficient in polynomial.to_dict().items():
-            total += self.monomial(tuple(map(int, exponents))) * int(coefficient)
-        return total
-
-    def monomial(self, exponents: tuple[int, ...]) -> fmpz_mod_poly:
-        """A monomial at the point."""
-        if exponents not in self.known:
-            index = next(i for i, exponent in enumerate(exponents) if exponent)
-            smaller = (*exponents[:index], exponents[index] - 1, *exponents[index + 1 :])
-            self.known[exponents] = self.ring.multiply(self.monomial(smaller), self.point[index])
-        return self.known[exponents]
