@@ -12,6 +12,7 @@ from test_regions import asked
 
 from pkm_exact.cli.main import main
 from pkm_exact.geometry.reader import robot_from_toml
+from pkm_exact.regions.arc_area import ArcArea, arc_area
 from pkm_exact.regions.locus import locus
 from pkm_exact.regions.question_reader import of_size, question_from_toml
 from pkm_exact.regions.region_legs import RegionMachine, region_machine
@@ -90,6 +91,45 @@ def test_the_area_of_a_bipod(base: int, area: float) -> None:
     assert answer.measures is not None
     low, high = map(float, answer.measures)
     assert low < area < high < low + 90
+    arcs = arc_area(answer.machine, answer.question)
+    assert arcs is not None
+    assert arcs.pieces == 1
+    assert arcs.area.width < Fraction(1, 10**9)
+    assert abs(float(arcs.area) - area) < 1e-8
+
+
+def test_both_halves_of_a_bipod_are_two_pieces_and_corners_are_cut() -> None:
+    """The whole plane; a box in the area; a box that cuts it, against its map."""
+    both = _arcs(60, "[-200, 400], [-200, 200]")
+    assert both.pieces == 2
+    assert abs(float(both.area) - 2 * 4863.87799035) < 1e-7
+    assert float(_arcs(60, "[29, 31], [90, 95]").area) == 10
+    cut = "[0, 90], [60, 110]"
+    answer = asked(bipod(60), f"position = [{cut}, 0]", "limits = true", "kind = 'map'\nsteps = 16")
+    assert answer.measures is not None
+    assert answer.measures[0] < _arcs(60, cut).area.lo <= _arcs(60, cut).area.hi < answer.measures[1]
+
+
+def _arcs(base: int, box: str) -> ArcArea:
+    machine = bipod(base)
+    text = f"[region]\nposition = [{box}, 0]\n[conditions]\nlimits = true\n[answer]\nkind = 'map'\n"
+    found = arc_area(machine, question_from_toml(text, machine))
+    assert found is not None
+    return found
+
+
+def test_three_legs_that_turn_are_bounded_by_arcs_too() -> None:
+    """Merlet's planar robot with limits, at an angle of 0: the area lies in the bounds of its map."""
+    table = "[limits]\nlengths = [[4, 8], [4, 8], [1.5, 6]]\nposition = [[0, 6], [0, 11]]\n[[configurations]]"
+    text = FILES["3-rpr-merlet-p"].read_text().replace("[[configurations]]", table, 1)
+    machine = region_machine(robot_from_toml(text))
+    region = "position = [[-9, 9], [-9, 12]]\ndegrees = 0"
+    answer = asked(machine, region, "limits = true", "kind = 'map'\nsteps = 16")
+    arcs = arc_area(machine, answer.question)
+    assert arcs is not None
+    assert answer.measures is not None
+    assert answer.measures[0] < arcs.area.lo <= arcs.area.hi < answer.measures[1]
+    assert arc_area(machine, question_from_toml(f"[region]\n{region}\n{LOCUS}", machine)) is None
 
 
 def jl1(height: str) -> RegionMachine:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from math import isqrt
 from typing import TYPE_CHECKING, Any, Final
 
+from pkm_exact.regions.arc_area import arc_area
 from pkm_exact.regions.chart import POSITIONS
 from pkm_exact.regions.region_components import components
 from pkm_exact.regions.region_solver import LargestAnswer, RegionAnswer
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from pkm_exact.regions.region_legs import RegionMachine
 
 _DIGITS: Final = 9
+_MANY: Final = 24
 _MEASURES: Final = {1: "length", 2: "area", 3: "volume"}
 
 
@@ -58,6 +60,10 @@ def as_text(answer: RegionAnswer | LargestAnswer) -> str:
     if (bounds := measure(answer)) is not None:
         name = _MEASURES[len(answer.question.chart.variables)]
         lines.append(f"{name} of what is good: between {_down(bounds.lo)} and {_up(bounds.hi)}")
+    arcs = None if word != "map" else arc_area(answer.machine, answer.question)
+    if arcs is not None:
+        low, high = _ends(arcs.area)
+        lines.append(f"area by arcs and segments: between {low} and {high}, in {arcs.pieces} pieces")
     if word == "map":
         found = components(answer)
         lines.append(
@@ -94,6 +100,11 @@ def measure(answer: RegionAnswer) -> Interval | None:
     return Interval(answer.measures[0] * low, answer.measures[1] * high)
 
 
+def _ends(interval: Interval) -> tuple[str, str]:
+    """Decimals with many digits, below and above."""
+    return _rounded(interval.lo, ROUND_FLOOR, _MANY), _rounded(interval.hi, ROUND_CEILING, _MANY)
+
+
 def _down(value: Fraction) -> str:
     """Nine digits, rounded down.
 
@@ -107,8 +118,8 @@ def _up(value: Fraction) -> str:
     return _rounded(value, ROUND_CEILING)
 
 
-def _rounded(value: Fraction, way: str) -> str:
-    context = Context(prec=_DIGITS, rounding=way)
+def _rounded(value: Fraction, way: str, digits: int = _DIGITS) -> str:
+    context = Context(prec=digits, rounding=way)
     return f"{context.divide(Decimal(value.numerator), Decimal(value.denominator)).normalize(context):f}"
 
 
@@ -140,7 +151,9 @@ def as_json(answer: RegionAnswer | LargestAnswer) -> str:
 def as_object(answer: RegionAnswer) -> dict[str, Any]:
     """One answer."""
     chart, bounds = answer.question.chart, measure(answer)
-    found = None if answer.question.answer.kind != "map" else components(answer)
+    is_map = answer.question.answer.kind == "map"
+    found = components(answer) if is_map else None
+    arcs = arc_area(answer.machine, answer.question) if is_map else None
     return {
         "robot": answer.machine.name,
         "answer": answer.question.answer.kind,
@@ -158,6 +171,7 @@ def as_object(answer: RegionAnswer) -> dict[str, Any]:
         "shares": {name: str(share) for name, share in answer.shares.items()},
         "measure": None if bounds is None else [str(bounds.lo), str(bounds.hi)],
         "components": None if found is None else {"at_least": found.separated, "inside_pieces": found.connected},
+        "arcs": None if arcs is None else {"area": list(_ends(arcs.area)), "pieces": arcs.pieces},
         "enlarged": answer.question.enlarged,
     }
 
