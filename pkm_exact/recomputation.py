@@ -24,6 +24,8 @@ from pkm_exact.certify.certified_machine import (
     certified_squares,
 )
 from pkm_exact.certify.check import check_bytes
+from pkm_exact.certify.mobility_build import FORMAT as MOBILITY_FORMAT
+from pkm_exact.certify.mobility_build import certified_linkage, mobility_certificate
 from pkm_exact.certify.system_build import FORMAT as SYSTEM_FORMAT
 from pkm_exact.certify.system_build import system_certificate
 from pkm_exact.certify.tolerance_build import FORMAT as TOLERANCE_FORMAT
@@ -91,7 +93,7 @@ def recompute(
     Parameters
     ----------
     data : bytes
-        Content of a certificate of poses, of tolerances or of a polynomial system.
+        Content of a certificate of poses, of tolerances, of a mobility or of a polynomial system.
     robot : Machine, optional
         A robot or mechanism whose configuration of the same name is to be solved (its lengths, if the certificate's
         have no name); by default the one that is written in the certificate.
@@ -129,6 +131,8 @@ def recompute(
     content = json.loads(data)
     if content["format"] == SYSTEM_FORMAT:
         answers = _system_answers(content, robot, policy, progress)
+    elif content["format"] == MOBILITY_FORMAT:
+        answers = _mobility_answers(content, robot)
     else:
         answers = _answers(content, _Question.of(content, robot), policy, progress or (lambda _: None))
     for found in answers:
@@ -188,6 +192,16 @@ def _system_answers(
     yield system_certificate(solved_system(system, width=width, policy=policy, progress=progress), content["title"])
 
 
+def _mobility_answers(content: dict[str, Any], robot: Machine | None) -> Iterator[dict[str, Any]]:
+    """The certificate of the mechanism of bodies and joints that is written in one."""
+    from pkm_exact.mobility.analysis import mobility_of
+
+    if robot is not None:
+        raise InputError("certificate: is one of a mobility, and not of a robot; recompute it without a model")
+    linkage, among = certified_linkage(content), content["actuator_sets"]["among"]
+    yield mobility_certificate(mobility_of(linkage, content["actuated"], among))
+
+
 def _tolerance_answers(
     content: dict[str, Any], asked: _Question, policy: Policy | None, progress: Progress
 ) -> Iterator[dict[str, Any]]:
@@ -210,6 +224,8 @@ def _summary(content: dict[str, Any]) -> str:
         total = proved + len(content["unproved"])
         claim = "complete within tolerance" if content["complete"] else "not proven complete within tolerance"
         return f"{claim}, {proved} of {total} poses proved"
+    if content["format"] == MOBILITY_FORMAT:
+        return f"mobility {content['mobility']['free']}, of the platform {content['mobility']['platform']}"
     if content["format"] == SYSTEM_FORMAT:
         return f"{content['claim'].replace('-', ' ')}, {counted(content['real_solutions'], 'real solution')}"
     return f"{content['claim'].replace('-', ' ')}, {counted(content['real_poses'], 'pose')}"

@@ -5,6 +5,7 @@ from itertools import combinations
 from random import Random
 
 import pytest
+from samples import solved
 
 from pkm_exact import Distance, ForwardProblem, InputError, Robot, solve
 from pkm_exact.geometry.inverse import rotation_of
@@ -211,6 +212,16 @@ def test_a_fourth_length_makes_the_forward_kinematics_of_a_planar_robot_unique()
     useless = sensor_report(solution, again)
     assert not useless.is_unique
     assert useless.confused == ((2,), (1,))
+
+
+def test_a_seventh_length_makes_the_forward_kinematics_of_a_general_hexapod_unique() -> None:
+    solution = solved("mourrain-l")
+    assert len(solution.poses) > 1
+    far = max(abs(x) for leg in solution.problem.distances for x in leg.base)
+    wire = Distance((3 * far, ZERO, far), (far, 2 * far, ZERO), ONE)
+    report = sensor_report(solution, wire)
+    assert report.is_unique
+    assert report.gap > 0
 
 
 def test_four_lengths_of_a_planar_robot_leave_one_pose_exactly() -> None:

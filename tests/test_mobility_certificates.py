@@ -281,6 +281,11 @@ def test_the_command_writes_a_certificate(tmp_path: Path, capsys: pytest.Capture
     assert main(["mobility", str(CHAINS / "sarrus.toml"), "-o", str(path)]) == 0
     assert main(["check", str(path)]) == main(["check", "--pure", str(path)]) == 0
     assert path.read_bytes() == canonical_bytes(subject(SARRUS))
+    assert main(["check", "--recompute", str(path)]) == 0
+    for command, output in (("report", "page.html"), ("plot", "picture.svg")):
+        capsys.readouterr()
+        assert main([command, str(path), "-o", str(tmp_path / output)]) == 2
+        assert "not a certificate about poses of a robot" in capsys.readouterr().err
     assert main(["mobility", "models/mssm.toml", "-o", str(tmp_path / "no.json")]) == 2
     assert not (tmp_path / "no.json").exists()
     capsys.readouterr()

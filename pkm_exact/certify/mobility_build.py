@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
@@ -115,6 +115,43 @@ def _joint(joint: Joint) -> dict[str, Any]:
         "pitch": str(geometry.pitch) if "pitch" in fields else "0",
         "screws": [_texts(screw) for screw in geometry.screws],
     }
+
+
+def certified_linkage(content: Mapping[str, Any]) -> Linkage:
+    """The mechanism of an accepted certificate.
+
+    Examples
+    --------
+    >>> from pkm_exact import mobility_of, read_linkage
+    >>> linkage = read_linkage("models/chains/sarrus.toml")
+    >>> found = certified_linkage(mobility_certificate(mobility_of(linkage)))
+    >>> [joint.twists for joint in found.joints] == [joint.twists for joint in linkage.joints]
+    True
+    """
+    from pkm_exact.geometry.joint_types import JointGeometry
+    from pkm_exact.geometry.linkage import Joint, Linkage
+
+    found = content["mechanism"]
+
+    def vector(entry: Sequence[str]) -> Any:
+        return tuple(map(Fraction, entry))
+
+    joints = tuple(
+        Joint(
+            joint["name"],
+            joint["type"],
+            (joint["bodies"][0], joint["bodies"][1]),
+            JointGeometry(
+                vector(joint["point"]),
+                tuple(map(vector, joint["axes"])),
+                Fraction(joint["pitch"]),
+                tuple(map(vector, joint["screws"])),
+            ),
+        )
+        for joint in found["joints"]
+    )
+    name, unit, source, base, platform = (found[key] for key in ("name", "unit", "source", "base", "platform"))
+    return Linkage(name, unit, source, tuple(found["bodies"]), joints, base, platform)
 
 
 def _texts(values: Sequence[Fraction]) -> list[str]:

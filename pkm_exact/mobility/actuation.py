@@ -23,8 +23,8 @@ from pkm_exact.wording import shown
 Whole: TypeAlias = tuple[int, ...]
 
 MOST_SETS: Final = 1000
-MOST_STEPS: Final = 10_000
-"""Sets that are listed, and sets that are looked at; beyond them a list says that it is not all."""
+MOST_WORDS: Final = 1_000_000
+"""Sets that are listed, and words of numbers that eliminations take on the way; beyond, a list says it is not all."""
 
 
 @dataclass(frozen=True)
@@ -141,12 +141,12 @@ class _Search:
         self._elements = [(place, whole(row)) for place, row in elements]
         self._wanted = [whole(row) for row in echelon(wanted, len(wanted[0]))[0]] if wanted and wanted[0] else []
         self._rows = dict(self._elements)
-        self._steps, self._found = 0, 0
+        self._words, self._found = 0, 0
 
     @property
     def is_complete(self) -> bool:
         """Whether nothing was left out."""
-        return self._steps <= MOST_STEPS and self._found <= MOST_SETS
+        return self._words <= MOST_WORDS and self._found <= MOST_SETS
 
     def minimal_sets(self) -> Iterator[tuple[int, ...]]:
         """One after another, in the order of their places."""
@@ -155,7 +155,6 @@ class _Search:
     def _extended(
         self, chosen: tuple[int, ...], basis: list[tuple[int, Whole]], start: int, rest: Sequence[Whole]
     ) -> Iterator[tuple[int, ...]]:
-        self._steps += 1
         if not self.is_complete:
             return
         if not rest:
@@ -165,18 +164,26 @@ class _Search:
                     yield chosen
             return
         for position in range(start, len(self._elements)):
+            if self._words > MOST_WORDS:
+                return
             place, row = self._elements[position]
-            reduced = _reduced(row, basis)
+            reduced = self._charged(_reduced(row, basis), len(basis))
             pivot = next((k for k, value in enumerate(reduced) if value), None)
             if pivot is None:
                 continue
             new = (pivot, reduced)
-            remaining = [left for left in (_reduced(row, [new]) for row in rest) if any(left)]
+            remaining = [left for left in (self._charged(_reduced(row, [new]), 1) for row in rest) if any(left)]
             yield from self._extended((*chosen, place), [*basis, new], position + 1, remaining)
+
+    def _charged(self, row: Whole, times: int) -> Whole:
+        """The row, and the words of so many eliminations of it counted."""
+        self._words += (1 + times) * len(row) * (1 + max(value.bit_length() for value in row) // 64)
+        return row
 
     def _is_minimal(self, chosen: tuple[int, ...]) -> bool:
         if len(chosen) == len(self._wanted):
             return True
+        self._words += 50 * len(chosen) ** 2 * len(self._wanted)
         return all(not self._holds([place for place in chosen if place != left]) for left in chosen)
 
     def _holds(self, places: Sequence[int]) -> bool:

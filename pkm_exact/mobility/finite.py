@@ -33,6 +33,8 @@ from pkm_exact.screws.screw_system import ScrewSystem
 
 MOST_LOCKED_TOGETHER: Final = 2
 MOST_TRIALS: Final = 200
+MOST_WORK: Final = 60_000
+"""Sets that are locked on trial, and entries of the matrices of all trials."""
 
 
 class Argument(StrEnum):
@@ -127,7 +129,8 @@ def _with_freedoms_locked(found: Instantaneous, most: int) -> tuple[int, int, tu
     names = [name for name in found.linkage.freedoms if name not in found.locked]
     trials = chain.from_iterable(combinations(names, count) for count in range(1, MOST_LOCKED_TOGETHER + 1))
     best: tuple[int, int, tuple[str, ...]] = (0, 0, ())
-    for _, chosen in zip(range(MOST_TRIALS), trials, strict=False):
+    entries = (6 * len(found.loops.loops) + 1) * len(names)
+    for _, chosen in zip(range(min(MOST_TRIALS, MOST_WORK // entries)), trials, strict=False):
         if best[0] == most:
             break
         locked = (*found.locked, *chosen)

@@ -27,7 +27,8 @@ Quadratic: TypeAlias = dict[tuple[int, int], Fraction]
 """Coefficients of y_i y_j, i <= j."""
 
 MOST_MONOMIALS: Final = 500
-"""Bounds the matrices that are looked at."""
+MOST_TERMS: Final = 100_000
+"""Bound the matrices that are looked at, and the products that make the quadratic forms."""
 
 
 def cone_dimension(found: Instantaneous) -> int:
@@ -45,6 +46,8 @@ def cone_dimension(found: Instantaneous) -> int:
     """
     quadratics = obstructions(found)
     best = found.total
+    if not quadratics:
+        return best
     for dimension in range(found.total - 1, -1, -1):
         if not _only_zero([_section(form, found.total, dimension) for form in quadratics], found.total - dimension):
             break
@@ -108,9 +111,13 @@ def signature(form: Quadratic, count: int) -> Signature:
 
 
 def obstructions(found: Instantaneous) -> list[Quadratic]:
-    """The quadratic forms u.Q on the motions, one for each u of a basis of those with u M = 0."""
+    """The quadratic forms u.Q on the motions, one for each u of a basis of those with u M = 0.
+
+    None at all if there would be too many products to form: then nothing is known of the second order.
+    """
     matrix = found.loops.matrix
-    if not matrix or not found.speeds:
+    pairs = sum(len(loop) ** 2 for loop in found.loops.loops)
+    if not matrix or not found.speeds or pairs * found.total**2 > MOST_TERMS:
         return []
     shut = {found.linkage.freedoms.index(name) for name in found.locked}
     free = [[value for k, value in enumerate(row) if k not in shut] for row in matrix]

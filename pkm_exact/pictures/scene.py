@@ -170,7 +170,12 @@ def accepted_with_lines(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
     data = content_of(path)
     verdict = check_bytes(data)
     if verdict.status == Status.ACCEPTED:
-        return json.loads(data), verdict.lines
+        document = json.loads(data)
+        if "robot" not in document:
+            raise InputError(
+                f"{name}: is not a certificate about poses of a robot; give one, or ask check what this says"
+            )
+        return document, verdict.lines
     reason = f"{name}: the certificate is {verdict.status} ({verdict.lines[-1]})"
     remedy = "write one with certify-poses solve MODEL -o CERT.json"
     if verdict.status == Status.REJECTED:
