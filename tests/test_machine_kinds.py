@@ -248,6 +248,19 @@ def test_a_defect_gives_one_sentence(name: str) -> None:
     assert str(caught.value).isprintable()
 
 
+def test_another_number_of_legs_is_told_its_kind() -> None:
+    text = (
+        'schema = 1\nname = "r"\nkind = "6-UPS"\nunit = "m"\nsource = "x"\n'
+        "[base]\njoints = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]\n"
+        "[platform]\njoints = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]\n"
+    )
+    with pytest.raises(
+        InputError, match='4 rows; give 6 joints of 3 coordinates, one per leg, or write kind = "4-UPS"'
+    ):
+        robot_from_toml(text)
+    assert len(robot_from_toml(text.replace("6-UPS", "4-UPS")).actuated) == 4
+
+
 def test_values_that_do_not_fit_are_refused() -> None:
     robot = drawn("delta")
     with pytest.raises(InputError, match="'arm 1': the squares of cosine and sine sum to"):

@@ -19,8 +19,16 @@ def parse_joints(rows: Sequence[object], where: str, kind: Kind) -> Joints:
     if len(rows) != kind.legs:
         raise InputError(
             f"{where}: {len(rows)} rows; give {kind.legs} joints of {kind.dimension} coordinates, one per leg"
+            f"{_other_count(len(rows), kind)}"
         )
     return tuple(parse_vector(row, f"{where}[{i}]", kind.dimension) for i, row in enumerate(rows, 1))
+
+
+def _other_count(count: int, kind: Kind) -> str:
+    """The kind that has so many legs, if machines with any number of legs have one."""
+    chains = {"": "RPR", "cranks": "RRR", "slides": "PRR"} if kind.motion.is_planar else {"": "UPS"}
+    chain = chains.get(kind.chain_table)
+    return f', or write kind = "{count}-{chain}"' if chain and count > 1 else ""
 
 
 def in_plane(row: object) -> object:
