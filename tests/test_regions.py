@@ -90,6 +90,7 @@ def _rpy(roll: float, pitch: float, yaw: float) -> np.ndarray:
     return z @ y @ x
 
 
+@pytest.mark.slow
 def test_lengths_of_a_hexapod_with_angles_that_vary(tmp_path: Path) -> None:
     """Least and greatest lengths over random poses: just wider limits are proved, narrower ones refuted."""
     random, name = Random(7), "mourrain-l"
