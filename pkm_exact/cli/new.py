@@ -65,6 +65,13 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
     metavar="DEGREES",
     help="With it: where the first pair of the base is, from the x-axis.  [default: -90]",
 )
+@click.option(
+    "--csv",
+    type=arguments.FilePath(),
+    metavar="JOINTS.csv",
+    help="Instead of sides or circles: joints in columns base_x, base_y, base_z, platform_x, platform_y, platform_z, a "
+    "row per leg, and length if known. Numbers are exact as written, or rounded with --digits.",
+)
 @click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
 @click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
 @click.option(
@@ -89,7 +96,9 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
     "-o", "--output", type=arguments.FilePath(), metavar="MODEL.toml", help="Write to this file; - for stdout."
 )
 @click.option("--force", is_flag=True, help="Overwrite the file if it exists.")
-def new(output: str | None, name: str | None, force: bool, dimensions: tuple[str, ...], **given: Any) -> int:
+def new(
+    output: str | None, name: str | None, force: bool, csv: str | None, dimensions: tuple[str, ...], **given: Any
+) -> int:
     """Write a commented model file of a symmetric robot, as a start for your own.
 
     On a terminal, what is needed and not given is asked for. Lengths are exact (12.5, 25/2) and in any unit. The file
@@ -104,6 +113,10 @@ def new(output: str | None, name: str | None, force: bool, dimensions: tuple[str
       certify-poses new --kind delta --dimension arm=120 --dimension rod=300 -o delta.toml
     """
     _checked_output(output, force)
+    if csv is not None:
+        from pkm_exact.cli.new_from_csv import write_from_csv
+
+        return write_from_csv(csv, output, name, given)
     if given["kind"] in MACHINES:
         return _new_machine(output, name, dimensions, given)
     if dimensions:

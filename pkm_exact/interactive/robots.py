@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, fields, replace
 from fractions import Fraction
@@ -199,6 +199,75 @@ class Asked(Machine):
 @dataclass(frozen=True, repr=False)
 class Robot(Asked, robots.Robot):
     __doc__ = robots.Robot.__doc__
+
+    @classmethod
+    def from_arrays(
+        cls,
+        base: Iterable[Iterable[object]],
+        platform: Iterable[Iterable[object]],
+        *,
+        digits: int | None = None,
+        doubles_are_exact: bool = False,
+        name: str = "robot",
+        unit: str = "mm",
+        source: str = "arrays of joints",
+    ) -> Self:
+        """The 6-UPS robot with these joints, or the 3-RPR robot if there are three legs.
+
+        Parameters
+        ----------
+        base, platform : n x 3 arrays of numbers, or n x 2 if planar
+            A joint a row, leg by leg; numpy arrays or lists, in ordinary coordinates.
+        digits : int, optional
+            Decimals to which every number is rounded. Floats need this, or
+        doubles_are_exact : bool
+            that each is meant to be the rational number that it is in binary.
+        name, unit, source : str
+
+        Raises
+        ------
+        InputError
+            If the joints are none of a robot, or it is not said how floats are meant.
+
+        Examples
+        --------
+        >>> robot = Robot.from_arrays([[0, 0], [10, 0], [3, 10]], [[0, 0], [4.0, 0], [2, 2.0000001]], digits=4)
+        >>> robot.kind, robot.platform_joints[2][1]
+        ('3-RPR', Fraction(2, 1))
+        """
+        from pkm_exact.geometry.joint_arrays import exact_joints
+
+        joints = [
+            exact_joints(rows, where, digits, doubles_are_exact=doubles_are_exact)
+            for rows, where in ((base, "base"), (platform, "platform"))
+        ]
+        kind = "3-RPR" if len(joints[0]) == 3 else "6-UPS"
+        return cls(name, kind, unit, source, joints[0], joints[1])
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the robot as a model file, from which the same robot is read; the file appears whole or not at all.
+
+        Raises
+        ------
+        InputError
+            If it cannot be written.
+
+        Examples
+        --------
+        >>> import tempfile, pathlib
+        >>> robot = Robot.load("models/hexa.toml")
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "copy.toml"
+        >>> robot.save(path)
+        >>> Robot.load(path) == robot
+        True
+        """
+        from pkm_exact.files import write_whole
+        from pkm_exact.geometry.model_writer import robot_text
+
+        try:
+            write_whole(path, robot_text(self).encode("utf-8"))
+        except OSError as error:
+            raise InputError(f"{path}: cannot be written ({error.strerror}); give another path") from None
 
     def follow(
         self, values: Sequence[float] | Array, start: Followed | Pose | tuple[Sequence[float], Sequence[float]]

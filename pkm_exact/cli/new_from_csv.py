@@ -1,0 +1,86 @@
+"""A model file from a CSV file of joints, for ``new --csv``."""
+
+from __future__ import annotations
+
+import sys
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import click
+
+from pkm_exact.cli import arguments
+from pkm_exact.cli.circle_options import numbers
+from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.inverse import distance_squared, rotation_of
+from pkm_exact.geometry.joint_arrays import describe_rounding, read_joints_csv
+from pkm_exact.geometry.model_writer import robot_text
+from pkm_exact.geometry.robot import Configuration, Robot
+from pkm_exact.wording import printable
+
+_NOT_WITH_CSV = (
+    "base_sides",
+    "platform_sides",
+    "base_circle",
+    "platform_circle",
+    "platform_shift",
+    "base_azimuth",
+    "crank",
+)
+
+
+def write_from_csv(path: str, output: str | None, name: str | None, given: dict[str, Any]) -> int:
+    """Write the model of the joints in a CSV file.
+
+    Raises
+    ------
+    InputError
+        If the file is no table of joints, or the robot is none.
+    """
+    for key in _NOT_WITH_CSV:
+        if given[key] is not None:
+            raise click.UsageError(f"--csv and --{key.replace('_', '-')} exclude each other.")
+    if given["exact"]:
+        raise click.UsageError("--csv and --exact exclude each other: numbers are taken as they are, or with --digits.")
+    if output is None:
+        raise click.UsageError("--csv: give -o MODEL.toml as well, or -o - for stdout.")
+    base, platform, lengths = read_joints_csv(path, given["digits"])
+    planar = len(base) == 3
+    kind = "3-RPR" if planar else "6-UPS"
+    if given["kind"] not in (None, kind, *(() if planar else ("6-6",))):
+        raise click.UsageError(f"--csv: {len(base)} rows are those of a {kind} robot; leave --kind out.")
+    if (lengths is None) == (given["height"] is None):
+        raise click.UsageError("--csv: give either --height, where the platform is at home, or a column length.")
+    squares = (
+        _squares_at(base, platform, given["height"], planar)
+        if lengths is None
+        else tuple(length * length for length in lengths)
+    )
+    source = f"joints from {Path(path).name}, {describe_rounding(given['digits'])}"
+    title = name or ("my robot" if output == "-" else Path(output).stem)
+    robot = Robot(
+        title, kind, given["unit"] or "mm", source, base, platform, configurations=(Configuration("home", squares),)
+    )
+    text = robot_text(robot)
+    if output == "-":
+        sys.stdout.write(text)
+        return ExitCode.DONE
+    arguments.write_output(output, text.encode("utf-8"))
+    click.echo(f"{printable(output)}: {kind}, {source}")
+    click.echo(f"next: {PROGRAM} solve {printable(output)}")
+    return ExitCode.DONE
+
+
+def _squares_at(base: Any, platform: Any, height: str, planar: bool) -> tuple[Fraction, ...]:
+    """Squared leg lengths with the platform level at a height, or at y = height if it is planar."""
+    found = numbers(height, "--height")
+    if len(found) != 1:
+        raise click.UsageError("--height: give one number.")
+    zero = Fraction(0)
+    position = (zero, found[0], zero) if planar else (zero, zero, found[0])
+    rotation = rotation_of((Fraction(1), zero, zero, zero))
+    squares = tuple(distance_squared(a, b, position, rotation) for a, b in zip(base, platform, strict=True))
+    if 0 in squares:
+        raise InputError(f"--height: leg {squares.index(zero) + 1} would have length 0; give another height")
+    return squares
