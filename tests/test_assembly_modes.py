@@ -47,7 +47,7 @@ def test_the_table_says_which_poses_share_a_mode(capsys: pytest.CaptureFixture[s
 @given(st.lists(st.sampled_from(KEYS), min_size=1, max_size=60))
 def test_the_summary_counts_all_poses_once(keys: list[str]) -> None:
     modes = {key: [place for place, other in enumerate(keys) if other == key] for key in KEYS}
-    text = summary(modes)
+    text = summary(modes, range(1, len(keys) + 1))
     counts = [int(number) for number in re.findall(r"([0-9]+)(?: poses?)? with det J", text)]
     assert counts == [len(places) for places in modes.values() if places]
     listed = [int(number) for group in re.findall(r"\(([0-9, ]+)\)", text) for number in group.split(", ")]

@@ -248,7 +248,7 @@ WRONG = [
     (["export", P, "--formulation", "AFP4", "--to", TARGETS[0]], "AFP4 is for spatial robots, but this one is planar"),
     (
         ["legs", P, "--position", "1,2"],
-        "give exactly one of --quaternion, --cayley and --matrix; of --half-tangent and",
+        "give exactly one of --quaternion, --cayley, --matrix and --rpy; of --half-tangent,",
     ),
     (["legs", P, "--position", "1,2,0", "--half-tangent", "0"], "--position: 3 numbers given, 2 are needed"),
     (

@@ -27,7 +27,7 @@ def _names(_context: click.Context, _option: click.Parameter, value: str | None)
     return None if value is None else tuple(word.strip() for word in value.split(",") if word.strip())
 
 
-@click.command(short_help="How a mechanism can move, and which actuators hold it.")
+@click.command(short_help="Freedoms of a mechanism, exactly, and which actuators hold it.")
 @click.argument("model", type=arguments.FilePath())
 @click.option(
     "--at",
@@ -71,13 +71,13 @@ def mobility(
       certify-poses mobility models/chains/sarrus.toml -o sarrus-mobility.json
       certify-poses mobility models/rolland-6-6.toml --at 0,0,650,9,1,0,-1
     """
+    from pkm_exact.cli.model_reading import announced_any
     from pkm_exact.geometry.linkage import Linkage
-    from pkm_exact.geometry.reader import read_any
 
     if output is not None:
         arguments.require_other_file(Path(output), model, "-o")
         arguments.require_writable(Path(output), "-o")
-    found = read_any(model)
+    found = announced_any(model)
     try:
         if isinstance(found, Linkage):
             for option, given in (("--at", pose), ("--configuration", configuration)):

@@ -14,6 +14,7 @@ from pkm_exact.wording import printable
 if TYPE_CHECKING:
     from os import PathLike
 
+    from pkm_exact.geometry.linkage import Linkage
     from pkm_exact.geometry.mechanism import Mechanism
     from pkm_exact.geometry.robot import Robot
 
@@ -25,6 +26,17 @@ def announced_model(path: str) -> Robot | Mechanism:
     robot = read_robot(path)
     _announce(robot, path)
     return robot
+
+
+def announced_any(path: str) -> Robot | Mechanism | Linkage:
+    """The same, or the mechanism of bodies and joints of a file of that kind (``geometry.reader.read_any``)."""
+    from pkm_exact.geometry.linkage import Linkage
+    from pkm_exact.geometry.reader import read_any
+
+    found = read_any(path)
+    if not isinstance(found, Linkage):
+        _announce(found, path)
+    return found
 
 
 def announced_robot(path: str | PathLike[str], question: str) -> Robot:

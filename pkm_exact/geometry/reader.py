@@ -127,7 +127,7 @@ def robot_from_toml(text: str) -> Robot | Mechanism:
     if isinstance(found, Linkage):
         raise InputError(
             f"kind: {CHAINS_KIND} is a mechanism of bodies and joints in one configuration, which has no forward "
-            "kinematics here; ask certify-poses mobility how it can move"
+            "kinematics here; ask certify-poses mobility about its freedoms"
         )
     return found
 

@@ -139,7 +139,7 @@ STATICS_INDICES: Final[tuple[StaticsIndex, ...]] = (
     StaticsIndex(
         "v_iso_spin",
         "length/time",
-        "the same while the platform turns with the imposed spin",
+        "the same at the imposed spin of the platform",
         f"{SHAYYA}, equation 13",
         lambda m: m.isotropic_speed(_moving(m), m.known("spin")),
     ),

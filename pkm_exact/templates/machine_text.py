@@ -43,7 +43,7 @@ def machine_text(kind: MachineKind, name: str, unit: str, given: Mapping[str, st
     Examples
     --------
     >>> from pkm_exact.geometry.machines.machine_kinds import MACHINES
-    >>> print(machine_text(MACHINES["delta"], "example", "m", {"arm": "2"}).splitlines()[14])
+    >>> print(machine_text(MACHINES["delta"], "example", "m", {"arm": "2"}).splitlines()[12])
     arm = 2                                   # length of the cranks
     """
     chosen = given or {}
