@@ -128,7 +128,7 @@ def _given(number: int | None, position: str | None, **options: Any) -> GivenPos
 def _write(output: str, source: str, extra: StaticsAnswers) -> None:
     """Write a certificate of what was asked."""
     from pkm_exact.certify.statics_build import statics_certificate_bytes
-    from pkm_exact.geometry.reader import read_robot
+    from pkm_exact.interactive.robots import read_robot  # it was announced when it was read first
 
     arguments.require_other_file(Path(output), source, "-o")
     arguments.require_writable(Path(output), "-o")
