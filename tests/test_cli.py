@@ -96,7 +96,7 @@ def test_bad_usage_gives_one_sentence_and_exit_code_2(words: list[str], part: st
 
 BAD_MODELS = {
     "toml": ("lengths = [1,", "lengths = [1,,", "not valid TOML"),
-    "kind": ("6-UPS", "7-UPS", "kind: '7-UPS' is unknown; use one of: 6-UPS"),
+    "kind": ("6-UPS", "6-XYZ", "kind: '6-XYZ' is unknown; use one of: 6-UPS"),
     "five legs": ("    [2, 0, 0],\n", "", "base.joints: 5 rows; give 6"),
     "two numbers": ("[1, 0, 1]", "[1, 0]", "platform.joints[2]: a list of 2"),
     "nan": ('"4/5"', "nan", "configurations[1].lengths[3]: nan is not a finite number"),

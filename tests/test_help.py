@@ -13,7 +13,7 @@ import pytest
 from doc_samples import blocks, commands
 
 import pkm_exact
-from pkm_exact.cli.commands import certify_poses
+from pkm_exact.cli.commands import COMMANDS, certify_poses, command
 from pkm_exact.cli.main import COMPLETION, PROGRAM, ExitCode, main
 
 ROOT = Path(__file__).parent.parent
@@ -27,7 +27,7 @@ SLOW = ("", "check", "compare", "formulations", "plot", "sweep")
 NOT_HERE = ("tcp://",)  # needs a cluster
 
 
-HELPS = {"": certify_poses, **certify_poses.commands}
+HELPS = {"": certify_poses, **{name: command(name) for name in COMMANDS}}
 
 
 def _examples(command: click.Command) -> list[str]:

@@ -16,7 +16,7 @@ from pkm_exact.stages import Amount
 from pkm_exact.wording import printable
 
 
-@click.command(short_help="Replay certificates, or recompute them.")
+@click.command()
 @click.argument("paths", nargs=-1, required=True, type=arguments.FilePath(), metavar="PATH...")
 @click.option("--pure", is_flag=True, help="Use the second checker: plain Python, no libraries, slower, same verdicts.")
 @click.option(

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from pkm_exact.solution import Solution
 
 
-@click.command(short_help="Forward and inverse kinematics as C code, with proved bounds.")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @click.option("-o", "--output", type=arguments.FilePath(), metavar="DIR", required=True, help="Folder for the files.")
 @arguments.configuration_option

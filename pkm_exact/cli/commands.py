@@ -2,46 +2,63 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Final
 
 import click
 
-from pkm_exact.cli.check_command import check
-from pkm_exact.cli.codegen import codegen
-from pkm_exact.cli.compare_commands import compare
-from pkm_exact.cli.formulation_commands import export, formulations
-from pkm_exact.cli.legs import legs
-from pkm_exact.cli.mobility_command import mobility
-from pkm_exact.cli.new import new
-from pkm_exact.cli.plot import plot
-from pkm_exact.cli.region import region
-from pkm_exact.cli.report_command import report
-from pkm_exact.cli.selftest import selftest
-from pkm_exact.cli.shell_completion import completion
-from pkm_exact.cli.solve import solve
-from pkm_exact.cli.statics_command import statics
-from pkm_exact.cli.sweep import sweep
-from pkm_exact.cli.track import track
+COMMANDS: Final = {
+    "new": ("new", "Write a first model file, from a few answers."),
+    "solve": ("solve", "All real poses of a robot, and a certificate."),
+    "check": ("check_command", "Replay certificates, or recompute them."),
+    "formulations": ("formulation_commands", "All formulations on one robot, side by side."),
+    "export": ("formulation_commands", "The equations in another program's syntax."),
+    "legs": ("legs", "Leg lengths and joint values at a given pose."),
+    "statics": ("statics_command", "Jacobians, wrenches and singularities at a pose."),
+    "mobility": ("mobility_command", "Freedoms of a mechanism, exactly, and which actuators hold it."),
+    "compare": ("compare_commands", "Numeric methods held against the certified poses."),
+    "track": ("track", "Follow one assembly mode along a joint path."),
+    "sweep": ("sweep", "All poses at each of many length vectors."),
+    "region": ("region", "Is all of a region of poses good? Or where is it?"),
+    "plot": ("plot", "Pictures of the poses in a certificate."),
+    "report": ("report_command", "A web page of a certificate."),
+    "codegen": ("codegen", "Forward and inverse kinematics as C code, with proved bounds."),
+    "selftest": ("selftest", "Check that this installation works."),
+    "completion": ("shell_completion", "Completion of commands and options in your shell."),
+}
+"""By name: the module in this folder, and what the command does in a few words."""
 
-COMMANDS: Final = (
-    new,
-    solve,
-    check,
-    formulations,
-    export,
-    legs,
-    statics,
-    mobility,
-    compare,
-    track,
-    sweep,
-    region,
-    plot,
-    report,
-    codegen,
-    selftest,
-    completion,
-)
+
+class Commands(click.Group):
+    """Commands that are loaded when they are used: ``--help`` needs none of them, and a command only itself."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """All names, in the order of the help."""
+        del ctx
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of that name."""
+        del ctx
+        return command(cmd_name) if cmd_name in COMMANDS else None
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The names with their few words."""
+        del ctx
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, words) for name, (_, words) in COMMANDS.items()])
+
+
+def command(name: str) -> click.Command:
+    """One of the commands, with the few words of its row.
+
+    >>> command("legs").short_help
+    'Leg lengths and joint values at a given pose.'
+    """
+    module, words = COMMANDS[name]
+    found: click.Command = getattr(import_module(f"pkm_exact.cli.{module}"), name)
+    found.short_help = words
+    return found
 
 
 def _show_versions(context: click.Context, _option: click.Parameter, wanted: bool) -> None:
@@ -54,7 +71,7 @@ def _show_versions(context: click.Context, _option: click.Parameter, wanted: boo
     context.exit()
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.option(
     "--version",
     is_flag=True,
@@ -76,7 +93,3 @@ def certify_poses() -> None:
     Exit codes: 0 done and complete, or accepted; 1 a certificate was rejected; 2 bad input or usage; 3 done, but the
     claim is weaker than complete; 4 no answer; 130 interrupted; 141 the reader of the output went away.
     """
-
-
-for command in COMMANDS:
-    certify_poses.add_command(command)

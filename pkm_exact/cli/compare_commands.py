@@ -15,7 +15,7 @@ from pkm_exact.errors import InputError
 MOST_STARTS = 10_000
 
 
-@click.command(short_help="Numeric methods held against the certified poses.")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @arguments.configuration_option
 @arguments.lengths_option

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Configuration
 
 
-@click.command(short_help="All formulations on one robot, side by side.")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @arguments.configuration_option
 @click.option(
@@ -79,7 +79,7 @@ def formulations(
     return ExitCode.DONE if all(row.agrees for row in rows) else ExitCode.WEAKER_CLAIM
 
 
-@click.command(short_help="The equations in another program's syntax.")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @click.option(
     "--formulation",

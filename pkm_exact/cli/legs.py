@@ -14,7 +14,7 @@ from pkm_exact.cli.given_pose import given_pose, pose_of, pose_options
 from pkm_exact.cli.main import ExitCode
 
 
-@click.command(short_help="Leg lengths and joint values at a given pose.")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @pose_options(required=True)
 @click.option(

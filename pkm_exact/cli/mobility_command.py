@@ -27,7 +27,7 @@ def _names(_context: click.Context, _option: click.Parameter, value: str | None)
     return None if value is None else tuple(word.strip() for word in value.split(",") if word.strip())
 
 
-@click.command(short_help="Freedoms of a mechanism, exactly, and which actuators hold it.")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @click.option(
     "--at",

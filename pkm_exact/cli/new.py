@@ -32,7 +32,7 @@ _SIDES: Final = {False: ("400,200", "100,300"), True: ("600,500,500", "160,100,1
 _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table == "cranks")
 
 
-@click.command(short_help="Write a first model file, from a few answers.")
+@click.command()
 @click.option(
     "--kind",
     type=click.Choice([*KINDS, *MACHINES, *_ALIASES]),

@@ -59,7 +59,7 @@ def _size(context: click.Context, _option: click.Parameter, value: str | None) -
     return size
 
 
-@click.command(short_help="Pictures of the poses in a certificate.")
+@click.command()
 @click.argument("certificate", type=arguments.FilePath(), metavar="CERT.json")
 @click.option(
     "-o", "--output", type=arguments.FilePath(), required=True, metavar="FILE", help="A .png, .svg or .pdf file."

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from pkm_exact.regions.region_solver import LargestAnswer, RegionAnswer
 
 
-@click.command(short_help="Is all of a region of poses good? Or where is it?")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @click.argument("question", type=arguments.FilePath(), metavar="QUESTION.toml")
 @click.option(

@@ -13,7 +13,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.wording import printable
 
 
-@click.command(short_help="A web page of a certificate.")
+@click.command()
 @click.argument("certificate", type=arguments.FilePath(), metavar="CERT.json")
 @click.option(
     "-o", "--output", type=arguments.FilePath(), metavar="FILE.html", required=True, help="Write the page here."

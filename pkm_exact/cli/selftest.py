@@ -12,7 +12,7 @@ from pkm_exact.wording import counted, printable
 _COLUMN: Final = 24
 
 
-@click.command(short_help="Check that this installation works.")
+@click.command()
 def selftest() -> int:
     """Check that this installation works: solve two small robots, certify them, and refuse forged certificates.
 

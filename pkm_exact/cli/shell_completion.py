@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 SHELLS: Final = ("bash", "zsh", "fish")
 
 
-@click.command(short_help="Completion of commands and options in your shell.")
+@click.command()
 @click.argument("shell", type=click.Choice(SHELLS))
 def completion(shell: str) -> int:
     """Print the script that makes SHELL complete commands, options, files and configurations of a model.

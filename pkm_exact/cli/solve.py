@@ -15,7 +15,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
 
 
-@click.command(short_help="All real poses of a robot, and a certificate.")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @arguments.configuration_option
 @arguments.lengths_option
@@ -112,7 +112,6 @@ def solve(
         raise click.UsageError(f"{names[0]} and {names[1]} exclude each other.")
     require_fitting(click.get_current_context(), method)
     tolerance_report.require_fitting(click.get_current_context(), tolerance, method, layout)
-    from pkm_exact.cli.joint_words import joint_configuration
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.geometry.nominal_pose import nominal_from_numbers
     from pkm_exact.geometry.robot import jointed
@@ -124,6 +123,8 @@ def solve(
         what = "the model has no limits; add a table [limits]" if robot.limits is None else "it is for certified poses"
         raise InputError(f"{model}: --feasible: {what}, or leave the option out")
     if joints is not None:
+        from pkm_exact.cli.joint_words import joint_configuration
+
         robot, configuration = joint_configuration(robot, joints)
     chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     name = chosen.name if chosen else None

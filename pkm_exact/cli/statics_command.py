@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from pkm_exact.statics.at_pose import AtPose
 
 
-@click.command(short_help="Jacobians, wrenches and singularities at a pose.")
+@click.command()
 @click.argument("source", type=arguments.FilePath(), metavar="MODEL|CERT")
 @click.option("--pose", "number", type=click.IntRange(min=1), metavar="K", help="Pose number K of the solution.")
 @pose_options(required=False)

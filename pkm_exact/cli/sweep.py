@@ -29,7 +29,7 @@ MOST_WORKERS: Final = 1024
 _SECONDS_PER_LINE: Final = 0.2
 
 
-@click.command(short_help="All poses at each of many length vectors.")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @click.argument("lengths", type=arguments.FilePath(), metavar="LENGTHS.csv")
 @click.option(

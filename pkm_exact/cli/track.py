@@ -32,7 +32,7 @@ _SECONDS_PER_SYNC: Final = 2.0
 _SECONDS_PER_LINE: Final = 0.1
 
 
-@click.command(short_help="Follow one assembly mode along a joint path.")
+@click.command()
 @click.argument("model", type=arguments.FilePath())
 @click.argument("path", type=arguments.FilePath(), metavar="PATH.csv")
 @click.option(

@@ -6,15 +6,17 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from difflib import get_close_matches
 from fractions import Fraction
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.limits import Limits
-from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import printable, shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.nominal_pose import NominalPose
 
 CONSTRAINTS_KIND: Final = "constraints"
 """The kind of mechanisms that are declared by their constraints."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.form import Form, Vector, value_at
@@ -20,12 +20,14 @@ from pkm_exact.geometry.drives import Drive
 from pkm_exact.geometry.inverse import UNIT_METRIC, Matrix, Metric
 from pkm_exact.geometry.limits import Limits
 from pkm_exact.geometry.machine import CONSTRAINTS_KIND, Machine
-from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_rational
 from pkm_exact.motions.motion import Motion
 from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.wording import shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.nominal_pose import NominalPose
 
 MOST_CONSTRAINTS: Final = 64
 """Bounds what a model file asks of the solver and a certificate of its checkers."""

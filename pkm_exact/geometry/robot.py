@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Chain, Crank, JointValue, parse_cosine_and_sine
@@ -13,12 +14,14 @@ from pkm_exact.geometry.joints import in_plane, parse_joints, parse_metric, refu
 from pkm_exact.geometry.kinds import KINDS, Joints, gough_legs, knees
 from pkm_exact.geometry.limits import Limits
 from pkm_exact.geometry.machine import Machine
-from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_positive, parse_rational
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.nominal_pose import NominalPose
 
 
 def _squares(values: Sequence[object], where: str) -> tuple[Fraction, ...]:
