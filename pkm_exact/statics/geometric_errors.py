@@ -25,15 +25,17 @@ _AXES = "xyz"
 
 
 def geometric_jacobian(at: AtPose) -> EnclosedMatrix:
-    """J_g of a spatial machine whose constraints are legs and rods: 7 columns for each, in ordinary coordinates.
+    """J_g of a machine whose constraints are legs and rods, in ordinary coordinates.
+
+    7 columns for each of a spatial machine, 5 of a planar one: length, base joint, platform joint.
 
     Raises
     ------
     InputError
-        If the motion is not spatial, or the pose is or may be singular.
+        If the motion is neither spatial nor planar, a constraint exerts no force, or the pose is or may be singular.
     """
     names, columns = _columns(at)
-    rows = [[column[i] for column in columns] for i in range(6)]
+    rows = [[column[i] for column in columns] for i in range(len(at.twist))]
     return EnclosedMatrix.of(at.twist, names, rows)
 
 
@@ -43,35 +45,67 @@ def worst_displacement(at: AtPose, lengths: Fraction, joints: Fraction) -> Inter
     The norm of the greatest errors of its three coordinates, each attained by some errors.
     """
     _, columns = _columns(at)
+    size = _size(at)
     with working_precision(BITS):
         total = arb(0)
-        for i in range(3):
+        for i in range(size):
             part = arb(0)
             for k, column in enumerate(columns):
-                part += abs(column[i]) * ball_of(lengths if k % 7 == 0 else joints)
+                part += abs(column[i]) * ball_of(lengths if k % (2 * size + 1) == 0 else joints)
             total += part * part
         return interval_of(total.sqrt())
 
 
+def force_parts(at: AtPose) -> list[tuple[list[arb], list[arb]]]:
+    """Of every constraint the unit force n, in the base, and the same in coordinates of the platform, R^T n.
+
+    Raises
+    ------
+    InputError
+        As ``geometric_jacobian``.
+    """
+    size, found = _size(at), []
+    with working_precision(BITS):
+        rotation = ordinary_rotation(at)
+        for equation, row in zip(at.equations, at.ball_rows, strict=True):
+            force = list(row.wrench[:size])
+            if all(x.contains(0) for x in force):
+                raise InputError(f"accuracy: {equation.name} exerts no force; give a machine of legs and rods")
+            turned = [sum((rotation[i][k] * force[i] for i in range(size)), arb(0)) for k in range(size)]
+            found.append((force, turned))
+    return found
+
+
+def _size(at: AtPose) -> int:
+    """Coordinates of a joint."""
+    if at.motion.name not in ("spatial", "planar"):
+        raise InputError("accuracy: errors of all parameters are for spatial and planar motions; give such a machine")
+    return 2 if at.motion.is_planar else 3
+
+
 def _columns(at: AtPose) -> tuple[list[str], list[list[arb]]]:
-    if at.motion.name != "spatial":
-        raise InputError("accuracy: errors of all parameters are for spatial motions; give such a machine")
+    size = _size(at)
     compliance = compliance_of_wrenches(at)
     names: list[str] = []
     columns: list[list[arb]] = []
     with working_precision(BITS):
-        rotation = _rotation(at)
-        for leg, (equation, row) in enumerate(zip(at.equations, at.ball_rows, strict=True)):
-            force = row.wrench[:3]
-            turned = [sum((rotation[i][k] * force[i] for i in range(3)), arb(0)) for k in range(3)]
+        for leg, (equation, (force, turned)) in enumerate(zip(at.equations, force_parts(at), strict=True)):
             factors = [arb(1), *force, *(-x for x in turned)]
-            columns += [[compliance[i, leg] * factor for i in range(6)] for factor in factors]
+            columns += [[compliance[i, leg] * factor for i in range(len(at.twist))] for factor in factors]
             names.append(f"length({equation.name})")
-            names += [f"{side}.{axis}({equation.name})" for side in ("base", "platform") for axis in _AXES]
+            names += [f"{side}.{axis}({equation.name})" for side in ("base", "platform") for axis in _AXES[:size]]
     return names, columns
 
 
-def _rotation(at: AtPose) -> list[list[arb]]:
+def ordinary_position(at: AtPose) -> list[arb]:
+    """The platform's origin in ordinary coordinates."""
+    if not at.is_exact:
+        return [ball_of(entry.lo).union(ball_of(entry.hi)) for entry in at.position]
+    return [ball_of(RootSum.root(Fraction(g)) * entry) for g, entry in zip(at.metric, at.position, strict=True)]
+
+
+def ordinary_rotation(at: AtPose) -> list[list[arb]]:
+    """The rotation matrix in ordinary coordinates."""
     if not at.is_exact:
         return [[ball_of(entry.lo).union(ball_of(entry.hi)) for entry in row] for row in at.rotation]
     g = at.metric
