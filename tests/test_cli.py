@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import math
 import os
 import subprocess
 import sys
@@ -154,12 +155,31 @@ def test_json(quick: Solution, capsys: Capture) -> None:
 
 
 def test_csv(quick: Solution, capsys: Capture) -> None:
-    assert main(["solve", MODEL, "--format", "csv"]) == 0
+    assert main(["solve", MODEL, "--format", "csv_exact"]) == 0
     rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
     assert [row["pose"] for row in rows] == ["1", "2", "3", "4"]
     assert all(row["claim"] == "complete" for row in rows)
     assert [Fraction(row["r32_hi"]) for row in rows] == [pose.rotation[2][1].hi for pose in quick.poses]
     assert None not in rows[0]
+
+
+def test_csv_has_decimals_and_angles_in_degrees(quick: Solution, capsys: Capture) -> None:
+    assert main(["solve", MODEL, "--format", "csv"]) == 0
+    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    assert len(rows) == len(quick.poses)
+    for row, pose in zip(rows, quick.poses, strict=True):
+        assert [float(row[axis]) for axis in "xyz"] == pytest.approx([float(x) for x in pose.position], abs=1e-8)
+        if row["yaw"] and row["roll"]:
+            a, b, c = (math.radians(float(row[name])) for name in ("roll", "pitch", "yaw"))
+            matrix = [
+                [math.cos(c) * math.cos(b), math.cos(c) * math.sin(b) * math.sin(a) - math.sin(c) * math.cos(a)],
+                [math.sin(c) * math.cos(b), math.sin(c) * math.sin(b) * math.sin(a) + math.cos(c) * math.cos(a)],
+                [-math.sin(b), math.cos(b) * math.sin(a)],
+            ]
+            for found, wanted in zip(matrix, pose.rotation, strict=True):
+                assert found == pytest.approx([float(x) for x in wanted[:2]], abs=1e-7)
+    assert main(["solve", str(ROOT / "models" / "3-rpr-merlet-p.toml"), "--format", "csv"]) == 0
+    assert capsys.readouterr().out.splitlines()[0].startswith("pose,claim,multiplicity,x,y,degrees")
 
 
 def test_given_lengths_are_exact_and_have_no_name(quick: Solution, capsys: Capture) -> None:

@@ -27,7 +27,7 @@ def report(
     """Print an uncertified solution to stdout as ``table``, ``json`` or ``csv``."""
     if layout == "json":
         sys.stdout.write(json.dumps(as_object(robot, configuration, solution), indent=1) + "\n")
-    elif layout == "csv":
+    elif layout.startswith("csv"):
         csv.writer(sys.stdout, lineterminator="\n").writerows(as_rows(solution))
     else:
         _print_table(robot, configuration, solution, verbose=verbose)

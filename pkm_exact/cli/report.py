@@ -6,7 +6,7 @@ import csv
 import json
 import sys
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.cli.feasible_poses import ShownPoses
 from pkm_exact.cli.modes import assembly_modes
@@ -18,6 +18,7 @@ from pkm_exact.interactive.display import headline
 from pkm_exact.motions.motion import Motion
 from pkm_exact.poses.planar_coordinates import planar_coordinates
 from pkm_exact.poses.pose_spelling import ends, pose_entry
+from pkm_exact.poses.roll_pitch_yaw import roll_pitch_yaw
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
@@ -35,12 +36,12 @@ def report(
     verbose: bool,
     feasible_only: bool = False,
 ) -> None:
-    """Print a solution to stdout as ``table``, ``json`` or ``csv``; all of its poses, or those proved feasible."""
+    """Print a solution to stdout in one of the layouts; all of its poses, or those proved feasible."""
     shown = ShownPoses.of(robot, configuration, solution, feasible_only=feasible_only)
     if layout == "json":
         sys.stdout.write(json.dumps(as_object(robot, configuration, solution, shown), indent=1) + "\n")
-    elif layout == "csv":
-        csv.writer(sys.stdout, lineterminator="\n").writerows(as_rows(solution, shown))
+    elif layout in _ROWS:
+        csv.writer(sys.stdout, lineterminator="\n").writerows(_ROWS[layout](solution, shown))
     else:
         from pkm_exact.cli.table import print_table
 
@@ -135,3 +136,21 @@ def as_rows(solution: Solution, shown: ShownPoses) -> Iterator[list[str]]:
         measured = [field for index in indices for field in index.fields(pose)]
         first = [str(shown.numbers[place]), str(solution.claim), str(pose.multiplicity), *parameter]
         yield [*first, *bounds, *measured, *shown.fields(place)]
+
+
+def as_decimal_rows(solution: Solution, shown: ShownPoses) -> Iterator[list[str]]:
+    """The same in decimals, right to one unit of the last digit, with angles in degrees."""
+    planar = solution.problem.motion.is_planar
+    indices = shown_in(Output.CSV)
+    names = ["x", "y", "degrees"] if planar else ["x", "y", "z", "roll", "pitch", "yaw", "q0", "q1", "q2", "q3"]
+    further = [column for index in indices for column in index.columns]
+    yield ["pose", "claim", "multiplicity", *names, *further, *shown.columns]
+    for place, pose in enumerate(shown.poses):
+        angles = roll_pitch_yaw(pose)
+        values = [*pose.position[:2], angles[2]] if planar else [*pose.position, *angles, *pose.quaternion]
+        measured = [field for index in indices for field in index.fields(pose)]
+        first = [str(shown.numbers[place]), str(solution.claim), str(pose.multiplicity)]
+        yield [*first, *("" if value is None else str(value) for value in values), *measured, *shown.fields(place)]
+
+
+_ROWS: Final = {"csv": as_decimal_rows, "csv_exact": as_rows}

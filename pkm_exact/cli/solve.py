@@ -63,10 +63,10 @@ from pkm_exact.formulations.registry import formulation_codes
 @click.option(
     "--format",
     "layout",
-    type=click.Choice(["table", "json", "csv"]),
+    type=click.Choice(["table", "json", "csv", "csv_exact"]),
     default="table",
     show_default=True,
-    help="What to print: decimals, or exact bounds as json or csv.",
+    help="What to print: decimals as a table or as csv, or exact bounds as json or csv_exact.",
 )
 @click.option(
     "--near",

@@ -52,7 +52,7 @@ def require_fitting(context: click.Context, given: object, method: str, layout: 
         raise click.UsageError(
             "--tolerance: a pose of the method newton is uncertified; use exact or krawczyk.", context
         )
-    if layout == "csv":
+    if layout.startswith("csv"):
         raise click.UsageError("--tolerance: has no csv output; use table or json.", context)
 
 
