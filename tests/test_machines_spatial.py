@@ -207,7 +207,66 @@ def test_positions_of_inclined_slides() -> None:
     assert modes == [()] * 6
 
 
+@pytest.mark.parametrize(
+    ("slides", "complex_ones", "real_ones"),
+    [
+        ([".292805"] * 6, 28, 8),
+        ([".31", ".25", ".3", ".35", ".28", ".33"], 40, 12),
+    ],
+)
+def test_assembly_modes_on_inclined_slides(slides: list[str], complex_ones: int, real_ones: int) -> None:
+    """Guides inwards and radially: level at z = 0.7, and on unequal slides."""
+    from pkm_exact.geometry.hexagons import semi_regular_hexagon
+
+    radius = Fraction("0.605006887")
+    directions = [[str(-x), str(-y), str(radius)] for x, y, _ in semi_regular_hexagon(1, "0.09")]
+    values = [str((Fraction(s) / radius / Fraction(sqrt(2))).limit_denominator(10**5)) for s in slides]
+    text = HEXAM.replace("DIRECTIONS", str(directions))
+    solution = found(robot_from_toml(f'{text}[[configurations]]\nname = "home"\nslides = {values}\n'))
+    assert (solution.claim, solution.complex_solutions) == (Claim.COMPLETE, complex_ones)
+    assert len(solution.poses) == real_ones
+    if len(set(slides)) == 1:
+        assert any(place == pytest.approx((0, 0, 0.7), abs=2e-5) for place in places(solution))
+
+
+def test_the_shipped_hexapod_on_inclined_slides_has_the_hexagons_of_table_1() -> None:
+    """Guides in pairs: with rods upright six equal parallel legs join congruent hexagons, which move."""
+    from pkm_exact.geometry.hexagons import semi_regular_hexagon
+    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.screws.exact_matrix import rank
+
+    robot = model("inclined-slides")
+    assert isinstance(robot, Robot)
+    assert set(robot.base_joints) == set(semi_regular_hexagon(1, "0.09"))
+    assert set(robot.platform_joints) == set(semi_regular_hexagon("0.5", "0.09"))
+    solution = solved("inclined-slides")
+    assert (solution.claim, solution.complex_solutions, len(solution.poses)) == (Claim.COMPLETE, 40, 4)
+    upright = robot.problem(robot.configuration("upright rods"))
+    assert all(leg.base[:2] == leg.platform[:2] and leg.base[2] == Fraction(1, 6) for leg in upright.distances)
+    rows = [(0, 0, 1, y, -x, 0) for x, y, _ in (leg.platform for leg in upright.distances)]
+    assert rank(rows, 6) == 3
+    # The sliders are at z = sqrt(3)/6, the rods are 1/2: z = 1/2 + 1/(2 sqrt(3)) = 0.788675 is within the travel.
+    assert {leg.length_squared for leg in upright.distances} == {Fraction(1, 4)}
+    assert solve(upright).claim is Claim.POSITIVE_DIMENSIONAL_PROVED
+
+
 # Chapter 13: 3-PRRR
+
+
+def test_a_region_of_the_rotary_3_prrr_with_four_real_poses() -> None:
+    """Half tangents (1/2, 0, 3/2); each pose closes the three loops of the book."""
+    angles = [(0.6, 0.8), (1.0, 0.0), (-5 / 13, 12 / 13)]
+    solution = found(drawn("3-PRRR", half_tangents='["1/2", 0, "3/2"]'))
+    assert (solution.claim, solution.complex_solutions, len(solution.poses)) == (Claim.COMPLETE, 8, 4)
+    (c1, s1), (c2, s2), (c3, s3) = angles
+    for x, y, z in (middle(pose)[0] for pose in solution.poses):
+        loops = [
+            (y - 0.5 * c1 - 0.105, z - 0.5 * s1),
+            (z - 0.5 * c2, x - 0.5 * s2 - 0.105),
+            (x - 0.5 * c3, y - 0.9144 + 0.105 + 0.5 * s3),
+        ]
+        assert [a * a + b * b for a, b in loops] == pytest.approx([0.373**2] * 3, abs=1e-9)
+    assert len(places(solution)) == 4
 
 
 @pytest.mark.parametrize(
