@@ -124,3 +124,11 @@ for count, freedoms in ((5, 3), (6, 3)):
         total = sum(relative_manipulability(machine, failed).values(), Fraction(0))
         assert total == comb(count - freedoms, failed)
         print(count, "legs,", failed, "failed: sum", total)
+
+# %% [markdown]
+# ## Answer
+#
+# Of the first source 1.08 (the ellipse), 1.35 and 1.48 (the polytope) are right; 1.49 and 0.97 do not belong to its
+# data: the condition number is 1.482, the least speed sqrt(21)/5. What the second calls a zonotope is none. The sums
+# of chapter 3 that are printed as 2 and 3 are 1. The isotropic force of chapter 6 agrees at the centroid, where it has
+# a closed form.
