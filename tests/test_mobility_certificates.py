@@ -299,3 +299,11 @@ def test_a_mutation_survives_nowhere() -> None:
         content = _changed(SARRUS, lambda c, path=path, value=value: _set(c, *path, to=value))  # type: ignore[misc]
         content.pop("digest")
         assert outcome(SARRUS, Mutation(path, "changed", content)) in ("rejected", "malformed")
+
+
+def test_all_sets_are_all_among_the_freedoms_looked_at() -> None:
+    """A list without a set is complete among no freedoms, and the checkers say among how many."""
+    content = _made("3-upu", among=["P1"])
+    (status, lines), other = _answers(content)
+    assert (status, lines) == other
+    assert "platform sets: 0 minimal sets hold it, there is no other among 1 freedoms" in lines

@@ -20,7 +20,7 @@ from pkm_exact.certify.statics_build import statics_certificate, statics_certifi
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InputError
-from pkm_exact.motions.motion_groups import PLANAR
+from pkm_exact.motions.motion_groups import PLANAR, SPHERICAL
 from pkm_exact.statics.asking import machine_at
 
 Capture = pytest.CaptureFixture[str]
@@ -215,3 +215,53 @@ def test_the_command_writes_what_the_checkers_accept(tmp_path: Path, capsys: Cap
     assert "and no others" in capsys.readouterr().out
     with pytest.raises(InputError, match="exact poses of machines of legs"):
         statics_certificate(model("3-rrr"), measures)
+
+
+def _plain_machine(freedoms: list[int], joints: list[list[str]]) -> dict[str, Any]:
+    """A certificate without a claim: legs from these base joints to the origin, nothing turned."""
+    return {
+        "format": "pkm_exact statics certificate",
+        "version": 1,
+        "name": "made up",
+        "unit": "m",
+        "metric": ["1", "1", "1"],
+        "freedoms": freedoms,
+        "position": ["0", "0", "0"],
+        "rotation": [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]],
+        "legs": [{"base": joint, "platform": ["0", "0", "0"]} for joint in joints],
+        "speeds": ["1"] * len(joints),
+        "forces": [["-1", "1"]] * len(joints),
+        "length": None,
+        "velocity_polytope": None,
+        "wrench_polytope": None,
+        "ellipsoid": None,
+        "indices": None,
+    }
+
+
+def test_twists_without_bounds_are_no_polytope_without_facets() -> None:
+    """Of two parallel legs: the strip has sides, though no vertex."""
+    content = _plain_machine([0, 1], [["-1", "0", "0"], ["-2", "0", "0"]])
+    assert verdicts(content) == ("accepted", "accepted")
+    content["velocity_polytope"] = {"facets": [], "vertices": []}
+    assert verdicts(content) == ("rejected", "rejected")
+
+
+@pytest.mark.parametrize("vertices", [[], [[1, 1], [-1, 1]], [[1, -1], [-1, -1]]])
+def test_a_leg_that_exerts_nothing_has_no_end_at_a_vertex(vertices: list[list[int]]) -> None:
+    content = _plain_machine([0], [["-1", "0", "0"], ["0", "1", "0"]])
+    facets = [{"normal": ["1"], "offset": ["1", "0"]}, {"normal": ["-1"], "offset": ["1", "0"]}]
+    content["wrench_polytope"] = {"facets": facets, "vertices": vertices}
+    assert verdicts(content) == ("rejected", "rejected")
+
+
+def test_a_leg_through_the_center_of_turns_is_certified() -> None:
+    """It does not change its length: no bound of twists, no wrench, and no division by its reach."""
+    joints = [((3, 0, 0), (0, 1, 0)), ((0, 4, 0), (0, 0, 1)), ((0, 0, 5), (1, 0, 0)), ((2, 0, 0), (1, 0, 0))]
+    legs = [Distance(vector(*a), vector(*b), Fraction(1), f"leg {k}") for k, (a, b) in enumerate(joints, 1)]
+    machine = Mechanism("through", "m", "made up", tuple(legs), tuple(leg.name for leg in legs), SPHERICAL)
+    content = statics_certificate(machine, machine.at({"quaternion": [1, 0, 0, 0]}).measures(speeds=1, forces=1))
+    assert content["wrench_polytope"] is None
+    assert content["ellipsoid"]["weights"][3] == "0"
+    assert len(content["velocity_polytope"]["vertices"]) == 8
+    assert verdicts(content) == ("accepted", "accepted")

@@ -382,7 +382,7 @@ def check_sets(key: str, claimed: Sets, among: Sequence[int], speeds: Sequence[R
     known = set(claimed.sets)
     for places in candidates(rows, aims):
         pure.require(places in known or not is_minimal(places), f"{where}: not all minimal sets")
-    return f"{key} sets: {number} minimal sets hold it, there is no other"
+    return f"{key} sets: {number} minimal sets hold it, there is no other among {len(among)} freedoms"
 
 
 def extend(basis: list[tuple[int, Integers]], row: Integers) -> bool:

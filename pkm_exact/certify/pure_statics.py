@@ -264,7 +264,8 @@ def check_velocity(
     count, n = len(machine.rows), machine.freedoms
     choices = comb(count, n) << n
     pure.affordable(choices <= MAX_CANDIDATES, "velocity_polytope: too many choices of legs")
-    pure.spend(choices * count * count * 60_000 * machine.effort(speeds))
+    pure.spend((choices + 1) * count * count * 60_000 * machine.effort(speeds))
+    pure.require(rank([list(row) for row in machine.rows]) == n, "velocity_polytope: is not bounded")
     found: dict[frozenset[tuple[int, int]], tuple[Row, ...]] = {}
     for chosen in combinations(range(count), n):
         inverse = inverted([list(machine.rows[k]) for k in chosen])
@@ -375,6 +376,8 @@ def check_wrench(
             normals[normal] = [sum(a * b for a, b in zip(normal, row, strict=True)) for row in rows]
     pure.require(normals and any(any(values) for values in normals.values()), "wrench_polytope: has no interior")
     pure.require(rank([list(map(Fraction, row)) for row in rows]) == n, "wrench_polytope: has no interior")
+    idle = "wrench_polytope: a leg exerts nothing, so that its force has no end at a vertex"
+    pure.require(all(any(row) for row in rows), idle)
     wanted = {}
     for normal in normals:
         for side in (1, -1):

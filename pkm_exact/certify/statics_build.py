@@ -139,14 +139,14 @@ def _vertex(key: Sequence[tuple[int, int]], rows: list[list[Fraction]], speeds: 
 
 
 def _wrench(measures: Measures, low: Sequence[Fraction], high: Sequence[Fraction]) -> dict[str, Any] | None:
+    rows, facets = _rows(measures.freedom.at), []
     zonotope = wrench_zonotope(measures.freedom, low, high)
-    if zonotope is None:
-        return None
+    if zonotope is None or not all(map(any, rows)):
+        return None  # not exact, or a leg exerts nothing: its force is at no end of its range at a vertex
     try:
         planes = zonotope.hyperplanes
     except PkmExactError:
         return None  # no interior: nothing to be certified
-    rows, facets = _rows(measures.freedom.at), []
     for normal, _ in planes:
         for side in (1, -1):
             outer = [side * x for x in normal]
@@ -175,7 +175,8 @@ def _ellipsoid(measures: Measures, speeds: Sequence[Fraction]) -> dict[str, Any]
         return None
     inverse = dual.inv()
     reach = rational_matrix(rows) * inverse * rational_matrix(rows).transpose()
-    room = min(bound / as_fraction(reach[k, k]) for k, bound in enumerate(bounds))
+    # A leg that the platform's motions leave as long as it is bounds nothing.
+    room = min(bound / as_fraction(reach[k, k]) for k, bound in enumerate(bounds) if reach[k, k])
     exact = [[min(room, Fraction(1)) * _SHRINK * as_fraction(inverse[i, j]) for j in range(n)] for i in range(n)]
     matrix = [[_rounded(exact[i][j], exact[i][i] * exact[j][j]) for j in range(n)] for i in range(n)]
     table = rational_matrix(matrix)

@@ -206,7 +206,7 @@ def _check_sets(name: str, sets: Sets, among: Sequence[int], speeds: Rows, wante
         return f"{name} sets: {number} minimal sets hold it, there may be others"
     if set(_all_minimal(among, speeds, holds)) != set(sets.sets):
         raise rejected(f"{where}: not all minimal sets")
-    return f"{name} sets: {number} minimal sets hold it, there is no other"
+    return f"{name} sets: {number} minimal sets hold it, there is no other among {len(among)} freedoms"
 
 
 def _all_minimal(

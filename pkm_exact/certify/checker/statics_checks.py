@@ -102,6 +102,7 @@ class _Velocities:
 
     def check(self, claim: VelocityClaim) -> None:
         """Check 1."""
+        wanted = self._all
         listed: dict[Sides, tuple[Numbers, ...]] = {}
         for vertex in claim.vertices:
             sides = self._sides(vertex)
@@ -110,9 +111,9 @@ class _Velocities:
             listed[sides] = vertex
         if len(listed) != len(claim.vertices):
             raise rejected("velocity_polytope: a vertex is listed twice")
-        if set(listed) != set(self._all):
+        if set(listed) != set(wanted):
             raise rejected("velocity_polytope: not all vertices are listed, or others are")
-        for sides, point in self._all.items():
+        for sides, point in wanted.items():
             for mine, theirs in zip(point, listed[sides], strict=True):
                 if self._roots.sign([a - b for a, b in zip(mine, theirs, strict=True)]):
                     raise rejected("velocity_polytope: a vertex is not where its legs put it")
@@ -127,7 +128,9 @@ class _Velocities:
         choices = comb(self._count, self._n) << self._n
         if choices > MAX_CANDIDATES:
             raise too_large("velocity_polytope: too many choices of legs")
-        charge(choices * self._count**2 * 6000 * self._effort)
+        charge((choices + 1) * self._count**2 * 6000 * self._effort)
+        if _matrix(self._rows).rank() < self._n:
+            raise rejected("velocity_polytope: is not bounded")
         found: dict[Sides, tuple[Numbers, ...]] = {}
         for chosen in combinations(range(self._count), self._n):
             matrix = _matrix([self._rows[k] for k in chosen])
@@ -183,6 +186,8 @@ def _check_wrench(document: StaticsDocument, forces: Sequence[Numbers], claim: W
     rows = [_integral(row) for row in document.rows]
     if fmpz_mat([list(row) for row in rows]).rank() < n:
         raise rejected("wrench_polytope: has no interior")
+    if not all(map(any, rows)):
+        raise rejected("wrench_polytope: a leg exerts nothing, so that its force has no end at a vertex")
     normals = _normals(rows, n)
     wanted = _facets_wanted(document, forces, normals)
     if len({normal for normal, _ in claim.facets}) != len(claim.facets):
