@@ -11,7 +11,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from flint import fmpq
+from flint import Ordering, fmpq, fmpq_mpoly_ctx
 from hypothesis import given
 from hypothesis import strategies as st
 from samples import MODELS, model
@@ -21,7 +21,9 @@ from pkm_exact.cli.main import main
 from pkm_exact.geometry.inverse import rotation_of
 from pkm_exact.regions.bernstein import bernstein_coefficients, error_factor, on_sub_boxes, subdivision_matrices
 from pkm_exact.regions.chart import Chart
-from pkm_exact.regions.paving import leaves
+from pkm_exact.regions.compiled import compiled_formula
+from pkm_exact.regions.formula import Atom, Sign
+from pkm_exact.regions.paving import halving_axes, leaves
 from pkm_exact.regions.question_reader import of_size, question_from_toml
 from pkm_exact.regions.region_components import components
 from pkm_exact.regions.region_conditions import Conditions, asked_of
@@ -405,3 +407,35 @@ def test_the_command(tmp_path: Path, capsys: Capture) -> None:
     assert main(["region", path, str(question)]) in (0, 3)
     question.write_text("nothing")
     assert main(["region", path, str(question)]) == 2
+
+
+def test_parts_end_where_doubles_hold_their_ends() -> None:
+    """Ends of parts are k / 2^52 of the region at the finest, and integers of 64 bits count them."""
+    axes = halving_axes([ONE, Fraction(1, 4)], 120)
+    assert (axes.count(0), axes.count(1)) == (52, 51)
+    assert halving_axes([ONE], 120) == (0,) * 52
+
+
+@pytest.mark.parametrize(("kind", "count"), [("map", 4), ("all", 1)])
+def test_a_determinant_that_is_0_everywhere_is_answered(kind: str, count: int) -> None:
+    """On the line of two base joints the legs of this robot, not turned, meet in a point."""
+    machine = region_machine(model("3-rpr-merlet-p"))
+    answer = asked(
+        machine,
+        "position = [[-1, 1], 0]\ndegrees = 0",
+        "no_type_2 = true",
+        f'kind = "{kind}"\nsteps = {2 if kind == "map" else 1}',
+    )
+    assert not answer.is_proved
+    assert (answer.counterexample is None) is (kind == "map")
+    assert answer.word.count("i") == 0
+    assert kind == "all" or answer.word.count("u") == count
+
+
+def test_coefficients_that_doubles_do_not_reach_are_not_0() -> None:
+    """-10^-400 beside a root that is 0: nothing proves that it is not negative."""
+    ring = fmpq_mpoly_ctx.get(("x", "y0"), Ordering.lex)
+    y = ring.gens()[1]
+    atom = Atom("made up", y - fmpq(1, 10**400), Sign.NOT_NEGATIVE)
+    ready = compiled_formula(atom, [atom], [ring.constant(fmpq(-1))], [(ZERO, ONE)])
+    assert ready.truths([0], np.zeros((1, 1), dtype=np.int64)).tolist() != [1]

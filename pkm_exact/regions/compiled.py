@@ -24,6 +24,7 @@ MOST_COEFFICIENTS: Final = 1 << 20
 """Of one polynomial; more are refused."""
 _SLACK: Final = 1 + 2.0**-30
 """Room for the rounding of the bounds of errors themselves."""
+_LEAST: Final = 2.0**-900
 
 Truth = NDArray[np.int8]
 """1 where it holds all over a box, -1 where it holds nowhere in it, 0 otherwise."""
@@ -63,7 +64,7 @@ def compiled(polynomial: Polynomial, box: Sequence[Pair], scales: Sequence[int])
         y_i is taken in units of 2^scale.
     """
     count = len(box)
-    degrees = [int(d) for d in polynomial.degrees()] or [0] * (count + len(scales))
+    degrees = _degrees(polynomial)
     inner = degrees[:count]
     roots = tuple(k for k, d in enumerate(degrees[count:]) if d)
     size = int(np.prod([d + 1 for d in inner])) << len(roots)
@@ -84,13 +85,22 @@ def compiled(polynomial: Polynomial, box: Sequence[Pair], scales: Sequence[int])
     for combination, values in exact.items():
         tensor[combination] = np.array([float(value * power) for value in values]).reshape(shape[len(roots) :])
     flat = np.abs(tensor).reshape(*shape[: len(roots)], -1).max(axis=-1) if tensor.size else np.zeros(())
-    return Compiled(roots, tuple(inner), tensor, flat * _SLACK)
+    # What is too small for a double became 0: a bound of its size must not.
+    least = np.zeros(shape[: len(roots)])
+    for combination, values in exact.items():
+        least[combination] = _LEAST if any(values) else 0.0
+    return Compiled(roots, tuple(inner), tensor, np.maximum(flat, least) * _SLACK)
+
+
+def _degrees(polynomial: Polynomial) -> list[int]:
+    """In all variables; FLINT gives -1 for the polynomial that is 0."""
+    return [max(0, int(d)) for d in polynomial.degrees()]
 
 
 def root_scale(polynomial: Polynomial, box: Sequence[Pair], count: int) -> int:
     """A unit for the root of a polynomial on a box: 2^scale, near the root of its greatest coefficient."""
     terms = {tuple(map(int, key))[:count]: value for key, value in polynomial.to_dict().items()}
-    degrees = [int(d) for d in polynomial.degrees()][:count]
+    degrees = _degrees(polynomial)[:count]
     values = bernstein_coefficients(terms, degrees, box)
     return _exponent(max(map(abs, values), default=Fraction(0))) // 2
 
@@ -180,7 +190,7 @@ def compiled_formula(
 
 def _largest(polynomial: Polynomial, box: Sequence[Pair], count: int) -> Fraction:
     terms = {tuple(map(int, key))[:count]: value for key, value in polynomial.to_dict().items()}
-    degrees = [int(d) for d in polynomial.degrees()][:count]
+    degrees = _degrees(polynomial)[:count]
     return max(map(abs, bernstein_coefficients(terms, degrees, box)), default=Fraction(0))
 
 

@@ -28,6 +28,8 @@ INSIDE: Final = "i"
 OUTSIDE: Final = "o"
 UNDECIDED: Final = "u"
 _LETTERS: Final = np.array([UNDECIDED, INSIDE, OUTSIDE])
+MOST_HALVINGS: Final = 52
+"""Of one variable."""
 _NUMBERS_AT_ONCE: Final = 1 << 22
 """Coefficients of a batch: what is in memory at a time."""
 
@@ -52,6 +54,8 @@ class Part:
 def halving_axes(weights: Sequence[Fraction], steps: int) -> tuple[int, ...]:
     """Along which variable each halving is: the one that is longest, the first of equal ones.
 
+    They end before a variable would be halved more than 52 times: ends of parts are numbers that doubles hold exactly.
+
     Parameters
     ----------
     weights : sequence of Fraction
@@ -63,9 +67,11 @@ def halving_axes(weights: Sequence[Fraction], steps: int) -> tuple[int, ...]:
     >>> halving_axes([Fraction(16), Fraction(1)], 5)
     (0, 0, 0, 1, 0)
     """
-    lengths, found = list(weights), []
+    lengths, found = list(weights), list[int]()
     for _ in range(steps):
         axis = max(range(len(lengths)), key=lambda k: (lengths[k], -k))
+        if found.count(axis) == MOST_HALVINGS:
+            break
         lengths[axis] /= 4
         found.append(axis)
     return tuple(found)

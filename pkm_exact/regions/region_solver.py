@@ -189,7 +189,7 @@ def pave_part(ready: PreparedQuestion, part: Part) -> Paved:
     answer = ready.question.answer
     share = max(16, answer.boxes >> min(HEAD_STEPS, part.depth))
     stop = answer.kind != "map"
-    return pave(ready.compiled, ready.axes, part, answer.steps, most=share, stop_outside=stop)
+    return pave(ready.compiled, ready.axes, part, len(ready.axes), most=share, stop_outside=stop)
 
 
 def answered(
@@ -222,12 +222,12 @@ def answered(
     search = CounterexampleSearch(PointJudge(ready.asked, ready.region))
     is_map = question.answer.kind == "map"
     start = Part(0, (0,) * len(ready.box))
-    last = min(HEAD_STEPS, question.answer.steps)
+    last = min(HEAD_STEPS, len(ready.axes))
     head = pave(ready.compiled, ready.axes, start, last, most=question.answer.boxes, stop_outside=not is_map)
     if not is_map:
         _look(search, ready, head.word, start)
     result = RegionAnswer(question, machine, ready.axes, head.word, search.found)
-    if search.found is not None or not head.open_parts or last == question.answer.steps:
+    if search.found is not None or not head.open_parts or last == len(ready.axes):
         return result
     parts = [part for letter, part in leaves(head.word, ready.axes, len(ready.box)) if letter == UNDECIDED]
     words = [record["word"] for record in store.records] if store is not None else []
