@@ -53,6 +53,13 @@ if TYPE_CHECKING:
     help="Write a certificate of polytopes, ellipsoid and singular values, at an exact pose of legs.",
 )
 @click.option(
+    "--plot",
+    "picture",
+    type=arguments.FilePath(),
+    metavar="FILE",
+    help="Draw the polytopes of --limits speeds and forces, the ellipsoid in the first: a .png, .svg or .pdf file.",
+)
+@click.option(
     "--format",
     "layout",
     type=click.Choice(["table", "json"]),
@@ -74,6 +81,7 @@ def statics(
     limits: tuple[str, ...],
     stiffness: str | None,
     output: str | None,
+    picture: str | None,
     layout: str,
     **turns: str | None,
 ) -> int:
@@ -87,8 +95,11 @@ def statics(
       certify-poses statics models/rolland-6-6.toml --position 0,0,650 --quaternion 9,1,0,-1
       certify-poses statics models/linapod-n.toml --position 0,0,0 --quaternion 1,0,0,0 --modes ++++++
       certify-poses statics models/3-rpr-merlet-p.toml --pose 1 --limits speeds=0.2 --limits length=3 --load 0,-10
+      certify-poses statics models/3-rpr-merlet-p.toml --pose 1 --limits speeds=0.2 --limits length=3 --plot pose.svg
       certify-poses statics certs/3-rps.json --pose 2 --format json
     """
+    if picture is not None:
+        _require_picture(picture, source, model, output)
     given = _given(number, position, in_metric=in_metric, nearest=nearest, **turns)
     if _is_certificate(source):
         for name, value in (("--position", position), ("--configuration", configuration), ("--modes", modes)):
@@ -105,8 +116,11 @@ def statics(
     from pkm_exact.cli.statics_answers import answers
 
     extra = answers(found, load, load_at, limits, stiffness)
+    drawn = None if picture is None else _drawn(picture, extra)
     if output is not None:
         _write(output, source, extra)
+    if picture is not None and drawn is not None:
+        arguments.write_output(picture, drawn)
     if layout == "json":
         sys.stdout.write(json.dumps(statics_report.as_object(found, used, extra), indent=1) + "\n")
     else:
@@ -123,6 +137,37 @@ def _given(number: int | None, position: str | None, **options: Any) -> GivenPos
     if any(value for key, value in options.items() if key not in ("in_metric", "nearest")):
         raise click.UsageError("--position: is missing, give the platform's origin as well.")
     return None
+
+
+def _require_picture(picture: str, source: str, model: str | None, output: str | None) -> None:
+    """Refuse a file that cannot be drawn to, before any work begins."""
+    from pkm_exact.pictures.output import picture_format
+    from pkm_exact.pictures.style import require_matplotlib
+
+    path = Path(picture)
+    picture_format(path)
+    for file, what in ((source, "the model or certificate"), (model, "the model file"), (output, "the certificate")):
+        if file is not None:
+            arguments.require_other_file(path, file, "--plot", what)
+    arguments.require_writable(path, "--plot")
+    require_matplotlib()
+
+
+def _drawn(picture: str, extra: StaticsAnswers) -> bytes:
+    """The content of the picture."""
+    from pkm_exact.pictures.output import figure_bytes, picture_format
+    from pkm_exact.pictures.statics_picture import statics_figure
+
+    limits = None if extra.measures is None else extra.measures.limits
+    if extra.measures is None or limits is None or (limits.speeds is None and limits.forces is None):
+        raise InputError(
+            "--plot: there is nothing to draw; give --limits speeds=.., forces=.. or both, and a pose with J"
+        )
+    try:
+        figure = statics_figure(extra.measures, extra.ellipsoid)
+    except InputError as error:
+        raise InputError(f"--plot: {error}") from None
+    return figure_bytes(figure, picture_format(Path(picture)))
 
 
 def _write(output: str, source: str, extra: StaticsAnswers) -> None:

@@ -35,37 +35,51 @@ def polytope_figure(
     PkmExactError
         If matplotlib is not installed.
     """
-    if polytope.dimension not in (2, 3):
-        raise InputError(f"picture: {polytope.dimension} dimensions cannot be drawn; take a section with 2 or 3")
+    _require_drawable(polytope)
     try:
         from matplotlib.figure import Figure
     except ImportError:
         raise PkmExactError("picture: matplotlib is not installed; pip install 'pkm_exact[plots]'") from None
+    figure = Figure(figsize=(5, 5), layout="constrained")
+    draw_polytope(figure, (1, 1, 1), polytope, names, None if ellipsoid is None else ellipsoid.matrix.to_numpy())
+    return figure
+
+
+def _require_drawable(polytope: Polytope) -> None:
+    if polytope.dimension not in (2, 3):
+        raise InputError(f"picture: {polytope.dimension} dimensions cannot be drawn; take a section with 2 or 3")
+
+
+def draw_polytope(
+    figure: Figure, place: tuple[int, int, int], polytope: Polytope, names: tuple[str, ...], ellipsoid: Any = None
+) -> Any:
+    """Draw a polytope at a place of a figure, and in it the ellipsoid x^T S^-1 x <= 1 of a matrix S; the axes."""
+    _require_drawable(polytope)
     scale = np.sqrt([float(square) for square in polytope.squares])
     points = np.array(
         [[float(value.mid() if hasattr(value, "mid") else value) for value in v] for v in polytope.vertices]
     )
     points = points * scale
-    figure = Figure(figsize=(5, 5), layout="constrained")
     if polytope.dimension == 2:
-        axes: Any = figure.add_subplot()
+        axes: Any = figure.add_subplot(*place)
         order = np.argsort(np.arctan2(*(points - points.mean(axis=0)).T[::-1]))
         axes.fill(*points[order].T, facecolor="tab:blue", alpha=0.3, edgecolor="tab:blue")
         axes.set_aspect("equal")
     else:
         from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-        axes = figure.add_subplot(projection="3d")
+        axes = figure.add_subplot(*place, projection="3d")
         faces = [_ordered(points[list(facet.vertices)]) for facet in polytope.facets]
         axes.add_collection3d(Poly3DCollection(faces, alpha=0.3, edgecolor="tab:blue", facecolor="tab:blue"))
+        axes.set_box_aspect(None, zoom=0.85)  # or the label of z is cut off
         axes.set_zlabel(names[2])
         for set_limits, values in zip((axes.set_xlim, axes.set_ylim, axes.set_zlim), points.T, strict=True):
             set_limits(values.min(), values.max())
     if ellipsoid is not None:
-        _draw_ellipsoid(axes, np.linalg.cholesky(ellipsoid.matrix.to_numpy()))
+        _draw_ellipsoid(axes, np.linalg.cholesky(ellipsoid))
     axes.set_xlabel(names[0])
     axes.set_ylabel(names[1])
-    return figure
+    return axes
 
 
 def _ordered(points: Any) -> Any:

@@ -47,6 +47,15 @@ def velocity_polytope(freedom: Freedom, speeds: Sequence[Fraction]) -> Polytope:
         return velocity_slabs(freedom, speeds).polytope()
 
 
+def velocity_section(freedom: Freedom, speeds: Sequence[Fraction], kept: Sequence[int]) -> Polytope:
+    """The twists whose components at other places than the kept ones are 0, by vertices and facets."""
+    with working_precision(BITS):
+        whole = velocity_slabs(freedom, speeds)
+        rows = tuple(tuple(row[j] for j in kept) for row in whole.rows)
+        squares = tuple(whole.squares[j] for j in kept) if whole.squares else ()
+        return Slabs(rows, whole.low, whole.high, squares).polytope()
+
+
 def wrench_zonotope(freedom: Freedom, low: Sequence[Fraction], high: Sequence[Fraction]) -> Zonotope | None:
     """The wrenches that the actuators can exert, exactly; None if they are not exact."""
     _require_free(freedom)
@@ -66,6 +75,20 @@ def wrench_polytope(freedom: Freedom, low: Sequence[Fraction], high: Sequence[Fr
         jacobian = freedom.ball_jacobian
         rows = [[jacobian[i, j] for j in range(jacobian.ncols())] for i in range(jacobian.nrows())]
         return _ball_zonotope(rows, low, high)
+
+
+def wrench_section(
+    freedom: Freedom, low: Sequence[Fraction], high: Sequence[Fraction], kept: Sequence[int]
+) -> Polytope:
+    """The wrenches whose components at other places than the kept ones are 0, by vertices and facets."""
+    with working_precision(BITS):
+        found = wrench_zonotope(freedom, low, high)
+        if found is not None:
+            return found.section({j: Fraction(0) for j in range(found.dimension) if j not in kept}).polytope()
+        facets = wrench_polytope(freedom, low, high).facets
+        pairs = list(zip(facets[::2], facets[1::2], strict=True))  # of opposite normals, as _ball_zonotope has them
+        rows = tuple(tuple(up.normal[j] for j in kept) for up, _ in pairs)
+        return Slabs(rows, tuple(-down.offset for _, down in pairs), tuple(up.offset for up, _ in pairs)).polytope()
 
 
 def _require_free(freedom: Freedom) -> None:
