@@ -95,3 +95,12 @@ def test_a_command_that_does_not_end_is_ended(tmp_path: Path, monkeypatch: pytes
     done = run([sys.executable, "-c", words], 60, tmp_path)
     assert done.code == 7
     assert 100 << 20 <= done.memory < 200 << 20
+
+
+@pytest.mark.slow
+def test_following_is_measured(tmp_path: Path) -> None:
+    done = _run("bench_following.py", "--runs", "1", "--json", str(tmp_path / "times.json"))
+    assert done.returncode in (0, 1), done.stderr
+    rows = json.loads((tmp_path / "times.json").read_text())
+    assert [row["robot"] for row in rows][:2] == ["rolland-6-6", "hexa"]
+    assert all(row["wrong"] == 0 and row["Python"] > 0 for row in rows)
