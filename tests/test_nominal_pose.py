@@ -142,3 +142,22 @@ def test_two_lengths_that_were_exchanged_are_named() -> None:
         assert notes[0].startswith("no pose: ")
     wrong = unreachable_notes(robot.problem_at([Fraction(50), Fraction(5), Fraction(7)]), "mm")
     assert wrong[0].startswith("no pose: leg 1 is 50 mm long")
+
+
+def test_a_path_begins_at_the_nominal_pose(tmp_path: Path, capsys: Capture) -> None:
+    path, model_path, out = tmp_path / "path.csv", tmp_path / "meant.toml", tmp_path / "out.json"
+    path.write_text("l1,l2,l3\n7.1,5.1,5\n7.12,5.1,5\n")
+    model_path.write_text(Path(PLANAR).read_text() + "\n[nominal]\nposition = [5, 4]\ndegrees = 5\n")
+    assert main(["track", str(model_path), str(path), "--start", "near", "-o", str(out)]) == 0
+    near = out.read_bytes()
+    out.unlink()
+    assert main(["track", str(model_path), str(path), "--start", "2", "-o", str(out)]) == 0
+    assert out.read_bytes() == near
+    capsys.readouterr()
+    for words, part in (
+        (["near"], "the model has no nominal pose"),
+        (["x"], "--start: 'x' is no pose"),
+        (["0"], "is no pose"),
+    ):
+        assert main(["track", PLANAR, str(path), "--start", *words, "-o", str(tmp_path / "other.json")]) == 2
+        assert part in capsys.readouterr().err

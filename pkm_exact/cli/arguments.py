@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 LONGEST_TIME: Final = 10**8
 MOST_LENGTHS: Final = 64
+NEAR: Final = 0
+"""Instead of the number of a pose: that of the nearest to the nominal pose."""
 JointWord: TypeAlias = tuple[Fraction, bool]
 """A joint value, and whether it is an angle in degrees."""
 
@@ -57,6 +59,17 @@ def lengths(context: click.Context, _option: click.Parameter, value: str | None)
 def near(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[Fraction, ...] | None:
     """The numbers that --near denotes; the robot says how many there must be."""
     return None if value is None else _any_numbers(context, value, "--near")
+
+
+def start_pose(context: click.Context, _option: click.Parameter, value: str | None) -> int | None:
+    """The number of a pose that --start denotes, or ``NEAR``; None if it is not given."""
+    if value is None:
+        return None
+    if value == "near":
+        return NEAR
+    if not value.isascii() or not value.isdigit() or not int(value[:9]) > 0 or len(value) > 9:
+        raise click.UsageError(f"--start: {shown(value)} is no pose; give its number, from 1, or near.", context)
+    return int(value)
 
 
 def joints(context: click.Context, _option: click.Parameter, value: str | None) -> tuple[JointWord, ...] | None:

@@ -38,9 +38,10 @@ _SECONDS_PER_LINE: Final = 0.1
 @click.option(
     "--start",
     "number",
-    type=click.IntRange(min=1),
+    callback=arguments.start_pose,
     metavar="POSE",
-    help="The pose to follow: its number in the list that `solve` prints for the path's first row. Not for poses.",
+    help="The pose to follow: its number in the list that `solve` prints for the path's first row, or near: the one "
+    "nearest to the model's nominal pose. Not for poses.",
 )
 @click.option(
     "--working-modes",
@@ -82,7 +83,6 @@ def track(
     if target.suffix.lower() not in _SUFFIXES:
         raise click.UsageError(f"-o: {printable(output)} ends neither in .csv nor in .json; give it one of these.")
     from pkm_exact.cli.model_reading import announced_model
-    from pkm_exact.geometry.path_reader import read_path
     from pkm_exact.geometry.pose_path_reader import read_pose_path
 
     robot = announced_model(model)
@@ -96,15 +96,25 @@ def track(
         from pkm_exact.cli.pose_track import follow_poses
 
         return follow_poses(robot, poses, target, modes, verbose=verbose)
-    joints = read_path(path, robot)
     if number is None or modes is not None:
         what = "--working-modes: is for a path of poses" if modes is not None else "--start: is missing"
         raise click.UsageError(f"{what}; a path of joint values needs --start and nothing else.")
+    return _track_joints(robot, (model, path), number, width, target, verbose=verbose)
 
+
+def _track_joints(
+    robot: Robot | Mechanism, files: tuple[str, str], number: int, width: Fraction, target: Path, *, verbose: bool
+) -> int:
+    """Follow a pose along a path of joint values, and write the samples; files are those of model and path."""
     from pkm_exact.cli.track_report import start_line, written
     from pkm_exact.cli.track_store import TrackStore
+    from pkm_exact.geometry.path_reader import read_path
     from pkm_exact.interactive.progress import Progress
 
+    model, path = files
+    joints = read_path(path, robot)
+    if number == arguments.NEAR:
+        number = _nearest(robot, model, joints, width, verbose=verbose)
     with TrackStore(target, _job(robot, joints, number, width)) as store, Progress(verbose=verbose) as progress:
         try:
             stopped = _follow(robot, joints, number, width, store, progress)
@@ -118,7 +128,7 @@ def track(
         try:
             written(target, robot, joints, number, store.records, stopped)
         except OSError as error:
-            raise InputError(f"{output}: cannot be written ({error.strerror}); give another path to -o") from None
+            raise InputError(f"{target}: cannot be written ({error.strerror}); give another path to -o") from None
         store.remove()
     click.echo(start_line(number, proved=store.records[0]["start_proved"]))
     steps = sum(record["steps"] for record in store.records)
@@ -130,6 +140,26 @@ def track(
         return ExitCode.DONE
     click.echo(stopped["reason"])
     return ExitCode.WEAKER_CLAIM
+
+
+def _nearest(robot: Robot | Mechanism, model: str, joints: JointPath, width: Fraction, *, verbose: bool) -> int:
+    """The number of the pose at the first row that is nearest to the nominal one."""
+    from pkm_exact.interactive.progress import Progress
+    from pkm_exact.poses.nearest_pose import nearest_pose
+
+    if robot.nominal is None:
+        raise InputError(
+            f"{model}: --start near: the model has no nominal pose; add a table [nominal] or give a number"
+        )
+    with Progress(verbose=verbose) as progress:
+        found = nearest_pose(_solution(robot, joints, width, progress).poses, robot.nominal)
+    if found is None:
+        raise InputError(f"{model}: --start near: the first row has no pose; give other joint values")
+    if len(found.numbers) > 1:
+        raise InputError(
+            f"{model}: --start near: poses {', '.join(map(str, found.numbers))} are equally near; give one of these"
+        )
+    return found.numbers[0]
 
 
 def _job(robot: Robot | Mechanism, joints: JointPath, number: int, width: Fraction) -> str:
