@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from time import perf_counter
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,47 @@ class Relay:
     def amount(self, amount: Amount) -> None:
         """Send how much is done."""
         self.send(amount)
+
+
+@dataclass
+class Relayed:
+    """The other end of a relay: tells a progress here what a progress in another process was told.
+
+    Attributes
+    ----------
+    progress : Progress or None
+    stage : str
+        The last one that was announced.
+
+    Examples
+    --------
+    >>> relayed = Relayed(print)
+    >>> relayed.outcome(["boxes", Amount(1, 2, "boxes"), {"poses": 4}]), relayed.stage
+    boxes
+    ({'poses': 4}, 'boxes')
+    """
+
+    progress: Progress | None
+    stage: str = "start"
+
+    def outcome(self, messages: Iterable[object]) -> Any:
+        """The first message that is neither the name of a stage nor an amount; it is raised if it is an exception."""
+        for message in messages:
+            if isinstance(message, BaseException):
+                raise message
+            if isinstance(message, Amount):
+                tell(self.progress, message)
+            elif isinstance(message, str):
+                self.stage = message
+                if self.progress is not None:
+                    self.progress(message)
+            else:
+                return message
+        raise EOFError
+
+    def ended(self, code: object) -> str:
+        """What is said of a process that ended without an outcome."""
+        return f"the process of the engine ended with code {code} at the stage: {self.stage}"
 
 
 @dataclass(frozen=True)

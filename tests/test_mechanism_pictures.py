@@ -20,8 +20,9 @@ from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.in_plane import InPlane
 from pkm_exact.constraints.on_line import OnLine
 from pkm_exact.geometry.mechanism import Mechanism
+from pkm_exact.pictures.drawn_robot import Scene
 from pkm_exact.pictures.mechanism_scene import shape_of
-from pkm_exact.pictures.scene import Scene, scene_of
+from pkm_exact.pictures.scene import scene_of
 from pkm_exact.pictures.shapes import Point
 
 MODEL = str(Path(__file__).parent / "cases" / "3-rps.toml")

@@ -33,10 +33,11 @@ from pkm_exact.numeric.tolerance import tolerance_boxes
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.pictures.camera import View, Window, camera, window
 from pkm_exact.pictures.captions import round_length, rounded
+from pkm_exact.pictures.drawn_robot import PoseView, Scene
 from pkm_exact.pictures.output import figure_bytes
 from pkm_exact.pictures.panels import HEADER, TITLE, grid
 from pkm_exact.pictures.roots import Stretch, roots_figure, spread
-from pkm_exact.pictures.scene import PoseView, Scene, scene_of
+from pkm_exact.pictures.scene import scene_of
 from pkm_exact.pictures.style import LEG_COLOURS, drawable
 from pkm_exact.pictures.views import overlay_figure, pose_figure, poses_figure
 

@@ -22,8 +22,9 @@ from pkm_exact.errors import InputError
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.numeric_engine import solve_krawczyk
+from pkm_exact.pictures.drawn_robot import Scene
 from pkm_exact.pictures.hull import faces
-from pkm_exact.pictures.scene import RejectedError, Scene, accepted_document, scene_of, scene_of_solution
+from pkm_exact.pictures.scene import RejectedError, accepted_document, scene_of, scene_of_solution
 
 ROOT = Path(__file__).parent.parent
 QUICK = ("3-prr", "3-rpr-double-q", "3-rpr-merlet-p", "3-rpr-triple", "3-rrr", "6-6p", "dietmaier", "hexa", "linapod-n")

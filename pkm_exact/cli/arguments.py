@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
@@ -229,6 +230,16 @@ class FilePath(click.Path):
         return super().convert(value, parameter, context)
 
 
+def layout_option(meaning: str, choices: tuple[str, ...] = ("table", "json")) -> Callable[[Any], Any]:
+    """The option --format of a command, with what it says of it; the first choice is taken if it is not given."""
+    return click.option(
+        "--format", "layout", type=click.Choice(choices), default=choices[0], show_default=True, help=meaning
+    )
+
+
+certificate_option = click.option(
+    "-o", "--output", type=FilePath(), metavar="CERT.json", help="Write the certificate to this file."
+)
 configuration_option = click.option(
     "--configuration",
     metavar="NAME",

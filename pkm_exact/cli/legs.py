@@ -25,14 +25,7 @@ from pkm_exact.cli.main import ExitCode
     show_default=True,
     help="Greatest width of a bound on an irrational number, exact: 1e-9 or 1/1000.",
 )
-@click.option(
-    "--format",
-    "layout",
-    type=click.Choice(["table", "json"]),
-    default="table",
-    show_default=True,
-    help="What to print: decimals, or exact values and bounds as json.",
-)
+@arguments.layout_option("What to print: decimals, or exact values and bounds as json.")
 def legs(
     model: str,
     position: str,

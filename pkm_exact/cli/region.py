@@ -24,17 +24,8 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("model", type=arguments.FilePath())
 @click.argument("question", type=arguments.FilePath(), metavar="QUESTION.toml")
-@click.option(
-    "-o", "--output", type=arguments.FilePath(), metavar="CERT.json", help="Write the certificate to this file."
-)
-@click.option(
-    "--format",
-    "layout",
-    type=click.Choice(["table", "json"]),
-    default="table",
-    show_default=True,
-    help="What to print: a few lines, or exact bounds as json.",
-)
+@arguments.certificate_option
+@arguments.layout_option("What to print: a few lines, or exact bounds as json.")
 @click.option(
     "--workers", type=click.IntRange(1, 256), default=1, show_default=True, help="Processes; the answer is the same."
 )

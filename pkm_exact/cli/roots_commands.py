@@ -83,17 +83,8 @@ def certify_roots() -> None:
     metavar="MB",
     help="Megabytes of memory that it may use, exit code 4 beyond.  [default: no limit]",
 )
-@click.option(
-    "-o", "--output", type=arguments.FilePath(), metavar="CERT.json", help="Write the certificate to this file."
-)
-@click.option(
-    "--format",
-    "layout",
-    type=click.Choice(["table", "json"]),
-    default="table",
-    show_default=True,
-    help="What to print: decimals, or exact bounds as json.",
-)
+@arguments.certificate_option
+@arguments.layout_option("What to print: decimals, or exact bounds as json.")
 @click.option("-v", "--verbose", is_flag=True, help="Say more: sizes, times of the stages, stages on a terminal.")
 def solve(
     file: str,

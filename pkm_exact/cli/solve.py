@@ -57,16 +57,10 @@ from pkm_exact.formulations.registry import formulation_codes
     metavar="[T]",
     help="Boxes for all robots whose joints and lengths are off by at most T; without T, by the model's tolerances.",
 )
-@click.option(
-    "-o", "--output", type=arguments.FilePath(), metavar="CERT.json", help="Write the certificate to this file."
-)
-@click.option(
-    "--format",
-    "layout",
-    type=click.Choice(["table", "json", "csv", "csv_exact"]),
-    default="table",
-    show_default=True,
-    help="What to print: decimals as a table or as csv, or exact bounds as json or csv_exact.",
+@arguments.certificate_option
+@arguments.layout_option(
+    "What to print: decimals as a table or as csv, or exact bounds as json or csv_exact.",
+    ("table", "json", "csv", "csv_exact"),
 )
 @click.option(
     "--near",

@@ -59,14 +59,7 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Draw the polytopes of --limits speeds and forces, the ellipsoid in the first: a .png, .svg or .pdf file.",
 )
-@click.option(
-    "--format",
-    "layout",
-    type=click.Choice(["table", "json"]),
-    default="table",
-    show_default=True,
-    help="What to print: decimals, or exact bounds as json.",
-)
+@arguments.layout_option("What to print: decimals, or exact bounds as json.")
 def statics(
     source: str,
     number: int | None,

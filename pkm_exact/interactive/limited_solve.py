@@ -11,7 +11,7 @@ from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring
 from pkm_exact.errors import InternalError, PkmExactError, UnexpectedError
 from pkm_exact.interactive.system_answers import SystemSolution, solve_system
 from pkm_exact.processes import end_with_parent, messages, process_apart
-from pkm_exact.stages import Amount, Progress, Relay, tell
+from pkm_exact.stages import Progress, Relay, Relayed
 
 _Terms = list[dict[tuple[int, ...], int]]
 
@@ -33,33 +33,21 @@ def solve_within_limits(
         What the engine raises; or that a limit was reached, or its process ended without an answer.
     """
     terms = [{tuple(map(int, key)): int(value) for key, value in f.to_dict().items()} for f in system.polynomials]
-    stage = "start"
     with process_apart(_work, system.unknowns, terms, megabytes, width, oracle) as (receiver, process):
+        relayed = Relayed(progress)
         try:
-            for message in messages(receiver, seconds):
-                if isinstance(message, dict):
-                    return SystemSolution(system=system, **message)
-                if isinstance(message, MemoryError):
-                    raise _out_of_memory(megabytes, stage)
-                if isinstance(message, BaseException):
-                    raise message
-                if isinstance(message, Amount):
-                    tell(progress, message)
-                    continue
-                stage = str(message)
-                if progress is not None:
-                    progress(stage)
+            return SystemSolution(system=system, **relayed.outcome(messages(receiver, seconds)))
+        except MemoryError:
+            raise _out_of_memory(megabytes, relayed.stage) from None
         except TimeoutError:
             raise PkmExactError(
-                f"not solved within the time limit of {seconds:g} seconds (stage: {stage}); give it more"
+                f"not solved within the time limit of {seconds:g} seconds (stage: {relayed.stage}); give it more"
             ) from None
         except EOFError:
             process.join()
             if megabytes is not None and process.exitcode:
-                raise _out_of_memory(megabytes, stage) from None
-            reason = f"the process of the engine ended with code {process.exitcode} at the stage: {stage}"
-            raise PkmExactError(reason) from None
-    raise AssertionError("messages end with an exception")
+                raise _out_of_memory(megabytes, relayed.stage) from None
+            raise PkmExactError(relayed.ended(process.exitcode)) from None
 
 
 def _out_of_memory(megabytes: int | None, stage: str) -> PkmExactError:

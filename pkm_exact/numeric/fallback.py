@@ -19,7 +19,7 @@ from pkm_exact.numeric.numeric_mechanism import numeric_machine
 from pkm_exact.numeric.uncertified import UncertifiedSolution
 from pkm_exact.processes import end_with_parent, messages, process_apart
 from pkm_exact.solution import Solution
-from pkm_exact.stages import Amount, Relay, tell
+from pkm_exact.stages import Relay, Relayed
 
 
 def solve_within(
@@ -51,27 +51,17 @@ def solve_within(
         If a number of the robot is out of reach of floating point.
     """
     numeric_machine(problem)  # what floating point cannot hold is refused before the time is spent
-    stage = "start"
+    relayed = Relayed(progress)
     with process_apart(_work, engine, problem) as (receiver, process):
         try:
-            for message in messages(receiver, seconds):
-                if isinstance(message, Solution):
-                    return message
-                if isinstance(message, BaseException):
-                    raise message
-                if isinstance(message, Amount):
-                    tell(progress, message)
-                    continue
-                stage = str(message)
-                if progress is not None:
-                    progress(stage)
+            solution: Solution = relayed.outcome(messages(receiver, seconds))
+            return solution
         except TimeoutError:
             pass
         except EOFError:
             process.join()
-            reason = f"the process of the engine ended with code {process.exitcode} at the stage: {stage}"
-            raise PkmExactError(reason) from None
-    return _fallback(problem, seconds, stage)
+            raise PkmExactError(relayed.ended(process.exitcode)) from None
+    return _fallback(problem, seconds, relayed.stage)
 
 
 def _fallback(problem: ForwardProblem, seconds: float, stage: str) -> UncertifiedSolution:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import cos, radians, sin
 from typing import Final
 
-from pkm_exact.pictures.scene import Point, Scene
+from pkm_exact.pictures.drawn_robot import Point, Scene
 
 STEEPEST: Final = 89.9
 

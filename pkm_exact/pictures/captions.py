@@ -9,7 +9,7 @@ from pkm_exact.claim_wording import INCONSISTENT_NOTE, subject
 from pkm_exact.geometry.machine import CONSTRAINTS_KIND, locked_at
 from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
-from pkm_exact.pictures.scene import PoseView, Scene
+from pkm_exact.pictures.drawn_robot import PoseView, Scene
 from pkm_exact.pictures.shapes import Shape
 from pkm_exact.wording import counted
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
+from pkm_exact.pictures.drawn_robot import Point, PoseView, Scene
 from pkm_exact.pictures.hull import faces
-from pkm_exact.pictures.scene import Point, PoseView, Scene
 from pkm_exact.pictures.shapes import PLANE
 
 if TYPE_CHECKING:

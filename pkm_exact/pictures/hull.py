@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.pictures.scene import Point
+from pkm_exact.pictures.drawn_robot import Point
 
 THIN: Final = 0.08
 """A body this much thinner than wide is drawn as a polygon."""

@@ -15,7 +15,7 @@ from pkm_exact.geometry.machine import CONSTRAINTS_KIND, Machine
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.pictures.coordinates import listed_poses, placed_poses
-from pkm_exact.pictures.scene import Point, Scene, view_of
+from pkm_exact.pictures.drawn_robot import Point, Scene, view_of
 from pkm_exact.pictures.shapes import AXIS, LINE, PLANE, POINT, Shape, unit
 
 _ROOTS = tuple[float, float, float]

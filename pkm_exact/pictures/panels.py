@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 from pkm_exact.errors import InputError
 from pkm_exact.pictures.camera import Camera, View, Window
 from pkm_exact.pictures.captions import KEY_HEIGHT, legend_rows
-from pkm_exact.pictures.scene import Point, Scene
+from pkm_exact.pictures.drawn_robot import Point, Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

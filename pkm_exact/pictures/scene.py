@@ -8,28 +8,23 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from math import sqrt
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot, jointed
-from pkm_exact.motions.motion import Motion
-from pkm_exact.pictures.shapes import Shape
+from pkm_exact.pictures.drawn_robot import Point, Scene, view_of
 from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.geometry.robot import Configuration
-    from pkm_exact.pictures.coordinates import Placed
-    from pkm_exact.poses.jacobian import LegJacobian
     from pkm_exact.solution import Solution
-
-Point: TypeAlias = tuple[float, float, float]
 
 LARGEST: Final = 1e100
 """Coordinates beyond this, or robots all of whose coordinates are below its inverse, are not drawn."""
@@ -38,108 +33,6 @@ _OUT_OF_RANGE: Final = "robot: its coordinates are too large or too small to be 
 
 class RejectedError(InputError):
     """A certificate that the checker rejects: nothing in it is proved."""
-
-
-@dataclass(frozen=True)
-class PoseView:
-    """A pose, ready to be drawn.
-
-    Attributes
-    ----------
-    number : int
-        From 1, in the order of the certificate and of what ``solve`` prints.
-    position : tuple of 3 float
-        The mobile frame's origin, to the last digits of a double.
-    position_half_width : float
-        Greatest half width of the listed box in x, y and z.
-    rotation : 3 x 3 tuple of float
-    quaternion : tuple of 4 float
-        Scalar first.
-    platform : tuple of points
-        The platform joints in the fixed frame, one per leg.
-    det_sign : int or None
-        Certified sign of the determinant of the leg Jacobian; 0 at a singular pose, None where it is not decided.
-    jacobian : LegJacobian or None
-        What is certified of it; None at a singular pose or where it is not decided.
-    multiplicity : int or None
-        None where it is not proved.
-    knees : tuple of points
-        Where cranks or slides hold the lower ends of the rods, one per leg; empty if the legs themselves are actuated.
-    limits : str or None
-        Whether the pose keeps the limits of the model, in words; None if it has none or no model was given.
-    """
-
-    number: int
-    position: Point
-    position_half_width: float
-    rotation: tuple[Point, Point, Point]
-    quaternion: tuple[float, float, float, float]
-    platform: tuple[Point, ...]
-    det_sign: int | None
-    jacobian: LegJacobian | None
-    multiplicity: int | None
-    knees: tuple[Point, ...] = ()
-    limits: str | None = None
-
-    @property
-    def condition(self) -> float | None:
-        """Condition number of the leg Jacobian; None at a singular pose or where it is not decided."""
-        return None if self.jacobian is None or self.jacobian.condition is None else float(self.jacobian.condition)
-
-
-@dataclass(frozen=True)
-class Scene:
-    """A robot and all its listed poses, in ordinary coordinates.
-
-    Attributes
-    ----------
-    name, kind, unit : str
-    configuration : str or None
-    motion : Motion
-        Whether everything lies in the plane of the first two axes.
-    claim : str
-        What the certificate proves of the list: "complete", "inconsistent", ..
-    complex_solutions : int
-        Finite complex solutions with multiplicity, as the certificate says.
-    base : tuple of points
-        Base joints in the fixed frame, one per leg; a crank turns about its own, a slide passes through it.
-    platform : tuple of points
-        Platform joints in the mobile frame, one per leg.
-    legs : tuple of pairs of int
-        For each leg the indices of its base and its platform joint.
-    lengths : tuple of float
-        Of the legs, or of the rods if there are cranks or slides.
-    chain : str
-        "crank" or "slide" if these stand between base joints and rods; otherwise empty.
-    poses : tuple of PoseView
-    shapes : tuple of Shape
-        What holds joints without being a leg: planes, lines, points, axes.
-    """
-
-    name: str
-    configuration: str | None
-    kind: str
-    unit: str
-    motion: Motion
-    claim: str
-    complex_solutions: int
-    base: tuple[Point, ...]
-    platform: tuple[Point, ...]
-    legs: tuple[tuple[int, int], ...]
-    lengths: tuple[float, ...]
-    chain: str
-    poses: tuple[PoseView, ...]
-    shapes: tuple[Shape, ...] = ()
-
-    @property
-    def size(self) -> float:
-        """How large the robot is in all its poses."""
-        points = [*self.base, *(joint for pose in self.poses for joint in pose.platform)]
-        return max(max(values) - min(values) for values in zip(*points, strict=True)) or 1.0
-
-    def feet(self, pose: PoseView) -> tuple[Point, ...]:
-        """The lower ends of the legs or rods: knees, or base joints."""
-        return pose.knees or self.base
 
 
 def accepted_document(path: Path) -> dict[str, Any]:
@@ -294,35 +187,6 @@ def scene_of_solution(robot: Robot, configuration_name: str | None, solution: So
     from pkm_exact.certify.build import certificate
 
     return scene_of(certificate(robot, configuration_name, solution), robot)
-
-
-def view_of(
-    number: int, listed: Mapping[str, Any], place: Placed, platform: Sequence[Point], knees: tuple[Point, ...]
-) -> PoseView:
-    """A listed pose with its coordinates, ready to be drawn."""
-    x = place.coordinates
-    position = (x[0], x[1], x[2])
-    rotation = ((x[3], x[4], x[5]), (x[6], x[7], x[8]), (x[9], x[10], x[11]))
-    return PoseView(
-        number=number,
-        position=position,
-        position_half_width=max(float(Fraction(hi) - Fraction(lo)) / 2 for lo, hi in listed["position"]),
-        rotation=rotation,
-        quaternion=(x[12], x[13], x[14], x[15]),
-        platform=tuple(moved(position, rotation, joint) for joint in platform),
-        det_sign=place.det_sign,
-        jacobian=place.jacobian,
-        multiplicity=listed["multiplicity"],
-        knees=knees,
-    )
-
-
-def moved(position: Point, rotation: tuple[Point, Point, Point], joint: Point) -> Point:
-    """Where a platform joint stands in a pose: C + R B."""
-    x, y, z = (
-        c + sum(r * b for r, b in zip(row, joint, strict=True)) for c, row in zip(position, rotation, strict=True)
-    )
-    return x, y, z
 
 
 def _axes(metric: Sequence[int]) -> Point:

@@ -25,6 +25,7 @@ from pkm_exact.pictures.drawing import (
     label,
     middle,
 )
+from pkm_exact.pictures.drawn_robot import Point, PoseView, Scene
 from pkm_exact.pictures.panels import (
     HEADER,
     TITLE,
@@ -37,7 +38,6 @@ from pkm_exact.pictures.panels import (
     panel,
     seen_along,
 )
-from pkm_exact.pictures.scene import Point, PoseView, Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -43,7 +43,7 @@ from pkm_exact.report_page.words import Meaning, is_of_tolerances, limits_of, me
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
-    from pkm_exact.pictures.scene import Scene
+    from pkm_exact.pictures.drawn_robot import Scene
 
 SCRIPTS: Final = ("view.js", "controls.js", "table.js", "report.js")
 _PRESETS: Final = {"reset": "Reset", "top": "Top", "front": "Front", "side": "Side"}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 from pkm_exact.report_page.numerals import with_unit
 
 if TYPE_CHECKING:
-    from pkm_exact.pictures.scene import PoseView, Scene
+    from pkm_exact.pictures.drawn_robot import PoseView, Scene
     from pkm_exact.report_page.rows import PoseRows, Row
 
 DIGITS: Final = 10

@@ -14,7 +14,7 @@ from pkm_exact.report_page.numerals import bound, distance, in_unit, shortened
 from pkm_exact.roots.interval import Interval, decimal
 
 if TYPE_CHECKING:
-    from pkm_exact.pictures.scene import PoseView, Scene
+    from pkm_exact.pictures.drawn_robot import PoseView, Scene
 
 QUATERNION: Final = ("q0", "q1", "q2", "q3")
 _SHORT_QUATERNION: Final = 5

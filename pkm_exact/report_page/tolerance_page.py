@@ -8,7 +8,7 @@ from math import sqrt
 from typing import Any, Final
 
 from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
-from pkm_exact.pictures.scene import Point, PoseView, Scene, moved
+from pkm_exact.pictures.drawn_robot import Point, PoseView, Scene, moved
 from pkm_exact.report_page.numerals import bound, distance, in_unit
 from pkm_exact.report_page.rows import QUATERNION, Box, Cell, Column, PoseRows, Row, box_of, enclosed, half_width
 from pkm_exact.roots.interval import decimal

@@ -27,7 +27,7 @@ from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
 from pkm_exact.roots.interval import Interval
 from pkm_exact.statics.actuated_equations import Equation, Held
-from pkm_exact.statics.ball_rows import BallPose, BallRow, enclosed
+from pkm_exact.statics.ball_rows import BITS, BallPose, BallRow, enclosed
 from pkm_exact.statics.enclosed_matrix import EnclosedMatrix
 from pkm_exact.statics.exact_rows import ExactRow, column_squares, exact_row
 from pkm_exact.statics.singularity_kinds import Kinds, Singularity, kinds_at_rational_pose, kinds_in_balls
@@ -38,8 +38,6 @@ if TYPE_CHECKING:
     from pkm_exact.statics.largest_ellipsoid import LargestEllipsoid
     from pkm_exact.statics.measures import Measures
 
-BITS: Final = 256
-"""Of the balls that exact numbers are enclosed in."""
 TWIST: Final = ("vx", "vy", "vz", "wx", "wy", "wz")
 WRENCH: Final = ("fx", "fy", "fz", "mx", "my", "mz")
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
 
 from flint import arb
 
@@ -16,6 +16,8 @@ from pkm_exact.polytopes.enclosures import ball_of
 from pkm_exact.statics.actuated_equations import AnyForm, Equation, Rate
 from pkm_exact.statics.exact_rows import ExactRow, column_squares
 
+BITS: Final = 256
+"""Precision of the balls that exact numbers are enclosed in."""
 _ORDINARY = (1, 1, 1)
 
 

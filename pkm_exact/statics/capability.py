@@ -24,7 +24,7 @@ from pkm_exact.polytopes.slabs import Slabs
 from pkm_exact.polytopes.zonotope import Zonotope
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
-from pkm_exact.statics.at_pose import BITS
+from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.freedom import Freedom
 
 

@@ -24,7 +24,8 @@ from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.polytopes.enclosures import ball_of, interval_of
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.at_pose import BITS, AtPose
+from pkm_exact.statics.at_pose import AtPose
+from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.geometric_errors import force_parts, ordinary_position, ordinary_rotation
 from pkm_exact.statics.stiffness import compliance_of_wrenches
 

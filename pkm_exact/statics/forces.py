@@ -26,7 +26,8 @@ from pkm_exact.polytopes.slabs import Slabs
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.at_pose import BITS, AtPose
+from pkm_exact.statics.at_pose import AtPose
+from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.exact_rows import column_squares
 from pkm_exact.statics.freedom import Freedom
 from pkm_exact.statics.linear_program import greatest

@@ -20,7 +20,8 @@ from pkm_exact.errors import InputError
 from pkm_exact.polytopes.enclosures import ball_of
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
-from pkm_exact.statics.at_pose import BITS, AtPose
+from pkm_exact.statics.at_pose import AtPose
+from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.exact_rows import column_squares
 from pkm_exact.statics.ranks import pivots, proved_rank, rationalised
 

@@ -17,7 +17,8 @@ from pkm_exact.polytopes.enclosures import ball_of, interval_of
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.at_pose import BITS, AtPose
+from pkm_exact.statics.at_pose import AtPose
+from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.enclosed_matrix import EnclosedMatrix
 from pkm_exact.statics.stiffness import compliance_of_wrenches
 

@@ -12,7 +12,7 @@ from pkm_exact.polytopes.enclosures import interval_of
 from pkm_exact.polytopes.signs import UndecidedError
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.at_pose import BITS
+from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.measures import Measures, RefusedError
 
 KRUT: Final = "Krut, Company and Pierrot, Robotica 22 (2004), 129-139"

@@ -23,7 +23,8 @@ from pkm_exact.polytopes.enclosures import interval_of
 from pkm_exact.polytopes.rationals import as_fraction, rational_matrix
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.at_pose import BITS, AtPose
+from pkm_exact.statics.at_pose import AtPose
+from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.eigenvalues import eigenvalues
 from pkm_exact.statics.freedom import Freedom
 
