@@ -32,8 +32,9 @@ from pkm_exact.poses.limit_checks import (
     turned_within,
 )
 from pkm_exact.precision import working_precision
-from pkm_exact.regions.jets import Jet, constant, parameter
-from pkm_exact.regions.region_legs import OnCrank, OnSlide, RegionLeg, RegionMachine
+from pkm_exact.regions.jets import constant, parameter
+from pkm_exact.regions.machine_on_path import MachineOnPath, OutOfReachError, machine_on_path
+from pkm_exact.regions.region_legs import RegionMachine
 
 PRECISION: Final = 128
 FINEST: Final = 24
@@ -82,19 +83,6 @@ class PathFacts:
     least_determinant: tuple[arb, arb] | None = None
     greatest_condition: tuple[arb, arb] | None = None
     limits: dict[str, tuple[LimitVerdict, Place]] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, eq=False)
-class _At:
-    """A machine on an interval of the path: everything in ordinary coordinates."""
-
-    position: list[Jet]
-    rotation: list[list[Jet]]
-    feet: list[list[Jet]]
-    tips: list[list[Jet]]
-    arms: list[list[Jet]]
-    rods: list[list[Jet]]
-    values: list[Any]
 
 
 class PosePathProof:
@@ -148,7 +136,7 @@ class PosePathProof:
         place = Place(row, Fraction(0), Fraction(0))
         try:
             at = self._at(row - 1 if last else row, Fraction(1 if last else 0), Fraction(0))
-        except _OutOfReachError as error:
+        except OutOfReachError as error:
             raise PathRefusedError(place, str(error)) from None
         jacobian = self._jacobian(at)
         sign = _sign(jacobian[0].det()) if jacobian[0].nrows() == jacobian[0].ncols() else 0
@@ -182,7 +170,7 @@ class PosePathProof:
         """Why nothing is proved on an interval; None if all is."""
         try:
             at = self._at(row, middle, half)
-        except _OutOfReachError as error:
+        except OutOfReachError as error:
             return str(error)
         jacobian = self._jacobian(at)
         if _contraction(*jacobian) is None:
@@ -220,49 +208,21 @@ class PosePathProof:
         else:
             facts.greatest_condition = found_condition[0].max(worst.upper()), found_condition[1].max(seen.lower())
 
-    def _at(self, row: int, middle: Fraction, half: Fraction) -> _At:
+    def _at(self, row: int, middle: Fraction, half: Fraction) -> MachineOnPath:
         s = parameter(middle, half)
-        before, after = self._rows[row], self._rows[row + 1]
         moving = {
             name: constant(ball(a), s) + s * ball(b - a) if a != b else constant(ball(a), s)
-            for name, a, b in zip(self._columns, before, after, strict=True)
+            for name, a, b in zip(self._columns, self._rows[row], self._rows[row + 1], strict=True)
         }
-        zero = constant(arb(0), s)
-        position = [moving.get(name, zero) for name in ("x", "y", "z")]
-        rotation = _rotation(moving, s)
-        roots = [arb(g).sqrt() for g in self._machine.metric]
-        feet, tips, arms, rods, values = [], [], [], [], []
-        for leg, mode in zip(self._machine.legs, self._modes, strict=True):
-            joint = [ball(x) * root for x, root in zip(leg.platform, roots, strict=True)]
-            arm = [sum((entry * b for entry, b in zip(line, joint, strict=True)), zero) for line in rotation]
-            tip = [c + b for c, b in zip(position, arm, strict=True)]
-            base = [constant(ball(x) * root, s) for x, root in zip(leg.base, roots, strict=True)]
-            foot, value = _lower_end(leg, mode, base, tip, roots)
-            feet.append(foot)
-            tips.append(tip)
-            arms.append(arm)
-            rods.append([t - f for t, f in zip(tip, foot, strict=True)])
-            values.append(value)
-        return _At(position, rotation, feet, tips, arms, rods, values)
+        return machine_on_path(self._machine, self._modes, moving, s)
 
-    def _jacobian(self, at: _At) -> tuple[arb_mat, arb_mat, arb]:
+    def _jacobian(self, at: MachineOnPath) -> tuple[arb_mat, arb_mat, arb]:
         """J in the middle, its slopes, and the interval about the middle."""
-        rows = []
-        for rod, arm in zip(at.rods, at.arms, strict=True):
-            size = _dot(rod, rod).root()
-            unit = [x / size for x in rod]
-            moment = [
-                (arm[1] * unit[2] - arm[2] * unit[1]) * (1 / ball(self._length)),
-                (arm[2] * unit[0] - arm[0] * unit[2]) * (1 / ball(self._length)),
-                (arm[0] * unit[1] - arm[1] * unit[0]) * (1 / ball(self._length)),
-            ]
-            wrench = [*unit, *moment]
-            rows.append([wrench[k] for k in self._machine.twist])
-        half = at.position[0].half
+        rows = at.jacobian(self._machine.twist, self._length)
         middles = arb_mat([[x.middle for x in line] for line in rows])
-        return middles, arb_mat([[x.slope for x in line] for line in rows]), half
+        return middles, arb_mat([[x.slope for x in line] for line in rows]), at.position[0].half
 
-    def _verdicts(self, at: _At) -> dict[str, LimitVerdict]:
+    def _verdicts(self, at: MachineOnPath) -> dict[str, LimitVerdict]:
         limits = self._limits
         if limits is None:
             return {}
@@ -305,78 +265,10 @@ class PosePathProof:
         return found
 
 
-class _OutOfReachError(Exception):
-    pass
-
-
 def _within(value: Any, pair: tuple[Fraction, Fraction]) -> LimitVerdict:
     if isinstance(value, tuple):
         return turned_within(value[0].value, value[1].value, pair)
     return together((at_least(value.value - ball(pair[0])), at_least(ball(pair[1]) - value.value)))
-
-
-def _lower_end(
-    leg: RegionLeg, mode: int, base: list[Jet], tip: list[Jet], roots: Sequence[arb]
-) -> tuple[list[Jet], Any]:
-    """Where a leg or rod stands, and the joint value: a length, a position, or cosine and sine."""
-    e = [t - b for t, b in zip(tip, base, strict=True)]
-    if isinstance(leg.actuator, OnSlide):
-        d = [constant(ball(x) * root, e[0]) for x, root in zip(leg.actuator.direction, roots, strict=True)]
-        a, p = _dot(d, d), _dot(d, e)
-        rest = _dot(e, e) - constant(ball(leg.actuator.rod_squared), a)
-        q = (p + mode * _positive_root(p * p - a * rest, leg)) / a
-        return [b + q * x for b, x in zip(base, d, strict=True)], q
-    if isinstance(leg.actuator, OnCrank):
-        crank = leg.actuator
-        u = [constant(ball(x) * root, e[0]) for x, root in zip(crank.at_0, roots, strict=True)]
-        v = [constant(ball(x) * root, e[0]) for x, root in zip(crank.at_90, roots, strict=True)]
-        a, p = 2 * _dot(u, e), 2 * _dot(v, e)
-        h = _dot(e, e) + _dot(u, u) - constant(ball(crank.rod_squared), a)
-        share = arb(1) / crank.weight
-        m = a * a + p * p * share
-        y = _positive_root((m - h * h) * share, leg)
-        cosine, sine = (a * h - mode * p * y) / m, (p * h * share + mode * a * y) / m
-        foot = [b + cosine * x + sine * z for b, x, z in zip(base, u, v, strict=True)]
-        return foot, (cosine, sine * arb(crank.weight).sqrt())
-    return base, _dot(e, e).root()
-
-
-def _positive_root(square: Jet, leg: RegionLeg) -> Jet:
-    if not square.value > 0:
-        raise _OutOfReachError(f"{leg.name} does not reach, or only just")
-    return square.root()
-
-
-def _dot(left: Sequence[Jet], right: Sequence[Jet]) -> Jet:
-    return left[0] * right[0] + left[1] * right[1] + left[2] * right[2]
-
-
-def _rotation(moving: dict[str, Jet], s: Jet) -> list[list[Jet]]:
-    one, zero = constant(arb(1), s), constant(arb(0), s)
-    if "q0" in moving:
-        return _of_quaternion([moving[f"q{k}"] for k in range(4)])
-    names = ("", "", "theta") if "theta" in moving else ("roll", "pitch", "yaw")
-    rotation = [[one if i == j else zero for j in range(3)] for i in range(3)]
-    for axis, name in enumerate(names):
-        if name in moving:
-            c, sine = moving[name].cos_sin_of_degrees()
-            i, j = (axis + 1) % 3, (axis + 2) % 3
-            first = [c * x - sine * y for x, y in zip(rotation[i], rotation[j], strict=True)]
-            rotation[j] = [sine * x + c * y for x, y in zip(rotation[i], rotation[j], strict=True)]
-            rotation[i] = first
-    return rotation
-
-
-def _of_quaternion(q: list[Jet]) -> list[list[Jet]]:
-    norm = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
-    found: list[list[Jet]] = [[norm] * 3 for _ in range(3)]
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        squares = [x * x for x in q]
-        found[i][i] = (squares[0] + squares[1 + i] - squares[1 + j] - squares[1 + k]) / norm
-        mixed, turn = q[1 + i] * q[1 + j], q[0] * q[1 + k]
-        found[i][j], found[j][i] = 2 * (mixed - turn) / norm, 2 * (mixed + turn) / norm
-    return found
 
 
 def _contraction(middles: arb_mat, slopes: arb_mat, span: arb) -> tuple[arb, arb_mat] | None:
