@@ -14,12 +14,11 @@ from random import Random
 from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.at_point import AtPoint
 from pkm_exact.constraints.axis_distance import AxisDistance
-from pkm_exact.constraints.carries import Carries
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
-from pkm_exact.constraints.in_plane import InPlane
 from pkm_exact.constraints.on_line import OnLine
+from pkm_exact.constraints.point_in_plane import Carries, InPlane
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion_groups import PLANAR, SCHOENFLIES, SPHERICAL, TRANSLATION

@@ -22,7 +22,7 @@ from pkm_exact.claim import Claim, RealMotion
 from pkm_exact.claim_wording import CONSTRAINTS, LEGS, REAL_MOTION, Subject, meaning
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import InPlane
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot

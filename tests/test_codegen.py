@@ -14,7 +14,7 @@ from pkm_exact import Robot
 from pkm_exact.cli.main import main
 from pkm_exact.following.c_files import c_files
 from pkm_exact.following.follower import Followed, next_pose
-from pkm_exact.following.starts import joint_values
+from pkm_exact.following.following_start import joint_values
 
 MODELS = Path(__file__).parent.parent / "models"
 COMPILER = shutil.which("cc") or ""

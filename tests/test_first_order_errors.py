@@ -12,9 +12,9 @@ from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.numeric.deviations import MARGIN
 from pkm_exact.numeric.tolerance import tolerance_boxes
 from pkm_exact.numeric.tolerance_result import ToleranceBox
-from pkm_exact.statics.asking import machine_at
 from pkm_exact.statics.first_order_errors import beside_box, first_order_errors
 from pkm_exact.statics.geometric_errors import geometric_jacobian
+from pkm_exact.statics.machine_at_pose import machine_at
 
 UNEQUAL = Tolerances(Fraction(1), Fraction(2), Fraction(5))
 """Of base, platform and lengths: a mistake in one of them is no other's."""

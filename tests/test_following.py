@@ -9,7 +9,7 @@ from samples import solved
 
 from pkm_exact import InputError, Robot
 from pkm_exact.following.follower import Followed, next_pose
-from pkm_exact.following.starts import joint_values
+from pkm_exact.following.following_start import joint_values
 
 MODELS = Path(__file__).parent.parent / "models"
 KINDS = ["3-rpr-merlet-p", "3-rrr", "3-prr", "rolland-6-6", "hexa", "hexaglide", "mssm"]

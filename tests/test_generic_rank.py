@@ -17,9 +17,9 @@ from pkm_exact.geometry.reader import read_robot
 from pkm_exact.mobility import generic_rank as module
 from pkm_exact.mobility.actuation import actuation
 from pkm_exact.mobility.constraint_rows import within, wrench_rows
-from pkm_exact.mobility.finite import finite
+from pkm_exact.mobility.finite_mobility import finite
 from pkm_exact.mobility.generic_rank import Route, generic_rank
-from pkm_exact.mobility.instantaneous import instantaneous
+from pkm_exact.mobility.instantaneous_mobility import instantaneous
 from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.screws.exact_matrix import rank
 

@@ -10,9 +10,9 @@ from test_statics import POSES, at
 from pkm_exact.errors import InputError
 from pkm_exact.pictures.polytope_picture import polytope_figure
 from pkm_exact.polytopes.rationals import rational_matrix
-from pkm_exact.statics.asking import machine_at
 from pkm_exact.statics.geometric_errors import geometric_jacobian, worst_displacement
 from pkm_exact.statics.grasp import Contact, grasp_matrix, internal_forces, is_closed_by_friction
+from pkm_exact.statics.machine_at_pose import machine_at
 from pkm_exact.statics.stiffness import rod_errors
 
 

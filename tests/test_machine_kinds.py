@@ -14,10 +14,9 @@ import pytest
 from pkm_exact.claim import Claim
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.angle import Angle
-from pkm_exact.constraints.carries import Carries
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.form import Vector
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import Carries, InPlane
 from pkm_exact.engine import solve
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.moved_platform import moved_platform

@@ -15,10 +15,9 @@ from pkm_exact.cli.main import main
 from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.at_point import AtPoint
 from pkm_exact.constraints.axis_distance import AxisDistance
-from pkm_exact.constraints.carries import Carries
 from pkm_exact.constraints.distance import Distance
-from pkm_exact.constraints.in_plane import InPlane
 from pkm_exact.constraints.on_line import OnLine
+from pkm_exact.constraints.point_in_plane import Carries, InPlane
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.pictures.drawn_robot import Scene
 from pkm_exact.pictures.mechanism_scene import shape_of

@@ -14,8 +14,8 @@ from pkm_exact.geometry.joint_types import JointGeometry
 from pkm_exact.geometry.linkage import Joint, Linkage
 from pkm_exact.mobility.actuation import actuation
 from pkm_exact.mobility.analysis import LinkageMobility
-from pkm_exact.mobility.finite import Argument, finite
-from pkm_exact.mobility.instantaneous import instantaneous
+from pkm_exact.mobility.finite_mobility import Argument, finite
+from pkm_exact.mobility.instantaneous_mobility import instantaneous
 from pkm_exact.mobility.second_order import cone_dimension
 
 ROOT = Path(__file__).parent.parent

@@ -34,8 +34,8 @@ from pkm_exact.certify.checker.mechanism_document import read_mechanism_document
 from pkm_exact.certify.checker.solutions import PRIMES
 from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.axis_distance import AxisDistance
-from pkm_exact.constraints.carries import Carries
 from pkm_exact.constraints.constraint import Constraint
+from pkm_exact.constraints.point_in_plane import Carries
 
 SOURCES = [Path(module.__file__) for module in (pure, pure_mechanism)]
 DEAR = ("3-RPS", "3-RPS, boxes")

@@ -13,10 +13,10 @@ from test_regions import asked
 from pkm_exact.cli.main import main
 from pkm_exact.geometry.reader import robot_from_toml
 from pkm_exact.regions.arc_area import ArcArea, arc_area
-from pkm_exact.regions.locus import locus
 from pkm_exact.regions.question_reader import of_size, question_from_toml
 from pkm_exact.regions.region_legs import RegionMachine, region_machine
 from pkm_exact.regions.region_solver import largest
+from pkm_exact.regions.singularity_locus import locus
 
 FILES = {path.stem: path for path in MODELS}
 LOCUS = "[conditions]\nno_type_2 = true\n[answer]\nkind = 'locus'\n"

@@ -21,7 +21,7 @@ from pkm_exact.cli.main import main
 from pkm_exact.geometry.inverse import rotation_of
 from pkm_exact.regions.bernstein import bernstein_coefficients, error_factor, on_sub_boxes, subdivision_matrices
 from pkm_exact.regions.chart import Chart
-from pkm_exact.regions.compiled import compiled_formula
+from pkm_exact.regions.compiled_formula import compiled_formula
 from pkm_exact.regions.formula import Atom, Sign
 from pkm_exact.regions.paving import halving_axes, leaves
 from pkm_exact.regions.question_reader import of_size, question_from_toml

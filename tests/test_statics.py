@@ -11,17 +11,16 @@ from samples import model, solved
 
 from pkm_exact import Mechanism, Robot
 from pkm_exact.cli.main import main
-from pkm_exact.constraints.carries import Carries
 from pkm_exact.constraints.distance import Distance
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import Carries, InPlane
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.drives import Drive, Part
 from pkm_exact.geometry.mechanism import LockedValues
 from pkm_exact.geometry.mechanism import Mechanism as PlainMechanism
 from pkm_exact.motions.motion_groups import PLANAR, SCHOENFLIES
 from pkm_exact.radicals import RootSum
-from pkm_exact.statics.asking import machine_at
 from pkm_exact.statics.at_pose import AtPose
+from pkm_exact.statics.machine_at_pose import machine_at
 
 Capture = pytest.CaptureFixture[str]
 POSES: dict[str, dict[str, object]] = {

@@ -21,7 +21,7 @@ from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InputError
 from pkm_exact.motions.motion_groups import PLANAR, SPHERICAL
-from pkm_exact.statics.asking import machine_at
+from pkm_exact.statics.machine_at_pose import machine_at
 
 Capture = pytest.CaptureFixture[str]
 SCHEMA = Path(pure.__file__).with_name("statics-certificate-1.schema.json")

@@ -16,7 +16,7 @@ from test_statics import POSES, at, dual_v, h4, vector
 from pkm_exact import Mechanism
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import InPlane
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.mechanism import LockedValues
 from pkm_exact.motions.motion import Motion
@@ -26,7 +26,6 @@ from pkm_exact.polytopes.slabs import Slabs
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.asking import machine_at
 from pkm_exact.statics.at_pose import AtPose
 from pkm_exact.statics.eigenvalues import eigenvalues
 from pkm_exact.statics.exact_rows import column_squares
@@ -36,6 +35,7 @@ from pkm_exact.statics.freedom import Freedom
 from pkm_exact.statics.index_rows import STATICS_INDICES, enclosed_indices
 from pkm_exact.statics.largest_ellipsoid import largest_ellipsoid
 from pkm_exact.statics.linear_program import greatest
+from pkm_exact.statics.machine_at_pose import machine_at
 from pkm_exact.statics.redundant_actuation import park_kim, perturbation_norm
 from pkm_exact.statics.stiffness import amplification, greatest_displacement, least_stiffness, rod_errors, stiffness
 

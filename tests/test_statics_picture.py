@@ -9,7 +9,7 @@ from test_statics import at
 
 from pkm_exact.cli.main import main
 from pkm_exact.errors import InputError
-from pkm_exact.statics.asking import machine_at
+from pkm_exact.statics.machine_at_pose import machine_at
 
 pytest.importorskip("matplotlib")
 from pkm_exact.pictures.statics_picture import statics_figure, statics_panels

@@ -17,7 +17,7 @@ from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import InPlane
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.machines.machine_kinds import MACHINES
 from pkm_exact.geometry.mechanism import Mechanism

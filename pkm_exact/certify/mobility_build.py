@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.linkage import Joint, Linkage
     from pkm_exact.mobility.actuation import ActuatorSets
     from pkm_exact.mobility.analysis import LinkageMobility
-    from pkm_exact.mobility.instantaneous import Instantaneous
+    from pkm_exact.mobility.instantaneous_mobility import Instantaneous
     from pkm_exact.screws.exact_matrix import Row
 
 FORMAT: Final = "pkm_exact mobility certificate"
@@ -87,7 +87,7 @@ def rank_proof(rows: Sequence[Row], columns: int) -> dict[str, Any]:
 
 def _twists(found: Instantaneous) -> list[Row]:
     """The six coordinates of the platform's twist in the motions."""
-    from pkm_exact.mobility.instantaneous import images
+    from pkm_exact.mobility.instantaneous_mobility import images
 
     return [tuple(row) for row in zip(*images(found.speeds, found.loops.platform), strict=True)] or [()] * 6
 
@@ -165,7 +165,7 @@ def _sets(sets: ActuatorSets, linkage: Linkage) -> dict[str, Any]:
 
 
 def _finite(found: LinkageMobility) -> dict[str, Any] | None:
-    from pkm_exact.mobility.finite import Argument
+    from pkm_exact.mobility.finite_mobility import Argument
     from pkm_exact.mobility.reachable import reachable
 
     argument = found.finite.argument

@@ -64,7 +64,7 @@ def codegen(model: str, output: str, configuration: str | None, pose: int | None
 
 def _home(robot: Robot, model: str, configuration: str | None, pose: int | None) -> Followed:
     """A pose of the configuration of which following can prove something."""
-    from pkm_exact.following.starts import joint_values
+    from pkm_exact.following.following_start import joint_values
     from pkm_exact.interactive.progress import Progress
 
     try:

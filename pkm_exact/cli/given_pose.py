@@ -11,7 +11,7 @@ import click
 
 from pkm_exact.cli import arguments
 from pkm_exact.errors import InputError, InternalContradictionError
-from pkm_exact.geometry.degrees import NEAREST_TURN
+from pkm_exact.geometry.rotation_degrees import NEAREST_TURN
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
@@ -143,9 +143,9 @@ def _in_model(
 
 def _ordinary_quaternion(option: str, values: list[Fraction], nearest: Fraction | None) -> tuple[Quaternion, Fraction]:
     """An ordinary quaternion of the rotation, and by how much its matrix may be off: half of what is allowed."""
-    from pkm_exact.geometry.degrees import checked_degrees, is_exact_turn, quaternion_of_angles
     from pkm_exact.geometry.nearest_rotation import nearest_rotation
     from pkm_exact.geometry.ordinary_pose import quaternion_of
+    from pkm_exact.geometry.rotation_degrees import checked_degrees, is_exact_turn, quaternion_of_angles
 
     if option in _IN_DEGREES:
         angles = [checked_degrees(angle, option) for angle in values]

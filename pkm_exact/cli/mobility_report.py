@@ -7,8 +7,8 @@ from typing import Any, Final
 
 from pkm_exact.mobility.actuation import ActuatorSets
 from pkm_exact.mobility.analysis import LinkageMobility
-from pkm_exact.mobility.finite import Finite
-from pkm_exact.mobility.instantaneous import Instantaneous
+from pkm_exact.mobility.finite_mobility import Finite
+from pkm_exact.mobility.instantaneous_mobility import Instantaneous
 from pkm_exact.mobility.legs_of_linkage import Leg
 from pkm_exact.screws.free_motions import FreeMotions
 from pkm_exact.screws.screw_system import ScrewSystem

@@ -87,7 +87,7 @@ def region(
 
 def _locus(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str) -> int:
     from pkm_exact.cli import region_report
-    from pkm_exact.regions.locus import locus
+    from pkm_exact.regions.singularity_locus import locus
 
     try:
         found = locus(machine, asked)

@@ -17,8 +17,8 @@ from pkm_exact.roots.interval import Interval
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pkm_exact.regions.locus import Locus
     from pkm_exact.regions.region_legs import RegionMachine
+    from pkm_exact.regions.singularity_locus import Locus
 
 _DIGITS: Final = 9
 _MANY: Final = 24

@@ -193,8 +193,8 @@ def _at_pose_of_model(
 ) -> tuple[AtPose, Fraction | None]:
     """The machine at an exact pose, and by how much that may be off; or at a pose of its solution."""
     from pkm_exact.cli.model_reading import announced_model
-    from pkm_exact.statics.asking import machine_at_solution
     from pkm_exact.statics.at_pose import at_rational_pose
+    from pkm_exact.statics.machine_at_pose import machine_at_solution
     from pkm_exact.statics.placement import held_at
 
     robot = announced_model(source)
@@ -242,7 +242,7 @@ def _at_certified_pose(source: str, number: int | None, model: str | None) -> At
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.pictures.scene import RejectedError, accepted_document
     from pkm_exact.poses.pose_spelling import pose_of as box_of
-    from pkm_exact.statics.asking import machine_at_solution
+    from pkm_exact.statics.machine_at_pose import machine_at_solution
 
     try:
         document = accepted_document(Path(source))

@@ -14,7 +14,7 @@ from typing import ClassVar
 from pkm_exact.constraints.constraint import Role, SquareForm
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Form, Vector
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import InPlane
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,11 @@ from typing import Final
 from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.at_point import AtPoint
 from pkm_exact.constraints.axis_distance import AxisDistance
-from pkm_exact.constraints.carries import Carries
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.distance import Distance
-from pkm_exact.constraints.in_plane import InPlane
 from pkm_exact.constraints.linear import LinearForm
 from pkm_exact.constraints.on_line import OnLine
+from pkm_exact.constraints.point_in_plane import Carries, InPlane
 
 CONSTRAINTS: Final[Mapping[str, type[Constraint]]] = MappingProxyType(
     {found.type: found for found in (Distance, InPlane, Carries, OnLine, AtPoint, Angle, AxisDistance, LinearForm)}

@@ -10,7 +10,7 @@ from typing import ClassVar
 
 from pkm_exact.constraints.constraint import Linear, Role
 from pkm_exact.constraints.form import Form, Vector
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import InPlane
 
 
 @dataclass(frozen=True)

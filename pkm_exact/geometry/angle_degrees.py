@@ -17,13 +17,13 @@ from typing import Final
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import CosSin, cosine_and_sine
 from pkm_exact.geometry.rational import NumberText, finite_decimal, parse_rational
+from pkm_exact.geometry.rotation_degrees import sine_and_cosine
 from pkm_exact.wording import shown
 
-_PI: Final = Fraction(31415926535897932384626433832795028841971693993751, 10**49)
 _GRID: Final = 10**45
 _SLACK: Final = Fraction(1, 10**39)
 """More than the errors of cosine and sine, which are below 10^-40 each."""
-_TERMS: Final = 60
+_BITS: Final = 160
 _DENOMINATOR: Final = 10**9
 """Of a half tangent that stands in for another: it is off by less than 10^-18 then."""
 _SQUARES: Final = {0: Fraction(0), 60: Fraction(1, 3), 90: Fraction(1), 120: Fraction(3)}
@@ -125,14 +125,12 @@ def _rounded_up(number: Fraction) -> Fraction:
 
 
 def _sine_and_cosine(degrees: Fraction) -> tuple[Fraction, Fraction]:
-    """Both, to 10^-40, of an angle between -180 and 180 degrees."""
-    radians = Fraction(round(_PI * degrees / 180 * _GRID), _GRID)
-    sums, term = [Fraction(0), Fraction(0)], Fraction(1)
-    for k in range(_TERMS):
-        sign = -1 if k % 4 >= 2 else 1
-        sums[k % 2] += sign * term
-        term = Fraction(round(term * radians / (k + 1) * _GRID), _GRID)
-    return sums[1], sums[0]
+    """Both, to 10^-40, of an angle."""
+    from pkm_exact.precision import working_precision
+
+    with working_precision(_BITS):
+        sine, cosine = (value.mid().fmpq() for value in sine_and_cosine(degrees))
+    return Fraction(int(sine.p), int(sine.q)), Fraction(int(cosine.p), int(cosine.q))
 
 
 def _rational_root(square: Fraction) -> Fraction | None:

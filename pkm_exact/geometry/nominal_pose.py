@@ -8,10 +8,10 @@ from fractions import Fraction
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.degrees import checked_degrees, quaternion_of_angles
 from pkm_exact.geometry.inverse import Matrix, Metric, rotation_of
 from pkm_exact.geometry.ordinary_pose import ordinary_position, ordinary_rotation
 from pkm_exact.geometry.pose_reader import read_pose
+from pkm_exact.geometry.rotation_degrees import checked_degrees, quaternion_of_angles
 from pkm_exact.motions.motion import Motion
 
 _WIDTH = Fraction(1, 1 << 80)

@@ -10,11 +10,11 @@ from typing import Any, Final
 
 from pkm_exact.constraints.form import Vector, value_at
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.degrees import checked_degrees, quaternion_of_angles
 from pkm_exact.geometry.fields import known_keys, list_field, required
 from pkm_exact.geometry.inverse import Matrix, Metric, rotation_of
 from pkm_exact.geometry.planar_rotation import parse_half_tangent, parse_turn
 from pkm_exact.geometry.rational import parse_rational, parse_vector
+from pkm_exact.geometry.rotation_degrees import checked_degrees, quaternion_of_angles
 from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import shown
 

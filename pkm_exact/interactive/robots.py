@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from pkm_exact.interactive.answers import Solution
     from pkm_exact.policy import Policy
     from pkm_exact.poses.pose import Pose
-    from pkm_exact.regions.locus import Locus
     from pkm_exact.regions.region_solver import LargestAnswer, RegionAnswer
+    from pkm_exact.regions.singularity_locus import Locus
     from pkm_exact.statics.at_pose import AtPose
 
 
@@ -153,7 +153,7 @@ class Asked(Machine):
         >>> robot.at(robot.solve().poses[0]).jacobian.to_numpy().shape
         (3, 3)
         """
-        from pkm_exact.statics.asking import machine_at
+        from pkm_exact.statics.machine_at_pose import machine_at
 
         return machine_at(self, pose, configuration, modes)
 
@@ -179,11 +179,11 @@ class Asked(Machine):
         >>> Robot.load("models/3-rpr-merlet-p.toml").region(text).is_proved
         True
         """
-        from pkm_exact.regions.locus import locus
         from pkm_exact.regions.question_reader import of_size, question_from_toml, read_question
         from pkm_exact.regions.region_legs import region_machine
         from pkm_exact.regions.region_solver import answered, largest
         from pkm_exact.regions.region_workers import workers as working
+        from pkm_exact.regions.singularity_locus import locus
 
         machine = region_machine(self)
         is_text = isinstance(question, str) and "\n" in question
@@ -304,7 +304,7 @@ class Robot(Asked, robots.Robot):
         (True, [5.027, 5.0], True)
         """
         from pkm_exact.following.follower import Followed
-        from pkm_exact.following.starts import first_pose, follow_to, study_point
+        from pkm_exact.following.following_start import first_pose, follow_to, study_point
 
         given = _checked_values(self, values)
         if isinstance(start, Followed) and start.tables.robot is self:

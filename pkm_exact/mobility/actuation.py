@@ -15,7 +15,7 @@ from math import gcd
 from typing import Final, TypeAlias
 
 from pkm_exact.errors import InputError
-from pkm_exact.mobility.instantaneous import Instantaneous, images
+from pkm_exact.mobility.instantaneous_mobility import Instantaneous, images
 from pkm_exact.screws.exact_matrix import Row, echelon, rank
 from pkm_exact.screws.screw import primitive
 from pkm_exact.wording import shown
@@ -82,7 +82,7 @@ def actuation(found: Instantaneous, names: Collection[str]) -> Actuation:
     Examples
     --------
     >>> from pkm_exact.geometry.reader import read_linkage
-    >>> from pkm_exact.mobility.instantaneous import instantaneous
+    >>> from pkm_exact.mobility.instantaneous_mobility import instantaneous
     >>> found = instantaneous(read_linkage("models/chains/3-pprr.toml"))
     >>> actuation(found, ["A1", "A2", "A3"]).left_of_platform, actuation(found, ["A1", "B1"]).left_of_platform
     (1, 0)
@@ -108,7 +108,7 @@ def sets_that_hold_the_platform(found: Instantaneous, among: Collection[str] | N
     Examples
     --------
     >>> from pkm_exact.geometry.reader import read_linkage
-    >>> from pkm_exact.mobility.instantaneous import instantaneous
+    >>> from pkm_exact.mobility.instantaneous_mobility import instantaneous
     >>> found = sets_that_hold_the_platform(instantaneous(read_linkage("models/chains/3-pprr.toml")))
     >>> len(found.sets), found.sets[0]
     (9, ('A1', 'B1'))

@@ -14,8 +14,8 @@ from pkm_exact.mobility.actuation import (
     sets_that_hold_the_mechanism,
     sets_that_hold_the_platform,
 )
-from pkm_exact.mobility.finite import Finite, finite
-from pkm_exact.mobility.instantaneous import Instantaneous, instantaneous
+from pkm_exact.mobility.finite_mobility import Finite, finite
+from pkm_exact.mobility.instantaneous_mobility import Instantaneous, instantaneous
 from pkm_exact.mobility.legs_of_linkage import Leg, common_constraints, counted_with_common, legs_of
 from pkm_exact.screws.screw_system import ScrewSystem
 from pkm_exact.wording import shown

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import reduce
 
 from pkm_exact.geometry.linkage import Joint, Linkage
-from pkm_exact.mobility.instantaneous import Instantaneous, instantaneous
+from pkm_exact.mobility.instantaneous_mobility import Instantaneous, instantaneous
 from pkm_exact.screws.screw_system import ScrewSystem
 
 

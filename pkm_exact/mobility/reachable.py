@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import reduce
 
 from pkm_exact.geometry.linkage import Linkage
-from pkm_exact.mobility.instantaneous import Instantaneous
+from pkm_exact.mobility.instantaneous_mobility import Instantaneous
 from pkm_exact.mobility.legs_of_linkage import Leg, legs_of
 from pkm_exact.mobility.loops import find_loops
 from pkm_exact.screws.screw import Screw

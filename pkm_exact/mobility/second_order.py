@@ -19,7 +19,7 @@ from itertools import combinations_with_replacement
 from math import comb
 from typing import Final, TypeAlias
 
-from pkm_exact.mobility.instantaneous import Instantaneous
+from pkm_exact.mobility.instantaneous_mobility import Instantaneous
 from pkm_exact.screws.exact_matrix import Row, null_space, rank
 from pkm_exact.screws.screw import Screw
 
@@ -39,7 +39,7 @@ def cone_dimension(found: Instantaneous) -> int:
     Examples
     --------
     >>> from pkm_exact.geometry.reader import read_linkage
-    >>> from pkm_exact.mobility.instantaneous import instantaneous
+    >>> from pkm_exact.mobility.instantaneous_mobility import instantaneous
     >>> found = instantaneous(read_linkage("models/chains/seven-link-oblique.toml"))
     >>> found.total, cone_dimension(found)
     (2, 1)

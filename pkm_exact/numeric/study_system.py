@@ -21,11 +21,10 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.constraints.carries import Carries
 from pkm_exact.constraints.constraint import Role
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import SIZE, Vector, in_frames
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import Carries, InPlane
 from pkm_exact.geometry.problem import ForwardProblem, points
 from pkm_exact.geometry.study import STUDY_CONDITION, Quadric, motion_quadrics
 from pkm_exact.motions.motion import Motion

@@ -8,7 +8,7 @@ from typing import Final
 
 from flint import arb, fmpq
 
-from pkm_exact.geometry.degrees import half_turn_pair
+from pkm_exact.geometry.rotation_degrees import half_turn_pair
 from pkm_exact.precision import working_precision
 
 _BITS: Final = 64

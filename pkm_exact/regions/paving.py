@@ -21,7 +21,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.regions.compiled import CompiledFormula
+from pkm_exact.regions.compiled_formula import CompiledFormula
 
 SPLIT: Final = "s"
 INSIDE: Final = "i"

@@ -12,11 +12,11 @@ from typing import Any, Final
 from flint import arb, fmpq
 
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.degrees import half_turn_pair, is_exact_turn
 from pkm_exact.geometry.fields import known_keys, list_field, required
 from pkm_exact.geometry.limits import Pair
 from pkm_exact.geometry.rational import parse_positive, parse_rational
 from pkm_exact.geometry.reader import parsed_toml
+from pkm_exact.geometry.rotation_degrees import half_turn_pair, is_exact_turn
 from pkm_exact.precision import working_precision
 from pkm_exact.regions.chart import POSITIONS, TURNS, Chart
 from pkm_exact.regions.region_conditions import CONDITIONS, Conditions

@@ -8,7 +8,7 @@ from typing import Any, Final, TypeAlias
 
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Form, Vector
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import InPlane
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank, Slide
 from pkm_exact.geometry.drives import Drive, Part

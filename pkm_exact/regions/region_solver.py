@@ -10,7 +10,7 @@ from itertools import product
 from typing import Any, Final, Protocol
 
 from pkm_exact.regions.chart import POSITIONS, Polynomial
-from pkm_exact.regions.compiled import CompiledFormula, compiled_formula
+from pkm_exact.regions.compiled_formula import CompiledFormula, compiled_formula
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some, atoms_of
 from pkm_exact.regions.paving import (
     INSIDE,

@@ -16,7 +16,9 @@ from pkm_exact.errors import InternalContradictionError, PkmExactError
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.stages import Progress, Stages
-from pkm_exact.systems.closing import (
+from pkm_exact.systems.infinitely_many import prove_infinite
+from pkm_exact.systems.modular_solutions import most_values
+from pkm_exact.systems.no_more_solutions import (
     ListedSolutions,
     listed,
     prove_by_bounds,
@@ -24,8 +26,6 @@ from pkm_exact.systems.closing import (
     prove_complete,
     prove_inconsistent,
 )
-from pkm_exact.systems.infinitely_many import prove_infinite
-from pkm_exact.systems.modular_solutions import most_values
 from pkm_exact.systems.real_boxes import real_solutions
 from pkm_exact.systems.solution_search import SolutionSearch, is_verified
 from pkm_exact.systems.system_claims import DETECTED_NOTE, MISSING_NOTE, NO_SOLUTION_NOTE

@@ -14,8 +14,8 @@ from typing import Final
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import CosSin
-from pkm_exact.geometry.degrees import checked_degrees, half_turn_pair
 from pkm_exact.geometry.kinds import Joints
+from pkm_exact.geometry.rotation_degrees import checked_degrees, half_turn_pair
 from pkm_exact.wording import shown
 
 BOTTOM: Final = Fraction(-90)

@@ -23,7 +23,7 @@ from pkm_exact.constraints.at_point import AtPoint
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import InPlane
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.drives import Drive, Part
 from pkm_exact.geometry.inverse import Metric, dot

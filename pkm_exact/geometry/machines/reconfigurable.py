@@ -15,7 +15,7 @@ from typing import Final
 
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.distance import Distance
-from pkm_exact.constraints.in_plane import InPlane
+from pkm_exact.constraints.point_in_plane import InPlane
 from pkm_exact.geometry.drives import Drive, Part
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.machines.dimension_readers import length, word

@@ -1,4 +1,8 @@
-"""A platform point in a plane of the base: n.(C + R B) = d."""
+"""A point of one body in a plane of the other: two types of constraints that mirror each other.
+
+A platform point in a plane of the base: n.(C + R B) = d. A base point in a plane of the platform:
+m.R^-1 (A - C) = d, that is  A.(R m) - m.u = d.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +10,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from pkm_exact.constraints.constraint import Linear, Role
 from pkm_exact.constraints.form import Form, Vector, form, outer, scaled
-
-if TYPE_CHECKING:
-    from pkm_exact.constraints.carries import Carries
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,54 @@ class InPlane(Linear):
 
     def mirrored(self) -> Carries:
         """A base point in a plane of the platform."""
-        from pkm_exact.constraints.carries import Carries
-
         return Carries(self.normal, self.offset, self.platform, self.name)
+
+
+@dataclass(frozen=True)
+class Carries(Linear):
+    """A plane of the platform that carries a point of the base.
+
+    Attributes
+    ----------
+    normal : tuple of 3 Fraction
+        m, not 0, in the mobile frame.
+    offset : Fraction
+        d.
+    base : tuple of 3 Fraction
+        A, in the fixed frame.
+    name : str
+        Its label; may be empty.
+
+    Examples
+    --------
+    >>> zero, one = Fraction(0), Fraction(1)
+    >>> [str(x) for x in Carries((zero, zero, one), Fraction(2), (one, zero, zero)).forms((1, 1, 1))[0][3:10]]
+    ['-1', '0', '0', '0', '0', '0', '1']
+    """
+
+    normal: Vector
+    offset: Fraction
+    base: Vector
+    name: str = ""
+
+    type: ClassVar[str] = "carries"
+    title: ClassVar[str] = "base point in a plane of the platform: m.R^-1 (A - C) = d"
+    fields: ClassVar[Mapping[str, Role]] = MappingProxyType(
+        {"normal": Role.PLATFORM_DIRECTION, "offset": Role.NUMBER, "base": Role.BASE_POINT}
+    )
+    value_field: ClassVar[str | None] = "offset"
+    codimension: ClassVar[int] = 1
+
+    def forms(self, metric: tuple[int, int, int]) -> tuple[Form, ...]:
+        """The hyperplane."""
+        return (
+            form(
+                turned=scaled(metric, self.normal, -1),
+                rotation=outer(metric, self.base, self.normal),
+                constant=-self.offset,
+            ),
+        )
+
+    def mirrored(self) -> InPlane:
+        """A platform point in a plane of the base."""
+        return InPlane(self.normal, self.offset, self.base, self.name)

@@ -10,11 +10,14 @@ Roll, pitch and yaw are turns about the fixed axes x, y, z, in this order: R = R
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Quaternion
 from pkm_exact.wording import shown
+
+if TYPE_CHECKING:
+    from flint import arb
 
 NEAREST_TURN: Final = Fraction(1, 10**12)
 """How near a rotation in degrees is taken where nothing else is said: the greatest error of an entry of its matrix."""
@@ -51,8 +54,6 @@ def half_turn_pair(degrees: Fraction, nearest: Fraction = NEAREST_TURN) -> tuple
 
 
 def _near_pair(angle: Fraction, nearest: Fraction) -> tuple[Fraction, Fraction]:
-    from flint import arb, fmpq
-
     from pkm_exact.precision import working_precision
 
     # The angle is twice the arc tangent: off by at most twice what the tangent is, half a unit of this grid at most.
@@ -60,13 +61,24 @@ def _near_pair(angle: Fraction, nearest: Fraction) -> tuple[Fraction, Fraction]:
     while grid * nearest < 2:
         grid *= 2
     with working_precision(grid.bit_length() + _GUARD_BITS):
-        sin, cos = arb.sin_cos_pi_fmpq(fmpq(angle.numerator, 360 * angle.denominator))
+        sin, cos = sine_and_cosine(angle / 2)
         small_sine = bool(abs(sin) < abs(cos))
         ratio = (sin / cos if small_sine else cos / sin) * grid
         middle = ratio.mid().fmpq()
         number = Fraction(round(Fraction(int(middle.p), int(middle.q))), grid)
         sign = 1 if bool((cos if small_sine else sin) > 0) else -1
     return (Fraction(sign), sign * number) if small_sine else (sign * number, Fraction(sign))
+
+
+def sine_and_cosine(degrees: Fraction) -> tuple[arb, arb]:
+    """Sine and cosine of an angle as balls, at the precision in force.
+
+    >>> sine_and_cosine(Fraction(30))[0]
+    0.500000000000000
+    """
+    from flint import arb, fmpq
+
+    return arb.sin_cos_pi_fmpq(fmpq(degrees.numerator, 180 * degrees.denominator))
 
 
 def quaternion_of_angles(

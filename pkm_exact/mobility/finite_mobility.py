@@ -25,7 +25,7 @@ from itertools import chain, combinations
 from typing import Final
 
 from pkm_exact.geometry.linkage import Linkage
-from pkm_exact.mobility.instantaneous import Instantaneous, instantaneous
+from pkm_exact.mobility.instantaneous_mobility import Instantaneous, instantaneous
 from pkm_exact.mobility.reachable import legs_are_transversal
 from pkm_exact.mobility.second_order import cone_dimension, obstructions, signature
 from pkm_exact.screws.screw import Screw
