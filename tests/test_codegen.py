@@ -10,7 +10,7 @@ import pytest
 from following_tools import Array, precise_pose
 from samples import solved
 
-from pkm_exact import Robot
+from pkm_exact import Robot, read_robot
 from pkm_exact.cli.main import main
 from pkm_exact.following.c_files import c_files
 from pkm_exact.following.follower import Followed, next_pose
@@ -138,3 +138,20 @@ def test_names_from_a_model_cannot_leave_their_comment() -> None:
     text = c_files("r", home.tables, home, "x */ int main(void) { return 1; }\n#error \\")["r.h"]
     assert text.count("*/") == c_files("r", home.tables, home, "x")["r.h"].count("*/")
     assert "\n#error" not in text
+
+
+def test_the_code_begins_at_the_nominal_pose(tmp_path: Path, capsys: Capture) -> None:
+    """The pose of merlet-p that is not the best conditioned one, once the model says that it is meant."""
+    text = (MODELS / "3-rpr-merlet-p.toml").read_text(encoding="utf-8")
+    poses = read_robot(MODELS / "3-rpr-merlet-p.toml").solve().poses
+    starts = []
+    for place, pose in enumerate(poses):
+        x, y = (str(bound.lo) for bound in pose.position[:2])
+        model = tmp_path / f"arm{place}.toml"
+        model.write_text(f'{text}\n[nominal]\nposition = ["{x}", "{y}"]\ndegrees = 0\n', encoding="utf-8")
+        assert main(["codegen", str(model), "-o", str(tmp_path / str(place)), "--name", "arm"]) == 0
+        example = (tmp_path / str(place) / "arm_example.c").read_text(encoding="utf-8")
+        starts.append(float(example.split("position[3] = {")[1].split(",")[0]))
+    capsys.readouterr()
+    assert starts == pytest.approx([float(pose.position[0].lo) for pose in poses])
+    assert starts[0] != pytest.approx(starts[1])

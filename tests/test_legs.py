@@ -267,6 +267,14 @@ def test_a_recorded_matrix_becomes_the_rotation_next_to_it(capsys: Capture) -> N
     assert abs(rows[0][0] - Fraction("0.866")) < Fraction(1, 1000)
 
 
+def test_a_machine_that_does_not_turn_needs_no_rotation(capsys: Capture) -> None:
+    words = ["legs", str(MODELS / "delta.toml"), "--position", "0,0,-2"]
+    assert main(words) == 0
+    short = capsys.readouterr().out
+    assert main([*words, "--quaternion", "1,0,0,0"]) == 0
+    assert capsys.readouterr().out == short
+
+
 BAD = [
     (["--quaternion", "1,0,0,0"], "missing option '--position'"),
     (["--position", "0,0,1"], "give exactly one of --quaternion, --cayley, --matrix and --rpy"),

@@ -64,7 +64,11 @@ def planar(tmp_path: Path) -> Path:
         ("3-rpr-merlet-p", "base_cones = { axes = [0, 1], angle = 181 }", "181 is out of range"),
         ("3-rpr-merlet-p", "base_cones = { axes = [0, 1], angle = [9, 9] }", "2 angles; give one for all, or 3"),
         ("3-rpr-merlet-p", "base_cones = { axes = [0, 1, 2], angle = 9 }", "a list of 3; give a list of 2"),
-        ("3-rpr-merlet-p", "base_cones = { axes = [[0, 1]], angle = 9 }", "1 vectors; give one for all, or 3"),
+        (
+            "3-rpr-merlet-p",
+            "base_cones = { axes = [[0, 1]], angle = 9 }",
+            "1 vector; give 3, or one for all without the outer brackets, as [0, 1]",
+        ),
         ("3-rrr", "base_cones = { axes = [0, 1], angle = 9 }", "the rods stand on cranks"),
         ("mssm", "leg_distance = 0", "0 is not positive"),
         ("delta", "lengths = [1, 2]", "limits.lengths: the robot has no actuated leg length"),

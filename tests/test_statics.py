@@ -98,6 +98,22 @@ def test_slides_and_cranks_at_an_exact_pose_need_a_working_mode() -> None:
     assert np.allclose(up.jacobian.to_numpy()[:, :2], -down.jacobian.to_numpy()[:, :2])
 
 
+def test_a_delta_at_irrational_crank_angles_has_the_speeds_that_differences_give() -> None:
+    base, arm, rod, step = 1.74, 1.73, 2.66, 1e-6
+
+    def angle(z: float, side: int) -> float:
+        """Of a crank, downwards from outwards, where the platform is on the axis: triangle of crank, rod and joints."""
+        distance, inclination = np.hypot(base, z), np.arctan2(-z, -base)
+        return float(inclination + side * np.arccos((distance**2 + arm**2 - rod**2) / (2 * arm * distance)))
+
+    found = [machine_at(model("delta"), {"position": [0, 0, -2]}, modes=sign * 3) for sign in "+-"]
+    assert all(at.is_exact for at in found)
+    columns = [at.jacobian.to_numpy()[:, 2] for at in found if at.jacobian is not None]
+    speeds = [(angle(-2 + step, side) - angle(-2 - step, side)) / (2 * step) for side in (-1, 1)]
+    assert sorted(column[0] for column in columns) == pytest.approx(sorted(speeds), rel=1e-6)
+    assert [column[1:] for column in columns] == [pytest.approx([column[0]] * 2) for column in columns]
+
+
 def h4() -> Mechanism:
     """H4 with its slides along z, at home."""
     bases, sides = [(-48, -42), (-48, 42), (6, 42), (48, 0)], (-6, -6, 6, 6)

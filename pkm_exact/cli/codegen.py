@@ -14,6 +14,7 @@ from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
     from pkm_exact.following.follower import Followed
+    from pkm_exact.geometry.nominal_pose import NominalPose
     from pkm_exact.interactive.robots import Robot
     from pkm_exact.solution import Solution
 
@@ -26,7 +27,8 @@ if TYPE_CHECKING:
     "--pose",
     type=click.IntRange(1),
     metavar="K",
-    help="Number of the pose, as `solve` prints them, where example and test begin.  [default: the best conditioned]",
+    help="Number of the pose, as `solve` prints them, where example and test begin.  [default: the one nearest to the "
+    "model's nominal pose; without that the best conditioned]",
 )
 @click.option("--name", metavar="NAME", help="What files and functions begin with.  [default: that of the model file]")
 @click.option("--force", is_flag=True, help="Overwrite files that exist.")
@@ -73,7 +75,8 @@ def _home(robot: Robot, model: str, configuration: str | None, pose: int | None)
         raise InputError(f"{model}: {error}") from None
     with Progress(verbose=False) as progress:
         solution = robot.solve(configuration=chosen.name, progress=progress)
-    home = robot.follow(joint_values(robot, chosen), solution.poses[_number(solution, model, pose) - 1])
+    number = _number(solution, model, pose, robot.nominal)
+    home = robot.follow(joint_values(robot, chosen), solution.poses[number - 1])
     if not home.is_proved:
         raise InputError(
             f"{model}: in doubles nothing can be proved of this pose, it is too near to a singular one; give --pose or "
@@ -82,8 +85,10 @@ def _home(robot: Robot, model: str, configuration: str | None, pose: int | None)
     return home
 
 
-def _number(solution: Solution, model: str, pose: int | None) -> int:
-    """The pose asked for, or that with the least condition number."""
+def _number(solution: Solution, model: str, pose: int | None, nominal: NominalPose | None) -> int:
+    """The pose asked for, or the one nearest to the nominal pose, or that with the least condition number."""
+    from pkm_exact.poses.nearest_pose import nearest_pose
+
     count = len(solution.poses)
     if count == 0:
         raise InputError(f"{model}: this configuration has no real pose to begin at; give --configuration with another")
@@ -91,6 +96,9 @@ def _number(solution: Solution, model: str, pose: int | None) -> int:
         if pose > count:
             raise InputError(f"--pose: {pose} is not among the {count} poses of this configuration; give 1 to {count}")
         return pose
+    nearest = nearest_pose(solution.poses, nominal) if nominal is not None else None
+    if nearest is not None:
+        return nearest.numbers[0]
     conditions = [entry.condition.hi if entry.condition is not None else None for entry in solution.poses]
     known = [(value, number) for number, value in enumerate(conditions, 1) if value is not None]
     return min(known)[1] if known else 1

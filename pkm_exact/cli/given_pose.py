@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 
 _PLANAR: Final = ("--half-tangent", "--cos-sin", "--degrees")
 _IN_DEGREES: Final = ("--rpy", "--degrees")
+_NO_ROTATION: Final = (
+    "give exactly one of --quaternion, --cayley, --matrix and --rpy; of --half-tangent, --cos-sin and --degrees if it "
+    "is planar; none only if it does not turn."
+)
 _COUNTS: Final = {
     "--quaternion": 4,
     "--cayley": 3,
@@ -89,11 +93,11 @@ def given_pose(position: str, *, in_metric: bool, nearest: Fraction | None, **tu
     """
     words = {f"--{name.replace('_', '-')}": text for name, text in turns.items()}
     given = [(name, text) for name, text in words.items() if text is not None]
+    if not given and position.count(",") == 2:
+        # Enough for a machine that only moves; for others `pose_of` asks for the rotation.
+        return GivenPose(_vector(numbers(position, "--position", 3)), "", [], nearest, in_metric)
     if len(given) != 1:
-        raise click.UsageError(
-            "give exactly one of --quaternion, --cayley, --matrix and --rpy; of --half-tangent, --cos-sin and "
-            "--degrees if it is planar."
-        )
+        raise click.UsageError(_NO_ROTATION)
     if in_metric and nearest is not None:
         raise click.UsageError("--in-metric and --nearest exclude each other: a pose of the file is exact.")
     if in_metric and given[0][0] in _IN_DEGREES:
@@ -108,6 +112,12 @@ def given_pose(position: str, *, in_metric: bool, nearest: Fraction | None, **tu
 
 def pose_of(given: GivenPose, robot: Machine, model: str) -> tuple[Vector, Matrix, Fraction | None]:
     """The pose in the coordinates of the model, and by how much it may be off; None if it is exact."""
+    from pkm_exact.motions.motion_groups import TRANSLATION
+
+    if not given.option:
+        if robot.motion != TRANSLATION:
+            raise click.UsageError(_NO_ROTATION)
+        given = replace(given, option="--quaternion", values=[Fraction(n) for n in (1, 0, 0, 0)])
     _require_kind(given.option, robot, model)
     if given.in_metric:
         return given.position, _rotation(given.option, given.values, robot.metric), None

@@ -184,6 +184,10 @@ def _new_machine(output: str | None, name: str | None, dimensions: tuple[str, ..
         return ExitCode.DONE
     arguments.write_output(output, text.encode("utf-8"))
     found = f"{len(solution.poses)} real poses of {solution.complex_solutions} complex ones, proved complete"
+    if not solution.poses:
+        found += (
+            "; so it cannot be assembled at home: the joint values are those of an example, change them in the file"
+        )
     click.echo(f"{printable(output)}: {kind.name}, home: {found}")
     click.echo(f"next: {PROGRAM} solve {printable(shlex.quote(output))}")
     return ExitCode.DONE

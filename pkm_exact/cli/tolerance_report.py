@@ -172,8 +172,8 @@ def _singular(box: ToleranceBox) -> str:
     if not box.fraction:
         return f"pose {box.pose}: singular, or too close to a singularity for any tolerance"
     return (
-        f"pose {box.pose}: a singularity within tolerance cannot be excluded; proved for {_percent(box.fraction)} of "
-        f"the tolerance, and what moves the platform most is the {box.dominant}"
+        f"pose {box.pose}: proved for {_percent(box.fraction)} of the tolerance, not for all of it: beyond, a "
+        f"singularity is neither found nor excluded; what moves the platform most is the {box.dominant}"
     )
 
 

@@ -132,7 +132,10 @@ def _cones(value: object, where: str, parts: LimitedParts) -> Cones:
     rows = list_field(required(value, "axes", f"{where}."), f"{where}.axes", parts.legs)
     one = not any(isinstance(row, list) for row in rows)
     if not one and len(rows) != parts.legs:
-        raise InputError(f"{where}.axes: {len(rows)} vectors; give one for all, or {parts.legs}")
+        raise InputError(
+            f"{where}.axes: {len(rows)} vector{'s' * (len(rows) != 1)}; give {parts.legs}, or one for all without the "
+            f"outer brackets, as [{', '.join('0' * (parts.dimension - 1))}, 1]"
+        )
     axes = [
         parse_vector(row, f"{where}.axes" if one else f"{where}.axes[{i}]", parts.dimension)
         for i, row in enumerate([rows] if one else rows, 1)

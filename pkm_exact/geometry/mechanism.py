@@ -24,6 +24,7 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_rational
 from pkm_exact.motions.motion import Motion
 from pkm_exact.motions.motion_groups import SPATIAL
+from pkm_exact.radicals import RootSum
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
@@ -251,12 +252,16 @@ class Mechanism(Machine):
         return linear - squares[0].factor * root * root
 
     def holds(self, constraint: Constraint, position: Vector, rotation: Matrix) -> bool:
-        """Whether a constraint holds at a pose, exactly."""
-        linear = all(self._at(form, position, rotation) == 0 for form in constraint.forms(self.metric))
-        return linear and all(
-            self._at(found.linear, position, rotation) == found.factor * self._at(found.root, position, rotation) ** 2
-            for found in constraint.squares(self.metric)
-        )
+        """Whether a constraint holds at a pose, exactly. Its numbers may be sums of square roots."""
+
+        def at(form: Form) -> RootSum:
+            return RootSum.of(value_at(form, position, rotation, self.metric))
+
+        values = [at(form) for form in constraint.forms(self.metric)]
+        for found in constraint.squares(self.metric):
+            root = at(found.root)
+            values.append(at(found.linear) - root * root * found.factor)
+        return all(value.sign() == 0 for value in values)
 
     def _at(self, form: Form, position: Vector, rotation: Matrix) -> Fraction:
         return Fraction(value_at(form, position, rotation, self.metric))
