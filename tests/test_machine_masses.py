@@ -1,14 +1,16 @@
-"""Rods on slides with their masses: motions of rods, and static balance, as chapter 12 should have them."""
+"""Rods on slides: motions of rods and platforms, axes at singular poses, static balance (chapters 12 and 19)."""
 
 from fractions import Fraction
 from random import Random
 
+import numpy as np
 import pytest
 
 from pkm_exact import InputError
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.inverse import rotation_of
-from pkm_exact.statics.rod_motion import PlatformMotion, rod_motion
+from pkm_exact.statics.closest_complex import closest_complex
+from pkm_exact.statics.rod_motion import PlacedRod, PlatformMotion, platform_motion, rod_motion
 from pkm_exact.statics.static_balance import Pantograph, Rod, balance_identity, counterweights
 
 ZERO = Fraction(0)
@@ -60,6 +62,114 @@ def test_a_rod_across_its_slide_is_refused() -> None:
     motion = PlatformMotion(ORIGIN, ORIGIN, ORIGIN, ORIGIN)
     with pytest.raises(InputError, match="perpendicular to its slide"):
         rod_motion(motion, ORIGIN, (Fraction(1), ZERO, ZERO), (ZERO, Fraction(1), ZERO))
+
+
+E3: tuple[Vector, ...] = ((Fraction(1), ZERO, ZERO), (ZERO, Fraction(1), ZERO), (ZERO, ZERO, Fraction(1)))
+
+
+@pytest.mark.parametrize("turning", [E3, E3[2:], ()])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_platform_moves_as_its_sliders_ask(turning: tuple[Vector, ...], seed: int) -> None:
+    """The sliders' speeds and accelerations that a motion asks for give that motion."""
+    random = Random(seed)
+    rods = [PlacedRod(*(vector(random) for _ in range(3))) for _ in range(3 + len(turning))]
+    turns = [total(*((Fraction(random.randint(-5, 5)), axis) for axis in turning)) for _ in range(2)]
+    motion = PlatformMotion(vector(random), turns[0], vector(random), turns[1])
+    asked = [rod_motion(motion, r.joint, r.rod, r.direction) for r in rods]
+    assert platform_motion(rods, [x.speed for x in asked], [x.acceleration for x in asked], turning) == motion
+
+
+H4 = [
+    ((-6, 0, 0), (42, 42, -42)),
+    ((-6, 0, 0), (42, -42, -42)),
+    ((6, 0, 0), (0, -42, -42)),
+    ((6, 0, 0), (-42, 0, -42)),
+]
+"""Chapter 19 at home: hinges of the bars from the platform's centre, and rods from the sliders."""
+
+
+def h4() -> list[PlacedRod]:
+    return [PlacedRod(*(tuple(map(Fraction, v)) for v in (*pair, E3[2]))) for pair in H4]  # type: ignore[arg-type]
+
+
+def test_speeds_and_accelerations_of_the_h4() -> None:
+    """The book has -1/8 for the rate of the angle, and accelerations of 23 and 2.5."""
+    speeds, accelerations = ([Fraction(n) for n in row] for row in ((1, -1, 1, 1), (10, -10, 10, 10)))
+    found = platform_motion(h4(), speeds, [ZERO] * 4, E3[2:])
+    assert [*found.velocity, found.turning[2]] == [Fraction(x) for x in ("1/2", "-1/4", "1/2", "1/8")]
+    still = platform_motion(h4(), [ZERO] * 4, accelerations, E3[2:])
+    assert [*still.acceleration, still.turning_acceleration[2]] == [Fraction(x) for x in ("5", "-5/2", "5", "5/4")]
+    assert dot(still.acceleration, still.acceleration) == Fraction(15, 2) ** 2
+    # Moving sliders without acceleration: what equations 39 and 40 leave out is not 0.
+    assert any(found.acceleration)
+    x, y, z = found.acceleration
+    for rod, speed in zip(h4(), speeds, strict=True):
+        lever = cross(found.turning, rod.joint)
+        change = total((1, found.velocity), (1, lever), (-speed, rod.direction))
+        free = total(
+            (1, (x, y, z)), (1, cross(found.turning_acceleration, rod.joint)), (1, cross(found.turning, lever))
+        )
+        assert dot(rod.rod, free) + dot(change, change) == 0
+
+
+def test_motions_that_sliders_do_not_determine_are_refused() -> None:
+    same = [PlacedRod(ORIGIN, E3[0], E3[0])] * 3
+    with pytest.raises(InputError, match="rods: singular here"):
+        platform_motion(same, [ZERO] * 3, [ZERO] * 3, ())
+    with pytest.raises(InputError, match="rods: 3, with 3 speeds, 3 accelerations and 1 directions"):
+        platform_motion(same, [ZERO] * 3, [ZERO] * 3, E3[2:])
+
+
+def lines_of_the_h4(x: float, y: float, theta: float) -> np.ndarray:  # type: ignore[type-arg]
+    """Six lines of chapter 19 about the platform's centre: four rods through the hinges, two couples."""
+    c, s = np.cos(theta), np.sin(theta)
+    feet = np.array([[-48, -48], [-48, 48], [6, 48], [48, -6]], dtype=float)
+    bars = np.array([[0, -6, 0], [0, 6, 0], [0, 6, 0], [0, -6, 0]], dtype=float)
+    along = np.array([[-1, 1, 0], [1, 1, 0], [1, 0, 0], [0, -1, 0]], dtype=float)
+    squares = [5292, 5292, 3528, 3528]
+    rows, normals = [], []
+    for k in range(4):
+        hinge = np.array([c, s, 0]) * (-6 if k < 2 else 6)
+        end = np.array([x, y, 0]) + hinge + bars[k]
+        flat = end[:2] - feet[k]
+        rod = np.array([*flat, -np.sqrt(squares[k] - flat @ flat)])
+        rod /= np.linalg.norm(rod)
+        rows.append([*rod, *np.cross(hinge, rod)])
+        normals.append(np.cross(rod, along[k]))
+    up = np.array([0.0, 0, 1])
+    for one, other in ((0, 1), (2, 3)):
+        couple = np.cross(np.cross(normals[one], normals[other]), up)
+        rows.append([0, 0, 0, *(couple / np.linalg.norm(couple))])
+    return np.array(rows)
+
+
+@pytest.mark.parametrize(
+    ("pose", "axis", "pitch"),
+    [
+        ((-9.5812, -9.4130, -1.5080), (0, 0, 1, -5.2937, -0.3331, 0), -9.4051),
+        ((-3.6683, 3.3709, -2.3905), (0.9137, 0.3524, -0.2024, 0.3208, -0.2064, 1.0887), 1.0469),
+    ],
+)
+def test_the_axes_at_both_singular_poses_of_the_h4(
+    pose: tuple[float, float, float], axis: tuple[float, ...], pitch: float
+) -> None:
+    found = closest_complex(lines_of_the_h4(*pose))
+    printed = np.array(axis)
+    printed *= np.sign(printed[:3] @ found.direction)
+    assert np.allclose([*found.direction, *found.moment], printed, atol=5e-4)
+    assert found.pitch == pytest.approx(pitch, abs=1e-4)
+    assert found.deviation < 2e-3
+    assert closest_complex(lines_of_the_h4(0, 0, 0)).deviation > 0.05
+
+
+@pytest.mark.parametrize(
+    "pose",
+    [(-8.50393, -9.59639, -1.5), (5.36667, -10.10858, -1.3), (12.51451, -6.80120, -1.1), (-9.58672, -9.41204, -1.508)],
+)
+def test_the_rods_of_the_h4_depend_along_a_curve(pose: tuple[float, float, float]) -> None:
+    """The book has one such pose."""
+    assert np.linalg.svd(lines_of_the_h4(*pose)[:4], compute_uv=False)[3] < 1e-5
+    assert np.linalg.svd(lines_of_the_h4(0, 0, 0)[:4], compute_uv=False)[3] > 0.1
 
 
 def at_poses(

@@ -8,11 +8,15 @@ derivative of s).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from flint import fmpq_mat
+
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
+from pkm_exact.screws.exact_matrix import flint_matrix, rows_of
 from pkm_exact.screws.screw import cross
 
 
@@ -91,6 +95,84 @@ def rod_motion(motion: PlatformMotion, joint: Vector, rod: Vector, direction: Ve
     square = _dot(rod, rod)
     turning, faster = (_scaled(cross(rod, x), 1 / square) for x in (change, second))
     return RodMotion(speed, acceleration, turning, faster)
+
+
+@dataclass(frozen=True)
+class PlacedRod:
+    """A rod at a pose.
+
+    Attributes
+    ----------
+    joint : Vector
+        R p: what turns with the platform between its origin and the rod, in the base's directions.
+    rod : Vector
+        From the slider to the joint.
+    direction : Vector
+        Of the slide.
+    """
+
+    joint: Vector
+    rod: Vector
+    direction: Vector
+
+
+def platform_motion(
+    rods: Sequence[PlacedRod],
+    speeds: Sequence[Fraction],
+    accelerations: Sequence[Fraction],
+    turning: Sequence[Vector],
+) -> PlatformMotion:
+    """How a platform moves when its sliders do, the terms of second order in the speeds included.
+
+    Parameters
+    ----------
+    rods : sequence of PlacedRod
+        As many as freedoms.
+    speeds, accelerations : sequence of Fraction
+        First and second derivatives of the sliders' positions.
+    turning : sequence of Vector
+        Directions about which the platform can turn: none, one, or three that are independent.
+
+    Raises
+    ------
+    InputError
+        If there are not as many rods as freedoms, or the pose is singular.
+
+    Examples
+    --------
+    >>> e = [tuple(map(Fraction, v)) for v in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
+    >>> rods = [PlacedRod((Fraction(0),) * 3, axis, axis) for axis in e]
+    >>> found = platform_motion(rods, [Fraction(2), Fraction(0), Fraction(0)], [Fraction(1)] * 3, [])
+    >>> [str(x) for x in (*found.velocity, *found.acceleration)]
+    ['2', '0', '0', '1', '-3', '-3']
+    """
+    if len(turning) not in (0, 1, 3) or not len(rods) == len(speeds) == len(accelerations) == 3 + len(turning):
+        raise InputError(
+            f"rods: {len(rods)}, with {len(speeds)} speeds, {len(accelerations)} accelerations and {len(turning)}"
+            " directions to turn about; give none, one or three of these, and three of the others more"
+        )
+    matrix = flint_matrix([(*r.rod, *(_dot(r.rod, cross(axis, r.joint)) for axis in turning)) for r in rods], len(rods))
+    if matrix.det() == 0:
+        raise InputError("rods: singular here, so that the sliders do not determine the motion; move the pose")
+    inverse = matrix.inv()
+    first = [_dot(r.rod, r.direction) * speed for r, speed in zip(rods, speeds, strict=True)]
+    velocity, omega = _split(inverse * flint_matrix([[x] for x in first], 1), turning)
+    second = []
+    for r, speed, acceleration in zip(rods, speeds, accelerations, strict=True):
+        lever = cross(omega, r.joint)
+        change = _plus(_plus(velocity, lever), r.direction, -speed)
+        inward = cross(omega, lever)
+        second.append(_dot(r.rod, r.direction) * acceleration - _dot(r.rod, inward) - _dot(change, change))
+    return PlatformMotion(velocity, omega, *_split(inverse * flint_matrix([[x] for x in second], 1), turning))
+
+
+def _split(column: fmpq_mat, turning: Sequence[Vector]) -> tuple[Vector, Vector]:
+    """A velocity, and the combination of directions."""
+    x, y, z, *rates = (row[0] for row in rows_of(column))
+    turned: Vector = (Fraction(0), Fraction(0), Fraction(0))
+    for rate, axis in zip(rates, turning, strict=True):
+        turned = _plus(turned, axis, rate)
+    return (x, y, z), turned
 
 
 def _dot(u: Vector, v: Vector) -> Fraction:
