@@ -24,7 +24,7 @@ import numpy as np
 from pkm_exact import Robot
 from pkm_exact.following.c_files import c_files
 from pkm_exact.following.follower import Followed, next_pose
-from pkm_exact.following.starts import joint_values
+from pkm_exact.following.following_start import joint_values
 
 MODELS = Path(__file__).parent.parent / "models"
 NAMES = ("rolland-6-6", "hexa", "hexaglide", "3-rpr-merlet-p", "3-rrr")
