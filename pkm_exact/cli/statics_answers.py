@@ -125,7 +125,7 @@ def answers(
     InputError
         If an option cannot be used at this pose.
     """
-    given = _limits(limits)
+    given = given_limits(limits)
     if load_at is not None and load is None:
         raise click.UsageError("--load-at: belongs to --load, give that as well.")
     refused: dict[str, str] = {}
@@ -185,7 +185,7 @@ def _failures(measures: Measures) -> Any:
     return found
 
 
-def _limits(words: Sequence[str]) -> dict[str, Any]:
+def given_limits(words: Sequence[str]) -> dict[str, Any]:
     """What --limits denotes: KEY=NUMBER or KEY=NUMBER,NUMBER,.."""
     found: dict[str, Any] = {}
     for word in words:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from pkm_exact.interactive.progress import Progress
+    from pkm_exact.sweep.asked_indices import AskedIndices
     from pkm_exact.sweep.job import SweepJob
     from pkm_exact.sweep.lengths import LengthsFile
     from pkm_exact.sweep.run import Tally, Workers
@@ -56,6 +57,20 @@ _SECONDS_PER_LINE: Final = 0.2
     help="Write the certificate of row n to DIR/n.json as well.",
 )
 @click.option(
+    "--index",
+    "indices",
+    multiple=True,
+    metavar="NAME",
+    help="At each pose this index of statics as well, as condition or v_iso_p; can be repeated.",
+)
+@click.option(
+    "--limits",
+    "limits",
+    multiple=True,
+    metavar="KEY=VALUES",
+    help="What indices need, as for statics: length=0.1, speeds=1/2, ..",
+)
+@click.option(
     "--workers",
     type=click.IntRange(1, MOST_WORKERS),
     metavar="N",
@@ -71,6 +86,8 @@ def sweep(
     width: Fraction,
     squared: bool,
     certificates: str | None,
+    indices: tuple[str, ...],
+    limits: tuple[str, ...],
     workers: int | None,
     scheduler: str | None,
     verbose: bool,
@@ -91,10 +108,13 @@ def sweep(
     Examples:
       certify-poses sweep models/rolland-6-6.toml lengths.csv -o poses.jsonl
       certify-poses sweep models/rolland-6-6.toml lengths.csv -o poses.jsonl --certificates certificates
+      certify-poses sweep models/rolland-6-6.toml lengths.csv -o poses.jsonl --index condition --limits length=100
       certify-poses sweep models/rolland-6-6.toml lengths.csv -o poses.jsonl --scheduler tcp://10.0.0.1:8786
     """
     if workers is not None and scheduler is not None:
         raise click.UsageError("--workers and --scheduler exclude each other: a cluster has its own workers.")
+    if limits and not indices:
+        raise click.UsageError("--limits: belongs to --index, give that as well.")
     target = Path(output)
     folder = None if certificates is None else Path(certificates)
     from pkm_exact.cli.model_reading import announced_model
@@ -102,6 +122,7 @@ def sweep(
 
     robot = announced_model(model)
     rows = read_lengths(lengths, robot)
+    asked = _asked(indices, limits, len(rows.names))
     arguments.require_other_file(target, model, "-o")
     arguments.require_other_file(target, lengths, "-o", "the file of the lengths")
     arguments.require_writable(target, "-o")
@@ -112,7 +133,14 @@ def sweep(
     from pkm_exact.sweep.job import sweep_job
 
     job = sweep_job(
-        robot, rows, method=method, width=width, policy=Policy(), squared=squared, certificates=folder is not None
+        robot,
+        rows,
+        method=method,
+        width=width,
+        policy=Policy(),
+        squared=squared,
+        certificates=folder is not None,
+        indices=asked,
     )
 
     def started(job: SweepJob) -> AbstractContextManager[Workers]:
@@ -121,6 +149,19 @@ def sweep(
     tally = _swept(job, rows, target, started, folder, verbose=verbose)
     click.echo(_summary(tally), err=True)
     return ExitCode.DONE if tally.is_complete else ExitCode.WEAKER_CLAIM
+
+
+def _asked(indices: tuple[str, ...], limits: tuple[str, ...], actuators: int) -> AskedIndices | None:
+    """The indices that are asked for."""
+    if not indices:
+        return None
+    from pkm_exact.cli.statics_answers import given_limits
+    from pkm_exact.sweep.asked_indices import AskedIndices
+
+    try:
+        return AskedIndices.of(indices, given_limits(limits), actuators)
+    except InputError as error:
+        raise InputError(f"--{error}") from None
 
 
 def _swept(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from typing import Final
 
@@ -203,11 +203,15 @@ STATICS_INDICES: Final[tuple[StaticsIndex, ...]] = (
 """In the order of outputs."""
 
 
-def enclosed_indices(measures: Measures) -> tuple[dict[str, Interval], dict[str, str]]:
-    """The values of all indices that have one, by their names, and why the others have none."""
+def enclosed_indices(
+    measures: Measures, names: Collection[str] | None = None
+) -> tuple[dict[str, Interval], dict[str, str]]:
+    """The values of all indices, or of those named, that have one, and why the others have none."""
     values: dict[str, Interval] = {}
     refused: dict[str, str] = {}
     for index in STATICS_INDICES:
+        if names is not None and index.name not in names:
+            continue
         try:
             with working_precision(BITS):
                 found = index.value(measures)

@@ -20,6 +20,7 @@ from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.policy import Policy
+from pkm_exact.sweep.asked_indices import AskedIndices
 from pkm_exact.sweep.lengths import LengthRow, LengthsFile, problem_of
 from pkm_exact.sweep.record import error_line, solution_line
 
@@ -60,6 +61,8 @@ class SweepJob:
         Whether rows have squared lengths.
     certificates : bool
         Whether certificates are wanted, not only their digests.
+    indices : AskedIndices or None
+        What else is wanted at each pose.
     """
 
     robot: Machine
@@ -67,15 +70,15 @@ class SweepJob:
     solver: RowSolver
     squared: bool
     certificates: bool
+    indices: AskedIndices | None = None
 
     def answer(self, row: LengthRow) -> Answer:
         """The answer to a row, whatever happens on the way: the other rows are not affected."""
         try:
             solution = self.solver.solution(problem_of(self.robot, row, self.names, squared=self.squared))
             data = certificate_bytes(self.robot, None, solution)
-            return Answer(
-                row.number, solution_line(row, self.robot, solution, data), data if self.certificates else None
-            )
+            line = solution_line(row, self.robot, solution, data, self.indices)
+            return Answer(row.number, line, data if self.certificates else None)
         except InternalError as error:
             sentence = _internal(error)
         except InputError as error:
@@ -102,10 +105,12 @@ def sweep_job(
     policy: Policy,
     squared: bool,
     certificates: bool,
+    indices: AskedIndices | None = None,
 ) -> SweepJob:
     """The job for a file. The start section is that of the first rows, however many are solved by whom."""
     problems = list(_problems(robot, lengths, squared=squared)) if method == "krawczyk" else []
-    return SweepJob(robot, lengths.names, RowSolver.of(problems, width, policy, method), squared, certificates)
+    solver = RowSolver.of(problems, width, policy, method)
+    return SweepJob(robot, lengths.names, solver, squared, certificates, indices)
 
 
 def _problems(robot: Machine, lengths: LengthsFile, *, squared: bool) -> Iterable[ForwardProblem]:
@@ -123,7 +128,9 @@ def identity(job: SweepJob, lengths: LengthsFile, certificates: Path | None) -> 
     robot = job.robot
     joints = (robot.kind, robot.metric, *_geometry(robot))
     words = (pkm_exact.__version__, robot.name, robot.unit, robot.source, joints, lengths.digest)
-    options = (job.solver.method, job.solver.width, job.solver.policy, job.squared, folder)
+    options: tuple[object, ...] = (job.solver.method, job.solver.width, job.solver.policy, job.squared, folder)
+    if job.indices is not None:
+        options = (*options, job.indices)
     return sha256(repr((words, options)).encode()).hexdigest()
 
 

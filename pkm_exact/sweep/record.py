@@ -14,11 +14,19 @@ from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_spelling import pose_decimals
 from pkm_exact.roots.interval import Interval, decimal
 from pkm_exact.solution import Solution
+from pkm_exact.sweep.asked_indices import AskedIndices
 from pkm_exact.sweep.lengths import LengthRow
 
 
-def solution_line(row: LengthRow, robot: Machine, solution: Solution, certificate: bytes) -> bytes:
-    """What was found for a row, with the digest of its certificate."""
+def solution_line(
+    row: LengthRow, robot: Machine, solution: Solution, certificate: bytes, asked: AskedIndices | None = None
+) -> bytes:
+    """What was found for a row, with the digest of its certificate, and at each pose the indices asked for."""
+    poses, notes = [_pose(pose) for pose in solution.poses], list(answer_notes(robot, None, solution))
+    if asked is not None:
+        values, reasons = asked.at_poses(robot, solution.problem, solution.poses)
+        poses = [{**pose, "indices": found} for pose, found in zip(poses, values, strict=True)]
+        notes += reasons
     return _line(
         row,
         {
@@ -28,8 +36,8 @@ def solution_line(row: LengthRow, robot: Machine, solution: Solution, certificat
             "complex_solutions": solution.complex_solutions,
             "distinct_solutions": solution.distinct_solutions,
             "real_poses": len(solution.poses),
-            "poses": [_pose(pose) for pose in solution.poses],
-            "notes": list(answer_notes(robot, None, solution)),
+            "poses": poses,
+            "notes": notes,
             "certificate_sha256": sha256(certificate).hexdigest(),
         },
     )
