@@ -13,6 +13,7 @@ from pkm_exact import Mechanism, Robot
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.point_in_plane import Carries, InPlane
+from pkm_exact.engine import solve
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.drives import Drive, Part
 from pkm_exact.geometry.mechanism import LockedValues
@@ -20,7 +21,7 @@ from pkm_exact.geometry.mechanism import Mechanism as PlainMechanism
 from pkm_exact.motions.motion_groups import PLANAR, SCHOENFLIES
 from pkm_exact.radicals import RootSum
 from pkm_exact.statics.at_pose import AtPose
-from pkm_exact.statics.machine_at_pose import machine_at
+from pkm_exact.statics.machine_at_pose import machine_at, machine_at_solution
 
 Capture = pytest.CaptureFixture[str]
 POSES: dict[str, dict[str, object]] = {
@@ -255,3 +256,13 @@ def test_a_singular_pose_of_a_solution_is_of_type_2() -> None:
     robot = Robot.load("models/3-rpr-double-q.toml")
     singular = [robot.at(pose).singular for pose in solved("3-rpr-double-q").poses]
     assert ("type-2",) in singular
+
+
+def test_a_pose_of_other_lengths_is_refused() -> None:
+    """Its lengths are not those of the configuration, and J would be wrong."""
+    robot = model("3-rpr-merlet-p")
+    other = robot.problem_at([Fraction(x) for x in ("7.1", "5.1", "5")])
+    pose = solve(other).poses[0]
+    with pytest.raises(InputError, match="leg 1 does not hold there, it is a pose of other joint values"):
+        machine_at(robot, pose)
+    assert machine_at_solution(robot, other, pose).rank == 3

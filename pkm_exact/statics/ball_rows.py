@@ -56,6 +56,10 @@ class BallPose:
         rates = {rate.actuator: self._rate(rate) * size for rate in equation.rates}
         return BallRow(tuple(found[k] * size for k in twist), rates)
 
+    def vanishes(self, equation: Equation) -> bool:
+        """Whether the equation can hold: False if it is proved that it does not."""
+        return bool(self._value(equation.form).contains(0))
+
     def _in_balls(self, form: Sequence[Any]) -> list[arb]:
         return ordinary([ball_of(value) for value in form], self._roots)
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from pkm_exact.balls import hull
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.pose_reader import read_pose
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.pose import Pose
-from pkm_exact.statics.at_pose import AtPose, at_box, at_rational_pose
+from pkm_exact.precision import working_precision
+from pkm_exact.statics.at_pose import BITS, AtPose, at_box, at_rational_pose
+from pkm_exact.statics.ball_rows import BallPose
 from pkm_exact.statics.placement import held_at, held_in_solution
 
 
@@ -30,7 +33,9 @@ def machine_at(
                 "modes: belong to an exact pose; the joint values of a solution are those of its configuration"
             )
         chosen = machine.configuration(configuration) if _is_name(configuration) else configuration
-        return machine_at_solution(machine, machine.problem(chosen), pose, chosen)
+        there = machine_at_solution(machine, machine.problem(chosen), pose, chosen)
+        _require_own_pose(there)
+        return there
     position, rotation = read_pose(
         dict(pose) if isinstance(pose, Mapping) else pose, "pose", machine.motion, machine.metric
     )
@@ -49,6 +54,19 @@ def machine_at_solution(machine: Machine, problem: ForwardProblem, pose: Pose, c
         rank = problem.motion.dimension
     found = held_in_solution(machine, problem, configuration)
     return at_box(machine, found, pose.position, pose.rotation, rank)
+
+
+def _require_own_pose(at: AtPose) -> None:
+    """Refuse a pose at which a constraint is proved not to hold: lengths, and so J, would be others than its own."""
+    with working_precision(BITS):
+        position = [hull(x.lo, x.hi) for x in at.position]
+        place = BallPose(position, [[hull(x.lo, x.hi) for x in row] for row in at.rotation], at.metric)
+        for equation in at.equations:
+            if not place.vanishes(equation):
+                raise InputError(
+                    f"pose: {equation.name} does not hold there, it is a pose of other joint values; name its "
+                    "configuration, or give position and rotation"
+                )
 
 
 def _is_name(configuration: Any) -> bool:
