@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pkm_exact.errors import InputError
+from pkm_exact.polytopes.combinations_of_polytopes import hull_of
 from pkm_exact.polytopes.polytope import Polytope
 from pkm_exact.polytopes.slabs import Slabs
 from pkm_exact.polytopes.zonotope import Zonotope
@@ -145,3 +146,64 @@ def test_what_has_no_interior_or_no_bounds_is_refused() -> None:
         zonotope([(1, 0), (2, 0)]).facets  # noqa: B018
     with pytest.raises(InputError, match="leave some direction free"):
         slabs([(1, 0), (2, 0)]).polytope()
+
+
+def general(points: list[tuple[int, ...]]) -> Polytope | None:
+    """The hull of some points; None if they lie in a hyperplane."""
+    spread = np.array(points) - np.array(points[0])
+    if np.linalg.matrix_rank(spread) < len(points[0]):
+        return None
+    return hull_of(sorted({tuple(map(Fraction, point)) for point in points}), (ONE,) * len(points[0]))
+
+
+def are_combined_rightly(points: list[tuple[int, ...]], others: list[tuple[int, ...]]) -> None:
+    """By definition, in a few directions and at all points of a grid."""
+    left, right = general(points), general(others)
+    if left is None or right is None:
+        return
+    for found, corners in ((left, points), (right, others)):
+        is_consistent(found)
+        assert all(found.contains(point) for point in corners)
+        assert {tuple(map(int, vertex)) for vertex in found.vertices} <= set(corners)
+    total = left + right
+    is_consistent(total)
+    for direction in ((7, 11, 13), (-3, 5, 1), (1, 0, 0)):
+        aim = direction[: total.dimension]
+        reach = [max(sum(a * x for a, x in zip(aim, v, strict=True)) for v in p.vertices) for p in (total, left, right)]
+        assert reach[0] == reach[1] + reach[2]
+    try:
+        common = left & right
+    except InputError:
+        return  # no interior in common: the next test has such ones
+    is_consistent(common)
+    for point in product(range(-3, 4), repeat=common.dimension):
+        assert common.contains(point) == (left.contains(point) and right.contains(point))
+    assert (common & left).volume == common.volume
+
+
+clouds = st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=3, max_size=5)
+
+
+@given(clouds, clouds)
+@budget(12)
+def test_sums_and_intersections_of_any_polygons(points: list[tuple[int, ...]], others: list[tuple[int, ...]]) -> None:
+    are_combined_rightly(points, others)
+
+
+def test_sums_and_intersections_in_space() -> None:
+    simplex = [(0, 0, 0), (2, 0, 0), (0, 3, 0), (0, 0, 2)]
+    are_combined_rightly(simplex, [(-1, 1, 0), (1, 1, 1), (1, -1, 0), (0, 0, 3)])
+
+
+def test_polytopes_that_cannot_be_combined_are_refused() -> None:
+    unit = slabs([(1, 0), (0, 1)]).polytope()
+    far = hull_of([(ONE * 5, ONE), (ONE * 6, ONE), (ONE * 5, ONE * 2)], (ONE, ONE))
+    touching = hull_of([(ONE, -ONE), (ONE, ONE), (ONE * 2, ONE)], (ONE, ONE))
+    for other in (far, touching):
+        with pytest.raises(InputError, match=r"no point satisfies all bounds|no interior"):
+            unit & other
+    assert (unit + far).volume.lo == Fraction(17, 2)  # 4 + 1/2, and the mixed one: 2 h(unit) over the sides of far
+    with pytest.raises(InputError, match="different coordinates"):
+        unit + slabs([(1, 0, 0), (0, 1, 0), (0, 0, 1)]).polytope()
+    with pytest.raises(InputError, match="not rational"):
+        unit & slabs([(1, 0), (0, 1)], [RootSum.root(Fraction(2)), ONE]).polytope()

@@ -61,6 +61,8 @@ class Polytope:
     >>> square = Slabs(((one, zero), (zero, one)), (-one, -one), (one, one)).polytope()
     >>> len(square.vertices), len(square.facets), square.volume, square.contains((one, one / 2))
     (4, 4, [4], True)
+    >>> (square + square).volume, (square & square).volume
+    ([16], [4])
     >>> square.inscribed_radius, square.greatest_norm.width < 1e-15
     ([1], True)
     """
@@ -73,6 +75,18 @@ class Polytope:
     def dimension(self) -> int:
         """Of the space, and of the polytope."""
         return len(self.squares)
+
+    def __and__(self, other: Polytope) -> Polytope:
+        """The intersection with another one, of rational ones (``combinations_of_polytopes``)."""
+        from pkm_exact.polytopes.combinations_of_polytopes import intersection
+
+        return intersection(self, other)
+
+    def __add__(self, other: Polytope) -> Polytope:
+        """The Minkowski sum with another one, of rational ones (``combinations_of_polytopes``)."""
+        from pkm_exact.polytopes.combinations_of_polytopes import minkowski_sum
+
+        return minkowski_sum(self, other)
 
     def contains(self, point: Sequence[Any]) -> bool:
         """Whether a point, in the coordinates x, lies in it or on its boundary, exactly."""

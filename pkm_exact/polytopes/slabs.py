@@ -35,6 +35,7 @@ class Slabs:
     ----------
     rows : tuple of rows of Fraction, or of arb
     low, high : tuple of numbers, one each row
+        A low one may be None: the row is bounded above only.
     squares : tuple of Fraction, optional
         Those of ``Polytope``, by default 1.
 
@@ -87,7 +88,7 @@ class Slabs:
     def corners(self) -> dict[tuple[tuple[int, int], ...], tuple[Any, ...]]:
         """All vertices, each under the sides on which it lies: an index of a row, and -1 or 1 for its bounds."""
         count, n = len(self.rows), self.dimension
-        if comb(count, n) * 2**n > MOST_CANDIDATES:
+        if comb(count, n) * (1 if self._is_one_sided else 2**n) > MOST_CANDIDATES:
             raise InputError(f"polytope: {count} rows in {n} dimensions are too many to be intersected one by one")
         found: dict[tuple[tuple[int, int], ...], tuple[Any, ...]] = {}
         for chosen in combinations(range(count), n):
@@ -101,6 +102,11 @@ class Slabs:
     @property
     def _squares(self) -> tuple[Fraction, ...]:
         return self.squares or (Fraction(1),) * self.dimension
+
+    @property
+    def _is_one_sided(self) -> bool:
+        """Whether no row is bounded below."""
+        return all(value is None for value in self.low)
 
     @property
     def _is_exact(self) -> bool:
@@ -135,12 +141,13 @@ class Slabs:
     ) -> None:
         """The vertices at the chosen rows."""
         others = [index for index in range(len(self.rows)) if index not in chosen]
-        for signs in product((-1, 1), repeat=len(chosen)):
+        for signs in product(*((1,) if self.low[i] is None else (-1, 1) for i in chosen)):
             bounds = [self.high[i] if s > 0 else self.low[i] for i, s in zip(chosen, signs, strict=True)]
             tight = list(zip(chosen, signs, strict=True))
             for index in others:
                 value = _sum(every[index], bounds)
-                below, above = sign(value - self.low[index]), sign(self.high[index] - value)
+                below = 1 if self.low[index] is None else sign(value - self.low[index])
+                above = sign(self.high[index] - value)
                 if below < 0 or above < 0:
                     break
                 tight += [(index, -1)] * (below == 0) + [(index, 1)] * (above == 0)
