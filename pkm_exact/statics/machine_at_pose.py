@@ -12,8 +12,8 @@ from pkm_exact.geometry.pose_reader import read_pose
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.pose import Pose
 from pkm_exact.precision import working_precision
-from pkm_exact.statics.at_pose import BITS, AtPose, at_box, at_rational_pose
-from pkm_exact.statics.ball_rows import BallPose
+from pkm_exact.statics.at_pose import AtPose, at_box, at_rational_pose
+from pkm_exact.statics.ball_rows import BITS, BallPose
 from pkm_exact.statics.placement import held_at, held_in_solution
 
 
