@@ -141,6 +141,14 @@ def test_a_long_way_is_halved_until_it_is_proved() -> None:
     assert robot.follow(goal, starts[1]).same_mode
 
 
+def test_a_pose_goes_on_with_another_robot_that_is_equal() -> None:
+    first, values, starts = _start("3-rrr")
+    second = Robot.load(MODELS / "3-rrr.toml")
+    for robot in (first, second):
+        assert robot.follow(values, starts[0]).same_mode
+        assert robot.follow(values, robot.follow(values, starts[0])).same_mode
+
+
 def test_lengths_that_no_pose_has_prove_nothing() -> None:
     robot, home, starts = _start("3-rpr-merlet-p")
     found = robot.follow(home + np.array([0, 0, 100.0]), starts[0])

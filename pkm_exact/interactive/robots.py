@@ -307,7 +307,7 @@ class Robot(Asked, robots.Robot):
         from pkm_exact.following.following_start import first_pose, follow_to, study_point
 
         given = _checked_values(self, values)
-        if isinstance(start, Followed) and start.tables.robot is self:
+        if isinstance(start, Followed) and (start.tables.robot is self or start.tables.robot == self):
             return follow_to(start, given)
         tables = _tables(self)
         place, turn = start if isinstance(start, tuple) else (start.position, start.quaternion)
@@ -347,6 +347,7 @@ def _checked_values(robot: Robot, values: Sequence[float] | Array) -> Array:
 
 @lru_cache(maxsize=8)
 def _tables(robot: Robot) -> LegTables:
+    """The same for robots that are equal; so a pose of one of them goes on with another."""
     from pkm_exact.following.leg_tables import leg_tables
 
     return leg_tables(robot)

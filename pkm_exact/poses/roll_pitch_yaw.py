@@ -24,8 +24,9 @@ def roll_pitch_yaw(pose: Pose) -> tuple[Interval | None, Interval, Interval | No
     --------
     >>> from pkm_exact import Robot
     >>> pose = Robot.load("models/3-rpr-merlet-p.toml").solve().poses[1]
-    >>> [str(angle) for angle in roll_pitch_yaw(pose)[:2]]
-    ['0', '0']
+    >>> roll, pitch, yaw = roll_pitch_yaw(pose)
+    >>> 0 in roll, 0 in pitch, abs(float(yaw)) < 1e-6
+    (True, True, True)
     """
     (first, _, _), (second, _, _), (down, side, up) = pose.rotation
     return angle_in_degrees(up, side), _pitch(down), angle_in_degrees(first, second)
