@@ -83,8 +83,9 @@ def read_jointed_robot(path: str | os.PathLike[str], question: str) -> Robot:
     InputError
         As ``read_robot``, and if it is a mechanism declared by constraints.
     """
+    robot = read_robot(path)
     try:
-        return jointed(read_robot(path), question)
+        return jointed(robot, question)
     except InputError as error:
         raise InputError(f"{printable(os.fspath(path))}: {error}") from None
 
