@@ -319,3 +319,37 @@ def test_workers_agree_on_answers_too() -> None:
     answer = answer_of("a prism of a Delta")
     with workers(answer.machine, 1) as run:
         assert [paved.word for paved in run(prepared(answer.machine, answer.question), [])] == []
+
+
+@pytest.mark.parametrize("variables", [6, pytest.param(3, marks=pytest.mark.slow)])
+def test_long_numbers_are_charged_by_their_length(variables: int) -> None:
+    """Six slides whose numbers have 600 digits: a determinant that nobody could wait for is not begun."""
+    random = Random(variables)
+
+    def number() -> str:
+        return str(Fraction(random.randrange(10**599, 10**600), random.randrange(10**599, 10**600)))
+
+    def numbers() -> list[str]:
+        return [number() for _ in range(3)]
+
+    names = ("x", "y", "z", "roll", "pitch", "yaw")[:variables]
+    legs = [
+        {"name": str(k), "base": numbers(), "platform": numbers()}
+        | {"actuator": {"type": "slide", "direction": numbers(), "rod_squared": number()}, "reach": None}
+        for k in range(6)
+    ]
+    content = content_of("two poses") | {
+        "robot": {"name": "long", "unit": "m", "source": "made up", "motion": "spatial", "metric": ["1", "1", "1"]}
+        | {"legs": legs, "forms": [], "base_cones": [], "platform_cones": [], "position": []},
+        "chart": {
+            "variables": list(names),
+            "box": [["0", "1"]] * variables,
+            "position": ["x", "y", "z"],
+            "quaternion": None if variables == 6 else ["1", "0", "0", number()],
+            "turns": [[name] for name in names[3:]],
+        },
+        "modes": [1] * 6,
+        "claim": "not-all",
+        "counterexample": [["1/2"] * variables],
+    }
+    assert [found for found, _ in verdicts(content)] == ["too-large", "too-large"]

@@ -6,7 +6,7 @@ the definition of the format and its proofs, ``docs/regions.md``; it shares no l
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import partial
 from itertools import pairwise
@@ -294,9 +294,20 @@ def plus(*terms: tuple[Any, Polynomial]) -> Polynomial:
     return {key: value for key, value in total.items() if value}
 
 
+def words_of(numbers: Iterable[Fraction]) -> int:
+    """The words of 64 bits of the longest numerator or denominator."""
+    sizes = (max(x.numerator.bit_length(), x.denominator.bit_length()) for x in numbers)
+    return max(sizes, default=0) // 64 + 1
+
+
+def size_factor(left: int, right: int) -> int:
+    """By how much more numbers of so many words cost than short ones."""
+    return max(1, left * right // 16)
+
+
 def times(a: Polynomial, b: Polynomial) -> Polynomial:
     """A product."""
-    pure.spend(3000 * len(a) * len(b) + 1000)
+    pure.spend((3000 * len(a) * len(b) + 1000) * size_factor(words_of(a.values()), words_of(b.values())))
     total: Polynomial = {}
     for one, x in a.items():
         for other, y in b.items():
@@ -592,7 +603,8 @@ def table_of(polynomial: Polynomial, box: Sequence[Numbers], roots: int) -> Tabl
     pure.well_formed(all(key[count + k] <= 1 for key in polynomial for k in used), "conditions: a root appears squared")
     size = prod(d + 1 for d in degrees) << len(used)
     pure.affordable(size <= MAX_COEFFICIENTS, f"conditions: a polynomial of more than {MAX_COEFFICIENTS} coefficients")
-    pure.spend(20_000 * size * (1 + max(degrees)))
+    words = words_of(polynomial.values()) + words_of([end for pair in box for end in pair]) * max(degrees)
+    pure.spend(20_000 * size * (1 + max(degrees)) * size_factor(words // 5, words // 5))
     parts: dict[tuple[int, ...], list[Fraction]] = {}
     for combination in combinations_of((0, 1), repeat=len(used)):
         values = [ZERO] * (size >> len(used))
@@ -840,8 +852,10 @@ def is_broken(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bo
 
 def value_at(polynomial: Polynomial, point: Numbers, used: tuple[int, ...]) -> Fraction:
     """The value at a point of the terms with exactly these roots."""
-    pure.spend(20_000 * (1 + len(polynomial)))
     count = len(point)
+    degree = max((sum(key[:count]) for key in polynomial), default=0)
+    words = words_of(polynomial.values()) + words_of(point) * degree
+    pure.spend(20_000 * (1 + len(polynomial)) * size_factor(words // 5, words // 5))
     total = ZERO
     for key, coefficient in polynomial.items():
         if tuple(k for k, power in enumerate(key[count:]) if power) == used:

@@ -16,7 +16,15 @@ import numpy as np
 
 from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.region_document import RegionDocument
-from pkm_exact.certify.checker.region_polynomials import Condition, Conditions, RegionEquations, Test
+from pkm_exact.certify.checker.region_polynomials import (
+    Condition,
+    Conditions,
+    RegionEquations,
+    Test,
+    number_words,
+    polynomial_words,
+    size_factor,
+)
 from pkm_exact.certify.checker.verdict import malformed, rejected, too_large
 
 ROOT_BITS: Final = 80
@@ -183,7 +191,9 @@ class _Walk:
         size = int(np.prod(shape, dtype=object))
         if size > MOST_COEFFICIENTS:
             raise too_large(f"conditions: a polynomial of more than {MOST_COEFFICIENTS} coefficients")
-        charge(4000 * size * (1 + max(inner, default=0)))
+        ends = number_words(*(end for pair in box for end in pair))
+        words = polynomial_words(polynomial) + ends * max(inner, default=0)
+        charge(4000 * size * (1 + max(inner, default=0)) * size_factor(words // 5, words // 5))
         values = np.full(shape, Fraction(0), dtype=object)
         for exponents, coefficient in polynomial.to_dict().items():
             place = tuple(int(exponents[count + k]) for k in roots) + tuple(int(e) for e in exponents[:count])
@@ -294,7 +304,9 @@ def _fails(condition: Condition, point: Sequence[Fraction], roots: Sequence[Any]
 def _value(polynomial: Any, point: Sequence[Fraction], used: tuple[int, ...]) -> Fraction:
     """The value at a point of the part of a polynomial that has exactly these roots."""
     total, count = Fraction(0), len(point)
-    charge(2000 * max(1, len(polynomial)))
+    degree = max((sum(int(e) for e in exponents[:count]) for exponents in polynomial.to_dict()), default=0)
+    words = polynomial_words(polynomial) + number_words(*point) * degree
+    charge(2000 * max(1, len(polynomial)) * size_factor(words // 5, words // 5))
     for exponents, coefficient in polynomial.to_dict().items():
         if tuple(k for k, e in enumerate(exponents[count:]) if e) != used:
             continue

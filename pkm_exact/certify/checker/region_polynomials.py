@@ -36,6 +36,31 @@ class Conditions:
     determinant: Any
 
 
+def number_words(*numbers: Fraction | int) -> int:
+    """The words of 64 bits of the longest numerator or denominator.
+
+    >>> number_words(Fraction(1, 3)), number_words(1, Fraction(1, 1 << 64))
+    (1, 2)
+    """
+    sizes = (max(x.numerator.bit_length(), x.denominator.bit_length()) for x in numbers)
+    return max(sizes, default=0) // 64 + 1
+
+
+def polynomial_words(polynomial: Any) -> int:
+    """The same of the coefficients of a polynomial."""
+    sizes = (max(int(c.p).bit_length(), int(c.q).bit_length()) for c in polynomial.coeffs())
+    return max(sizes, default=0) // 64 + 1
+
+
+def size_factor(left: int, right: int) -> int:
+    """By how much more numbers of so many words cost than short ones: products and common divisors, word by word.
+
+    >>> size_factor(2, 3), size_factor(64, 64)
+    (1, 256)
+    """
+    return max(1, left * right // 16)
+
+
 class _Algebra:
     """Polynomials of the variables of a chart and of y_1, y_2, ..: products are charged before they are made."""
 
@@ -53,7 +78,8 @@ class _Algebra:
         return self.named[value] if isinstance(value, str) else self.number(value)
 
     def times(self, left: Any, right: Any) -> Any:
-        charge(polynomials_cost(max(len(left), len(right), 1), 8 * min(len(left), len(right), 64) + 1))
+        cost = polynomials_cost(max(len(left), len(right), 1), 8 * min(len(left), len(right), 64) + 1)
+        charge(cost * size_factor(polynomial_words(left), polynomial_words(right)))
         return left * right
 
     def dot(self, left: Sequence[Any], right: Sequence[Any]) -> Any:
