@@ -321,7 +321,8 @@ def test_workers_agree_on_answers_too() -> None:
         assert [paved.word for paved in run(prepared(answer.machine, answer.question), [])] == []
 
 
-@pytest.mark.parametrize("variables", [6, pytest.param(3, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("variables", [6, 3])
 def test_long_numbers_are_charged_by_their_length(variables: int) -> None:
     """Six slides whose numbers have 600 digits: a determinant that nobody could wait for is not begun."""
     random = Random(variables)
