@@ -10,6 +10,7 @@ from samples import solved
 from pkm_exact import InputError, Robot
 from pkm_exact.following.follower import Followed, next_pose
 from pkm_exact.following.following_start import joint_values
+from pkm_exact.following.leg_ends import leg_ends, way_between
 
 MODELS = Path(__file__).parent.parent / "models"
 KINDS = ["3-rpr-merlet-p", "3-rrr", "3-prr", "rolland-6-6", "hexa", "hexaglide", "mssm"]
@@ -149,6 +150,30 @@ def test_a_pose_goes_on_with_another_robot_that_is_equal() -> None:
         assert robot.follow(values, robot.follow(values, starts[0])).same_mode
 
 
+@pytest.mark.parametrize("name", ["3-rpr-merlet-p", "3-rrr", "3-prr"])
+def test_on_the_way_equations_stay_within_the_bend(name: str) -> None:
+    """Squared distances at values that all go evenly, against those evenly between the ends."""
+    robot, before, starts = _start(name)
+    after = before + np.array([0.5, -0.25, 0.125])
+    tables, point = starts[0].tables, starts[0].point
+    ends = [leg_ends(tables, values) for values in (before, after)]
+
+    def squares(values: Array) -> Array:
+        at = leg_ends(tables, values)
+        forms = tables.legs + at.squares[:, None, None] * tables.norm
+        if robot.chains:
+            forms = forms + np.einsum("ji,jimn->jmn", at.places, tables.moved)
+        found: Array = (forms @ point) @ point / (point @ tables.norm @ point)
+        return found
+
+    first, last = squares(before), squares(after)
+    reach = np.sqrt(tables.rods_squared + np.abs(last))
+    bend = way_between(tables, ends[0], ends[1], reach).bend
+    off = [np.abs(squares(before + t * (after - before)) - (1 - t) * first - t * last) for t in np.linspace(0, 1, 33)]
+    assert np.all(np.max(off, axis=0) <= bend + 1e-13)
+    assert np.all(np.max(off, axis=0) > bend / 20)
+
+
 def test_lengths_that_no_pose_has_prove_nothing() -> None:
     robot, home, starts = _start("3-rpr-merlet-p")
     found = robot.follow(home + np.array([0, 0, 100.0]), starts[0])
@@ -161,6 +186,7 @@ def test_lengths_that_no_pose_has_prove_nothing() -> None:
     [
         ([1, 2], ((0, 0), (1, 0, 0, 0))),
         ([1, 2, float("nan")], ((0, 0), (1, 0, 0, 0))),
+        ([1, 2, -3], ((0, 0), (1, 0, 0, 0))),
         ([1, 2, 3], ((0, 0), (0, 0, 0, 0))),
         ([1, 2, 3], ((0, float("inf")), (1, 0, 0, 0))),
     ],

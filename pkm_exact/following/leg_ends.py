@@ -121,8 +121,9 @@ def way_between(tables: LegTables, before: LegEnds, after: LegEnds, reach: Array
     """Bounds for all joint values between two; ``reach`` is |C + R B - A| at the end of the way."""
     change = np.abs(after.values - before.values) * (1 + 4 * U)
     if not tables.robot.chains:
-        none = np.zeros(len(change))
-        return Way(none, np.abs(after.squares - before.squares) + 4 * U * (after.sizes + before.sizes), none)
+        raised = np.abs(after.squares - before.squares) + 4 * U * (after.sizes + before.sizes)
+        # l^2 is t (1 - t) (l' - l)^2 below what is between its ends, which differs from leg to leg.
+        return Way(np.zeros(len(change)), raised, (change / tables.unit) ** 2 / 4 * OUTWARD)
     arm = np.sqrt((tables.at_0 * tables.at_0) @ tables.weights) * OUTWARD
     moved = (arm * change + before.off + after.off) * OUTWARD
     raised = (2 * after.lengths(tables) + moved) * moved * OUTWARD

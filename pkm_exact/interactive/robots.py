@@ -342,6 +342,8 @@ def _checked_values(robot: Robot, values: Sequence[float] | Array) -> Array:
         raise InputError(
             f"values: {printable(str(values)[:80])} are no joint values; give {count} numbers, one per leg"
         )
+    if not robot.chains and not np.all(found > 0):
+        raise InputError(f"values: {printable(str(values)[:80])} are no leg lengths; give numbers greater than 0")
     return found
 
 

@@ -301,7 +301,7 @@ static int is_same_mode(const ends_t *after, const double values[M], double inve
 #endif
         bend *= OUTWARD;
 #else
-        (void)change;
+        bend = change / unit * change / unit / 4 * OUTWARD; /* l * l is not even between its ends */
         raised = fabs(after->squares[j] - before.squares[j]) + 4 * U * (after->sizes[j] + before.sizes[j]);
 #endif
         more[j] = off[j] + value_off(j, &before, &f, absolute, first[j], norm) + bend * norm * OUTWARD;
@@ -386,6 +386,10 @@ static int next_pose(const double values[M], const double from[N], const @NAME@_
         constant += chart[k] * from[k];
         x[k] = from[k];
     }
+#if !CHAINS
+    for (int j = 0; j < M; j++)
+        if (!(values[j] > 0)) return @MACRO@_NOT_PROVED; /* no length */
+#endif
     find_ends(values, &ends);
     find_forms(&ends, &f);
     if (!newton(&f, chart, constant, x)) return @MACRO@_NOT_PROVED;
