@@ -155,3 +155,10 @@ def test_the_code_begins_at_the_nominal_pose(tmp_path: Path, capsys: Capture) ->
     capsys.readouterr()
     assert starts == pytest.approx([float(pose.position[0].lo) for pose in poses])
     assert starts[0] != pytest.approx(starts[1])
+
+
+def test_a_folder_that_cannot_be_made_gives_one_sentence(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "file").write_text("")
+    words = ["codegen", str(MODELS / "3-rpr-merlet-p.toml"), "-o", str(tmp_path / "file" / "code")]
+    assert main(words) == 2
+    assert "cannot be made (Not a directory); give -o the path of another folder" in capsys.readouterr().err

@@ -46,16 +46,19 @@ def codegen(model: str, output: str, configuration: str | None, pose: int | None
     """
     from pkm_exact.cli.model_reading import announced_robot
     from pkm_exact.following.c_files import c_files, checked_name, name_for
-    from pkm_exact.interactive.robots import read_robot
+    from pkm_exact.interactive.robots import Robot
 
     announced_robot(model, "codegen")
-    robot = read_robot(model)
+    robot = Robot.load(model)
     stem = checked_name(name or name_for(Path(model).stem))
-    home = _home(robot, model, configuration, pose)  # type: ignore[arg-type]  # announced_robot takes no other
+    home = _home(robot, model, configuration, pose)
     files = c_files(stem, home.tables, home, Path(model).name)
     folder = Path(output)
     _require_room(folder, list(files), force)
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be made ({error.strerror}); give -o the path of another folder") from None
     for file_name, text in files.items():
         arguments.write_output(folder / file_name, text.encode("utf-8"))
     shown = printable(str(folder))
