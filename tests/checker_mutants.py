@@ -2,7 +2,7 @@
 
 ``make checker-mutants`` makes all of them (``checker_mutations``), tries each on the certificates that the tests check
 (``checker_corpus``) until one gets another verdict, and prints those that survive. A mutant that no certificate can
-tell from the checker is listed in ``equivalent_mutants.toml``, with the reason. What was found is kept in
+tell from the checker is listed in ``equivalent_mutants*.toml``, with the reason. What was found is kept in
 ``build/checker-mutants``: an interrupted run goes on where it was, and a later one begins with what was right before.
 """
 
@@ -27,7 +27,7 @@ from mutant_runs import Example, Outcome, Reach, examples_in, measured, outcomes
 
 HERE = Path(__file__).parent
 BUILD = PACKAGE / "build" / "checker-mutants"
-EQUIVALENT = HERE / "equivalent_mutants.toml"
+EQUIVALENT = sorted(HERE.glob("equivalent_mutants*.toml"))
 
 Key = tuple[str, str, str]
 
@@ -40,7 +40,7 @@ def equivalents(every: Sequence[Mutant]) -> tuple[dict[Key, str], list[str]]:
     found: dict[Key, str] = {}
     wrong = []
     known = {mutant.key for mutant in every}
-    for group in tomllib.loads(EQUIVALENT.read_text(encoding="utf-8")).get("equivalent", []):
+    for group in (group for path in EQUIVALENT for group in tomllib.loads(path.read_text("utf-8"))["equivalent"]):
         keys = [tuple(entry) for entry in group.get("mutants", [])]
         wrong += [f"there is no mutant {key}" for key in keys if key not in known]
         for place in group.get("places", []):
@@ -78,8 +78,8 @@ class Journal:
         self.path, self.most = path, most
         sources = b"".join(source.read_bytes() for source in SOURCES[checker])
         self.checker = sha256(sources).hexdigest()[:16]
-        self.names = {example.name for example in examples}
-        self.corpus = sha256("\n".join(sorted(self.names)).encode()).hexdigest()[:16]
+        self.names = {example.name for zipped in path.parent.glob("*.zip") for example in examples_in(zipped)}
+        self.corpus = sha256("\n".join(sorted(example.name for example in examples)).encode()).hexdigest()[:16]
         self.known: dict[Key, dict[str, Any]] = {}
         if path.exists():
             for line in path.read_text(encoding="utf-8").splitlines():
@@ -120,7 +120,7 @@ def _is_complete(how: str) -> bool:
 
 def _reach(checker: str, examples: list[Example], journal: Journal) -> Reach:
     """What reaches what, from the last run if nothing has changed."""
-    path = BUILD / f"{checker}.reach"
+    path = BUILD / f"{checker}-{journal.corpus}.reach"
     state = f"{journal.checker} {journal.corpus}"
     if path.exists():
         known, reach = pickle.loads(path.read_bytes())  # noqa: S301 - our own, in build
@@ -158,12 +158,13 @@ def main(words: Sequence[str]) -> int:
     parser.add_argument("--checker", choices=[*SOURCES], action="append", help="one of the checkers (default: both)")
     parser.add_argument("--only", default="", metavar="TEXT", help="mutants whose description has this text")
     parser.add_argument("--collect", action="store_true", help="run the tests again for their certificates")
+    parser.add_argument("--corpus", metavar="ZIP", help="these certificates, as checker_corpus.py wrote them, not all")
     parser.add_argument("--seconds", type=float, default=inf, help="of certificates to try on a mutant (default: all)")
     options = parser.parse_args(words)
     listed, wrong = equivalents([mutant for checker in SOURCES for mutant in mutants(checker)])
     for line in wrong:
-        print(f"{EQUIVALENT.name}: {line}")
-    examples = _fresh_corpus(options.collect)
+        print(f"equivalent mutants: {line}")
+    examples = examples_in(Path(options.corpus)) if options.corpus else _fresh_corpus(options.collect)
     survivors = [
         survivor
         for checker in options.checker or SOURCES
