@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from pkm_exact.geometry.linkage import Linkage
+    from pkm_exact.geometry.links import Links
     from pkm_exact.geometry.mechanism import Mechanism
     from pkm_exact.geometry.robot import Robot
 
@@ -34,9 +35,16 @@ def announced_any(path: str) -> Robot | Mechanism | Linkage:
     from pkm_exact.geometry.reader import read_any
 
     found = read_any(path)
-    if not isinstance(found, Linkage):
-        _announce(found, path)
-    return found
+    return found if isinstance(found, Linkage) else announced_model(path)
+
+
+def announced_solvable(path: str) -> Robot | Mechanism | Links:
+    """The robot that a model file describes, or the mechanism with passive bodies of a file of that kind."""
+    from pkm_exact.geometry.links import Links
+    from pkm_exact.geometry.reader import read_any
+
+    found = read_any(path)
+    return found if isinstance(found, Links) else announced_model(path)
 
 
 def announced_robot(path: str | PathLike[str], question: str) -> Robot:

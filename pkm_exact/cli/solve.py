@@ -11,6 +11,7 @@ import click
 from pkm_exact.cli import arguments, tolerance_report
 from pkm_exact.cli.main import ExitCode
 from pkm_exact.cli.methods import METHODS, report_uncertified, require_fitting, solved
+from pkm_exact.cli.solve_links import Request, solve_links_model
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
 
@@ -100,17 +101,19 @@ def solve(
       certify-poses solve models/hexa.toml --configuration level --time-limit 10
       certify-poses solve models/rolland-6-6.toml --method newton --start 0,0,800,1,0,0,0
     """
-    given = [("--configuration", configuration), ("--lengths", lengths), ("--joints", joints)]
-    names = [name for name, value in given if value is not None]
-    if len(names) > 1:
-        raise click.UsageError(f"{names[0]} and {names[1]} exclude each other.")
+    _require_one([("--configuration", configuration), ("--lengths", lengths), ("--joints", joints)])
+    from pkm_exact.cli.model_reading import announced_solvable
+    from pkm_exact.geometry.links import Links
+
+    robot = announced_solvable(model)
+    if isinstance(robot, Links):
+        asked = Request(model, configuration, joints, method, start, width, time_limit, output, layout, verbose)
+        return solve_links_model(robot, asked)
     require_fitting(click.get_current_context(), method)
     tolerance_report.require_fitting(click.get_current_context(), tolerance, method, layout)
-    from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.geometry.nominal_pose import nominal_from_numbers
     from pkm_exact.geometry.robot import jointed
 
-    robot = announced_model(model)
     if near is not None:
         robot = replace(robot, nominal=nominal_from_numbers(near, "--near", robot.motion))
     if feasible and (robot.limits is None or tolerance is not None or method == "newton"):
@@ -162,3 +165,10 @@ def solve(
 
     report(robot, name, solution, layout, verbose=verbose, feasible_only=feasible)
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM
+
+
+def _require_one(given: list[tuple[str, object]]) -> None:
+    """Refuse two of options that exclude each other."""
+    names = [name for name, value in given if value is not None]
+    if len(names) > 1:
+        raise click.UsageError(f"{names[0]} and {names[1]} exclude each other.")

@@ -23,6 +23,8 @@ from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
 from pkm_exact.geometry.linkage import CHAINS_KIND, Linkage
 from pkm_exact.geometry.linkage_reader import read_linkage_tables
+from pkm_exact.geometry.links import LINKS_KIND, Links
+from pkm_exact.geometry.links_reader import read_links_tables
 from pkm_exact.geometry.machine import CONSTRAINTS_KIND
 from pkm_exact.geometry.machines.machine_kinds import MACHINES, machine_kind
 from pkm_exact.geometry.machines.machine_reader import read_machine
@@ -90,8 +92,8 @@ def read_jointed_robot(path: str | os.PathLike[str], question: str) -> Robot:
         raise InputError(f"{printable(os.fspath(path))}: {error}") from None
 
 
-def read_any(path: str | os.PathLike[str]) -> Robot | Mechanism | Linkage:
-    """What a model file describes, of whatever kind: a robot, or a mechanism of bodies and joints.
+def read_any(path: str | os.PathLike[str]) -> Robot | Mechanism | Linkage | Links:
+    """What a model file describes, of whatever kind: a robot, or a mechanism of bodies.
 
     Raises
     ------
@@ -122,9 +124,30 @@ def read_linkage(path: str | os.PathLike[str]) -> Linkage:
     return found
 
 
+def read_links(path: str | os.PathLike[str]) -> Links:
+    """The mechanism with passive bodies that a model file of kind "links" describes.
+
+    Raises
+    ------
+    InputError
+        As ``read_robot``, and if the file is of another kind.
+    """
+    found = read_any(path)
+    if not isinstance(found, Links):
+        raise InputError(
+            f"{printable(os.fspath(path))}: kind: {found.kind} has no passive bodies; give a file of kind {LINKS_KIND}"
+        )
+    return found
+
+
 def robot_from_toml(text: str) -> Robot | Mechanism:
     """The robot that the text of a model file describes."""
     found = any_from_toml(text)
+    if isinstance(found, Links):
+        raise InputError(
+            f"kind: {LINKS_KIND} is a mechanism with passive bodies, and only certify-poses solve takes those; give a "
+            "robot with one moving body"
+        )
     if isinstance(found, Linkage):
         raise InputError(
             f"kind: {CHAINS_KIND} is a mechanism of bodies and joints in one configuration, which has no forward "
@@ -133,26 +156,26 @@ def robot_from_toml(text: str) -> Robot | Mechanism:
     return found
 
 
-def any_from_toml(text: str) -> Robot | Mechanism | Linkage:
+def any_from_toml(text: str) -> Robot | Mechanism | Linkage | Links:
     """What the text of a model file describes."""
     table = _parse(text)
     nominal = table.pop("nominal", None)
     found = _described(table)
     if nominal is None:
         return found
-    if isinstance(found, Linkage):
-        raise InputError(f"nominal: a file of kind {CHAINS_KIND} has no pose to choose; take the table out")
+    if isinstance(found, Linkage | Links):
+        raise InputError(f"nominal: a file of kind {found.kind} has no pose to choose; take the table out")
     return replace(found, nominal=read_nominal(nominal, found.motion, found.metric))
 
 
-def _described(table: dict[str, Any]) -> Robot | Mechanism | Linkage:
+def _described(table: dict[str, Any]) -> Robot | Mechanism | Linkage | Links:
     """The same but for the nominal pose, which robots of all kinds may have."""
     schema = required(table, "schema", "")
     if isinstance(schema, bool) or schema != SCHEMA:
         raise InputError(f"schema: {shown(schema)} is unknown; write schema = {SCHEMA}")
     kind_name = label(table, "kind", "")
     machine = None if kind_name in KINDS and "actuators" not in table else machine_kind(kind_name)
-    known = (*KINDS, *MACHINES, CONSTRAINTS_KIND, CHAINS_KIND)
+    known = (*KINDS, *MACHINES, CONSTRAINTS_KIND, LINKS_KIND, CHAINS_KIND)
     if machine is None and kind_name not in known:
         raise InputError(f"kind: {shown(kind_name)} is unknown; use one of: {', '.join(known)}")
     head = {
@@ -162,6 +185,8 @@ def _described(table: dict[str, Any]) -> Robot | Mechanism | Linkage:
     }
     if kind_name == CHAINS_KIND:
         return read_linkage_tables(table, head)
+    if kind_name == LINKS_KIND:
+        return read_links_tables(table, head)
     if kind_name == CONSTRAINTS_KIND:
         return read_mechanism(table, head)
     if machine is not None:

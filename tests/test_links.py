@@ -1,0 +1,421 @@
+"""Mechanisms with passive bodies: their equations against mathematics, published counts and poses, certificates."""
+
+import json
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import cache
+from math import atan2, degrees
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+from budgets import budget
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pkm_exact import InputError, read_robot
+from pkm_exact.certify.check import check_bytes
+from pkm_exact.certify.pure import check_bytes as check_bytes_plainly
+from pkm_exact.certify.system_build import system_certificate_bytes
+from pkm_exact.cli.main import main
+from pkm_exact.constraints.constraint import Constraint, Role
+from pkm_exact.constraints.constraint_types import CONSTRAINTS
+from pkm_exact.constraints.form import value_at
+from pkm_exact.geometry.inverse import rotation_of
+from pkm_exact.geometry.links import LinkBody, Links
+from pkm_exact.geometry.mechanism import Mechanism
+from pkm_exact.geometry.reader import any_from_toml, read_links
+from pkm_exact.links.link_engine import solve_links
+from pkm_exact.links.link_equations import LinkEquations
+from pkm_exact.links.link_poses import unit_quaternion
+from pkm_exact.links.link_solution import LinkSolution
+from pkm_exact.motions.motion_groups import MOTIONS, PLANAR, SPATIAL, TRANSLATION
+from pkm_exact.roots.interval import Interval
+
+ROOT = Path(__file__).parent.parent
+SHIPPED = sorted((ROOT / "models" / "links").glob("*.toml"))
+COUNTS = {  # complex solutions, real poses
+    "four-bar": (2, 2),
+    "watt": (4, 2),
+    "stephenson": (6, 2),
+    "3-rrr-links": (6, 2),
+    "3-prrr-rotary": (8, 8),
+    "micabo-h-links": (12, 2),
+}
+SLOW = ("watt", "stephenson", "micabo-h-links")
+Matrix = Sequence[Sequence[Fraction]]
+
+
+@cache
+def _links(name: str) -> Links:
+    return read_links(ROOT / "models" / "links" / f"{name}.toml")
+
+
+@cache
+def _solved(name: str) -> LinkSolution:
+    return solve_links(_links(name))
+
+
+def test_every_shipped_mechanism_has_its_counts() -> None:
+    assert {path.stem for path in SHIPPED} == set(COUNTS)
+    page = (ROOT / "docs" / "links.md").read_text(encoding="utf-8")
+    assert all(path.name in page for path in SHIPPED)
+
+
+@pytest.mark.parametrize("name", [pytest.param(k, marks=pytest.mark.slow if k in SLOW else ()) for k in COUNTS])
+def test_counts_are_proved_and_certified(name: str) -> None:
+    found = _solved(name)
+    assert (found.is_complete, found.complex_solutions, len(found)) == (True, *COUNTS[name])
+    assert found.system is not None
+    certificate = system_certificate_bytes(found.system, name)
+    assert check_bytes(certificate).status == check_bytes_plainly(certificate).status == "accepted"
+
+
+def test_the_four_bar_closes() -> None:
+    """The coupler's end is 5 from the ground joint, as the rocker says."""
+    for assembly in _solved("four-bar"):
+        coupler, _ = assembly.poses
+        end = [coupler.position[i].midpoint + 6 * coupler.rotation[i][0].midpoint for i in (0, 1)]
+        assert abs((end[0] - 7) ** 2 + end[1] ** 2 - 25) < Fraction(1, 10**7)
+
+
+def test_published_poses_of_the_3_rrr() -> None:
+    """Both poses at (0.03, 0.02) and 0.2 rad of chapter 5, from angles printed to six digits."""
+    found = _solved("3-rrr-links")
+    poses = [found.platform_pose(assembly) for assembly in found]
+    values = [[float(value) for value in (*p.position[:2], p.rotation[0][0], p.rotation[1][0])] for p in poses]
+    home, other = sorted(values, key=lambda row: -row[0])
+    assert home[:2] == pytest.approx([0.03, 0.02], abs=1e-7)
+    assert atan2(home[3], home[2]) == pytest.approx(0.2, abs=1e-6)
+    assert other == pytest.approx([-0.0029, 0.046781, -0.109346, -0.994004], abs=1e-6)
+
+
+def test_the_3_rrr_without_its_links_has_the_same_poses() -> None:
+    """A link of length l between two pins is a distance."""
+    links = _links("3-rrr-links")
+    text = [
+        'schema = 1\nname = "x"\nkind = "3-RRR"\nunit = "m"\nsource = "x"\n',
+        f"[base]\njoints = {_points(links, 'ground', 'point')}\n",
+        "[cranks]\nat_0 = [[0.2, 0], [0.2, 0], [0.2, 0]]\n[rods]\nlength = 0.2\n",
+        f"[platform]\njoints = {_points(links, 'wrist', 'platform')}\n",
+        f'[[configurations]]\nname = "home"\ncos_sin = {_cosines(links)}\n',
+    ]
+    robot: Any = any_from_toml("".join(text))
+    from pkm_exact.engine import solve
+
+    alone = solve(robot.problem(robot.configuration()))
+    mine = [_solved("3-rrr-links").platform_pose(assembly) for assembly in _solved("3-rrr-links")]
+    assert len(alone.poses) == len(mine)
+    for one, other in zip(alone.poses, sorted(mine, key=lambda pose: pose.position[0].lo), strict=True):
+        pairs = zip((*one.position, *one.rotation[0]), (*other.position, *other.rotation[0]), strict=True)
+        assert all(a.overlaps(b) for a, b in pairs)
+
+
+def _points(links: Links, name: str, field: str) -> list[list[str]]:
+    found = [c for c in links.declared.constraints if c.name.startswith(name)]
+    return [[str(x) for x in getattr(constraint, field)[:2]] for constraint in found]
+
+
+def _cosines(links: Links) -> list[list[str]]:
+    values = links.configuration().values
+    return [[str(values[2 * leg]), str(values[2 * leg + 1])] for leg in range(3)]
+
+
+def test_published_poses_of_the_rotary_3_prrr() -> None:
+    """All eight at the half tangents (0, 1, 1/4) of chapter 13, real."""
+    printed = [
+        (0.252402, 0.252402, 0.121671),
+        (0.293411, 0.916589, 0.205040),
+        (0.783659, 0.426341, 0.327429),
+        (0.762880, 0.762880, 0.337939),
+    ]
+    found = {
+        tuple(round(float(x), 6) for x in _solved("3-prrr-rotary").platform_pose(a).position)
+        for a in _solved("3-prrr-rotary")
+    }
+    assert found == {(x, y, sign * z) for x, y, z in printed for sign in (1, -1)}
+
+
+def test_sliders_stand_beside_the_platform() -> None:
+    """In every assembly each slider has the coordinate of the platform along its rail."""
+    for assembly in _solved("3-prrr-rotary"):
+        platform = assembly.poses[3].position
+        assert all(assembly.poses[axis].position[axis].overlaps(platform[axis]) for axis in range(3))
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Equations
+# ---------------------------------------------------------------------------------------------------------------------
+
+numbers = st.integers(-5, 5).map(Fraction)
+quaternions = st.tuples(numbers, numbers, numbers, numbers).filter(any)
+poses = st.tuples(st.tuples(numbers, numbers, numbers), quaternions.map(lambda e: rotation_of(e, (1, 1, 1))))
+
+
+def _example(type_: type[Constraint], random: Random) -> Constraint:
+    """A constraint with random numbers."""
+    fields: dict[str, Any] = {}
+    for name, role in type_.fields.items():
+        if role == Role.COEFFICIENTS:
+            fields[name] = tuple(Fraction(random.randint(1, 9)) for _ in range(17))
+        elif role in (Role.NUMBER, Role.POSITIVE):
+            fields[name] = Fraction(random.randint(1, 9))
+        else:
+            fields[name] = tuple(Fraction(random.randint(1, 9)) for _ in range(3))
+    built: Any = type_
+    found: Constraint = built(**fields, name="c")
+    return found
+
+
+def _relative(one: tuple[Any, Matrix], other: tuple[Any, Matrix]) -> tuple[Any, Any]:
+    (c, r), (d, s) = one, other
+    difference = [y - x for x, y in zip(c, d, strict=True)]
+    position = tuple(sum((r[i][j] * difference[i] for i in range(3)), Fraction(0)) for j in range(3))
+    rotation = tuple(tuple(sum((r[i][j] * s[i][k] for i in range(3)), Fraction(0)) for k in range(3)) for j in range(3))
+    return position, rotation
+
+
+@pytest.mark.parametrize("type_", CONSTRAINTS)
+@budget(12)
+@given(poses, poses, st.integers(0, 99))
+def test_equations_are_those_of_the_motion_of_one_body_seen_from_the_other(
+    type_: str, one: tuple[Any, Matrix], other: tuple[Any, Matrix], seed: int
+) -> None:
+    constraint = _example(CONSTRAINTS[type_], Random(seed))
+    bodies = (LinkBody("a", SPATIAL), LinkBody("b", SPATIAL))
+    links = Links(Mechanism("x", "1", "x", (constraint,)), bodies, ((1, 2),), 2)
+    equations = LinkEquations(links, (constraint,))
+    point = [value for c, r in (one, other) for value in (*c, *(entry for row in r for entry in row))]
+    assert not any(_at(polynomial, point) for polynomial in equations.rotations(spare=True))
+    found = [_at(polynomial, point) for polynomial in equations.constraint_polynomials()]
+    position, rotation = _relative(one, other)
+    asked = [value_at(form, position, rotation, (1, 1, 1)) for form in constraint.forms((1, 1, 1))]
+    for square in constraint.squares((1, 1, 1)):
+        linear, root = (value_at(form, position, rotation, (1, 1, 1)) for form in (square.linear, square.root))
+        asked.append(linear - square.factor * root * root)
+    if type_ == "at-point":  # said in the coordinates of the ground
+        asked = [sum((one[1][i][j] * asked[j] for j in range(3)), Fraction(0)) for i in range(3)]
+    assert found == asked
+
+
+def _at(polynomial: Any, point: Sequence[Fraction]) -> Fraction:
+    total = Fraction(0)
+    for exponents, value in polynomial.to_dict().items():
+        term = Fraction(int(value.p), int(value.q))
+        for x, e in zip(point, exponents, strict=True):
+            term *= x ** int(e)
+        total += term
+    return total
+
+
+@pytest.mark.parametrize(
+    ("motion", "whole", "names"),
+    [
+        ("spatial", SPATIAL, 12),
+        ("planar", SPATIAL, 4),
+        ("schoenflies", SPATIAL, 5),
+        ("translation", SPATIAL, 3),
+        ("spherical", SPATIAL, 9),
+        ("planar", PLANAR, 4),
+        ("translation", PLANAR, 2),
+    ],
+)
+def test_bodies_have_the_unknowns_of_their_motion(motion: str, whole: Any, names: int) -> None:
+    constraint = _example(CONSTRAINTS["distance"], Random(1))
+    declared = Mechanism("x", "1", "x", (constraint,), motion=whole)
+    equations = LinkEquations(Links(declared, (LinkBody("a", MOTIONS[motion]),), ((0, 1),), 1), (constraint,))
+    assert len(equations.names) == names
+
+
+@budget(25)
+@given(quaternions)
+def test_quaternions_are_enclosed(e: Any) -> None:
+    rotation = rotation_of(e, (1, 1, 1))
+    near = Fraction(1, 2**40)
+    found = unit_quaternion([[Interval(x - near, x + near) for x in row] for row in rotation], 30)
+    norm = sum(x * x for x in e)
+    largest = max(range(4), key=lambda k: float(found[k].midpoint))
+    for value, interval in zip(e, found, strict=True):
+        square, sign = value * value / norm, 1 if value * e[largest] >= 0 else -1
+        low, high = (interval.lo, interval.hi) if sign > 0 else (-interval.hi, -interval.lo)
+        assert high >= 0
+        assert max(low, Fraction(0)) ** 2 <= square <= high**2
+        assert interval.width < Fraction(1, 2**20)
+
+
+def test_an_exchanged_pair_of_bodies_says_the_same() -> None:
+    """A pin belongs to both of its bodies."""
+    links = _links("four-bar")
+    constraints = list(links.declared.constraints)
+    place = next(i for i, pair in enumerate(links.joined) if 0 not in pair)
+    exchanged = constraints[place].mirrored()
+    assert exchanged is not None
+    constraints[place] = exchanged
+    joined = [pair[::-1] if i == place else pair for i, pair in enumerate(links.joined)]
+    other = Links(
+        Mechanism("x", "1", "x", tuple(constraints), motion=PLANAR), links.bodies, tuple(joined), links.platform
+    )
+    assert solve_links(other).assemblies == _solved("four-bar").assemblies
+
+
+def test_loops_that_cannot_close_are_inconsistent(tmp_path: Path) -> None:
+    text = (ROOT / "models" / "links" / "four-bar.toml").read_text()
+    path = tmp_path / "torn.toml"
+    path.write_text(text + _POINT.replace("7, 0", "8, 1"))
+    found = solve_links(read_links(path))
+    assert (str(found.claim), len(found)) == ("inconsistent", 0)
+
+
+_POINT = """
+[[constraints]]
+name = "second pin"
+type = "at-point"
+bodies = ["base", "rocker"]
+point = [7, 0]
+platform = [0, 0]
+"""
+
+
+def test_a_passive_freedom_is_infinitely_many() -> None:
+    """Without its ground joint the rocker turns freely."""
+    links = _links("four-bar")
+    declared = Mechanism("x", "1", "x", links.declared.constraints[:2], motion=PLANAR)
+    found = solve_links(Links(declared, links.bodies, links.joined[:2], 1))
+    assert str(found.claim).startswith("positive-dimensional")
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+# Model files and commands
+# ---------------------------------------------------------------------------------------------------------------------
+
+MODEL = str(ROOT / "models" / "links" / "four-bar.toml")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('body = "coupler"', 'body = "x"', "platform.body: 'x' is not the name of a body; use base, coupler, rocker"),
+        ('body = "coupler"', 'body = "base"', "platform.body: 'base' does not move"),
+        ('name = "rocker"', 'name = "base"', "bodies[2].name: 'base' is the body that stands still"),
+        ('name = "rocker"', 'name = "coupler"', "bodies: the name 'coupler' is used twice"),
+        ('name = "rocker"', 'name = "rocker"\nmotion = "sideways"', "bodies[2].motion: 'sideways' is unknown"),
+        ('name = "rocker"', 'name = "rocker"\nmotion = "spatial"', "spatial is no motion of a planar mechanism"),
+        ('name = "rocker"', 'name = "rocker"\nmass = 1', "bodies[2]: unknown key 'mass'"),
+        ('name = "rocker"', 'name = "rocker"\nstart = 3', "bodies[2].start: 3 is not a table"),
+        ('bodies = ["base", "coupler"]', 'bodies = ["base"]', "constraints[1].bodies: a list of 1 is not two names"),
+        ('bodies = ["base", "coupler"]', 'bodies = ["base", "a"]', "constraints[1].bodies: 'a' is not the name"),
+        ('bodies = ["base", "coupler"]', 'bodies = ["coupler", "base"]', "'base' is the second; name it first"),
+        ('bodies = ["base", "coupler"]', 'bodies = ["coupler", "coupler"]', "constraints[1].bodies: 'coupler' twice"),
+        ('bodies = ["base", "coupler"]', "", "constraints[1].bodies: is missing"),
+        ('motion = "planar"', "metric = [1, 3]", "unknown key 'metric'"),
+        ("point = [7, 0]", "point = [7, 0, 1]", "constraints[3] ('pin of the rocker').point"),
+        ('type = "at-point"', 'type = "glue"', "constraints[1].type: 'glue' is unknown"),
+        ("[platform]", "[nominal]\nposition = [0, 0]\n[platform]", "nominal: a file of kind links has no pose"),
+        ("[platform]", '[[configurations]]\nname = "a"\npose = 1\n[platform]', "configurations[1].pose: does not say"),
+    ],
+)
+def test_what_is_wrong_is_said_in_a_sentence(old: str, new: str, words: str) -> None:
+    text = Path(MODEL).read_text(encoding="utf-8")
+    assert old in text
+    with pytest.raises(InputError) as refused:
+        any_from_toml(text.replace(old, new, 1))
+    assert words in str(refused.value)
+
+
+def test_too_many_unknowns_are_refused() -> None:
+    constraint = _example(CONSTRAINTS["distance"], Random(1))
+    bodies = tuple(LinkBody(f"b{k}", SPATIAL) for k in range(6))
+    with pytest.raises(InputError, match="72 unknowns in all, at most 64"):
+        LinkEquations(Links(Mechanism("x", "1", "x", (constraint,)), bodies, ((0, 1),), 1), (constraint,))
+
+
+def test_a_body_of_a_planar_mechanism_may_only_shift() -> None:
+    text = (
+        Path(MODEL)
+        .read_text(encoding="utf-8")
+        .replace('name = "rocker"', 'name = "rocker"\nmotion = "translation"\nstart = { position = [1, 2] }', 1)
+    )
+    found = any_from_toml(text)
+    assert isinstance(found, Links)
+    assert found.bodies[1].motion is TRANSLATION
+    assert found.bodies[1].start is not None
+
+
+def test_solve_prints_poses_of_all_bodies(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "four-bar.json"
+    assert main(["solve", MODEL, "--format", "json", "-o", str(path)]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["claim"], printed["complex_solutions"], printed["real_poses"]) == ("complete", 2, 2)
+    assert printed["platform"] == "coupler"
+    assert [list(pose["bodies"]) for pose in printed["poses"]] == [["coupler", "rocker"]] * 2
+    for pose in printed["poses"]:
+        assert pose["bodies"]["coupler"]["planar"] == pose["planar"]
+    assert check_bytes(path.read_bytes()).status == "accepted"
+    assert main(["solve", MODEL]) == 0
+    table = capsys.readouterr().out
+    assert "2 complex solutions, 2 real poses; complete" in table
+    angles = sorted(float(line.split()[-1]) for line in table.splitlines() if line[:1].isdigit() and "." in line)
+    wanted = [
+        degrees(atan2(*(float(Fraction(pose["planar"][k][0])) for k in ("sin", "cos")))) for pose in printed["poses"]
+    ]
+    assert angles == pytest.approx(sorted(wanted), abs=1e-6)
+
+
+def test_joint_values_are_taken(capsys: pytest.CaptureFixture[str]) -> None:
+    model = str(ROOT / "models" / "links" / "3-rrr-links.toml")
+    values = ",".join(str(value) for value in _links("3-rrr-links").configuration().values)
+    assert main(["solve", model, "--joints", values, "--format", "json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert printed["configuration"]["name"] == "joints given"
+    assert printed["real_poses"] == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--lengths", "1,2,3"], "--lengths: belongs to robots with legs"),
+        (["--formulation", "AFD1"], "--formulation: a mechanism with passive bodies has one"),
+        (["--tolerance", "1"], "--tolerance: is for robots with legs"),
+        (["--near", "1,2,3"], "--near: a mechanism with passive bodies has no nominal pose"),
+        (["--feasible"], "--feasible: a mechanism with passive bodies has no limits"),
+        (["--format", "csv"], "--format csv: has no place for several bodies"),
+        (["--method", "newton"], "--method newton: is not for mechanisms with passive bodies"),
+        (["--configuration", "other"], "configuration: 'other' is unknown"),
+        (["--joints", "1"], "--joints: 1 values; give 0"),
+    ],
+)
+def test_options_that_mean_nothing_are_refused(
+    words: list[str], sentence: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "never.json"
+    assert main(["solve", MODEL, "-o", str(path), *words]) == 2
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert error.count("\n") == 1
+    assert not path.exists()
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["mobility", MODEL],
+        ["statics", MODEL],
+        ["formulations", MODEL],
+        ["compare", MODEL],
+        ["legs", MODEL, "--position", "0,0", "--half-tangent", "0"],
+        ["export", MODEL, "--to", "msolve"],
+    ],
+)
+def test_commands_for_one_platform_refuse_at_once(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(words) == 2
+    error = capsys.readouterr().err
+    assert "kind: links is a mechanism with passive bodies" in error
+    assert error.count("\n") == 1
+
+
+def test_files_of_other_kinds_have_no_links() -> None:
+    with pytest.raises(InputError, match="kind: 3-RPR has no passive bodies"):
+        read_links(ROOT / "models" / "3-rpr-merlet-p.toml")
+    with pytest.raises(InputError, match="only certify-poses solve takes those"):
+        read_robot(MODEL)
