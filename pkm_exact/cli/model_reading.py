@@ -60,6 +60,13 @@ def _announce(robot: Robot | Mechanism, path: str) -> None:
     note = metric_note(robot.metric[: 2 if robot.motion.is_planar else 3])
     if note is not None:
         click.echo(f"{PROGRAM}: note: {printable(path)}: {note}", err=True)
+    angles = [found.off for found in robot.stand_ins if not isinstance(found, str)]
+    if angles:
+        click.echo(
+            f"{PROGRAM}: note: {printable(path)}: exact angles next to those in degrees are taken, off by at most "
+            f"{float(max(angles)):.0e} degrees where cosine and sine are not rational",
+            err=True,
+        )
 
 
 def metric_note(metric: Sequence[int]) -> str | None:

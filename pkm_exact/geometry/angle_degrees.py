@@ -9,6 +9,7 @@ angle has a stand-in: with exact (C, S) on the circle and (c, s) the cosine and 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, isqrt
@@ -16,7 +17,7 @@ from typing import Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import CosSin, cosine_and_sine
-from pkm_exact.geometry.rational import NumberText, finite_decimal, parse_rational
+from pkm_exact.geometry.rational import NumberText, finite_decimal, parse_rational, rational_root
 from pkm_exact.geometry.rotation_degrees import sine_and_cosine
 from pkm_exact.wording import shown
 
@@ -26,6 +27,7 @@ _SLACK: Final = Fraction(1, 10**39)
 _BITS: Final = 160
 _DENOMINATOR: Final = 10**9
 """Of a half tangent that stands in for another: it is off by less than 10^-18 then."""
+_ONE_BY_ONE: Final = 3
 _SQUARES: Final = {0: Fraction(0), 60: Fraction(1, 3), 90: Fraction(1), 120: Fraction(3)}
 
 
@@ -57,6 +59,28 @@ class StandIn:
             f"tangent {self.half_tangent} stands in for it, off by at most {float(self.off):.0e} degrees, and what is "
             "proved is proved for that angle"
         )
+
+
+def stand_in_sentences(found: Sequence[StandIn | str]) -> tuple[str, ...]:
+    """What stands in for what, in words: one by one, or in one sentence if there are more than three angles.
+
+    Examples
+    --------
+    >>> angles = [StandIn(f"arm {k}", Fraction(k), Fraction(1), Fraction(1, 10**16)) for k in range(1, 6)]
+    >>> print(*stand_in_sentences(angles))
+    5 angles were given in degrees whose cosines and sines are not all rational here (arm 1, arm 2, .., arm 5); \
+rational half tangents stand in for them, each off by at most 1e-16 degrees, and what is proved is proved for those
+    """
+    angles = [entry for entry in found if isinstance(entry, StandIn)]
+    if len(angles) <= _ONE_BY_ONE:
+        return tuple(map(str, found))
+    most = max(angle.off for angle in angles)
+    sentence = (
+        f"{len(angles)} angles were given in degrees whose cosines and sines are not all rational here "
+        f"({angles[0].name}, {angles[1].name}, .., {angles[-1].name}); rational half tangents stand in for them, each "
+        f"off by at most {float(most):.0e} degrees, and what is proved is proved for those"
+    )
+    return (*(entry for entry in found if isinstance(entry, str)), sentence)
 
 
 def angle_in_degrees(
@@ -92,7 +116,7 @@ def angle_in_degrees(
     if angle == 180:
         return (Fraction(-1), Fraction(0)), None
     square = _SQUARES.get(int(abs(angle))) if angle.denominator == 1 else None
-    root = None if square is None else _rational_root(square / weight)
+    root = None if square is None else rational_root(square / weight)
     if root is not None:
         return cosine_and_sine(root if angle > 0 else -root, weight), None
     if exact:
@@ -131,9 +155,3 @@ def _sine_and_cosine(degrees: Fraction) -> tuple[Fraction, Fraction]:
     with working_precision(_BITS):
         sine, cosine = (value.mid().fmpq() for value in sine_and_cosine(degrees))
     return Fraction(int(sine.p), int(sine.q)), Fraction(int(cosine.p), int(cosine.q))
-
-
-def _rational_root(square: Fraction) -> Fraction | None:
-    roots = isqrt(square.numerator), isqrt(square.denominator)
-    found = Fraction(roots[0], roots[1])
-    return found if found * found == square else None

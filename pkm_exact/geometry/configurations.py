@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.chains import cosine_and_sine, parse_cosine_and_sine
-from pkm_exact.geometry.fields import known_keys, label, list_field
+from pkm_exact.geometry.angle_degrees import StandIn, angle_in_degrees
+from pkm_exact.geometry.chains import JointValue, cosine_and_sine, parse_cosine_and_sine
+from pkm_exact.geometry.fields import known_keys, label, list_field, truth
 from pkm_exact.geometry.inverse import distance_squared
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.pose_reader import read_pose
@@ -20,7 +22,7 @@ def read_configuration(row: dict[str, Any], where: str, robot: Robot) -> Configu
     """The configuration that a table describes, for a robot of known kind."""
     kind = KINDS[robot.kind]
     keys = kind.joint_keys
-    known_keys(row, ("name", *keys), where)
+    known_keys(row, ("name", *keys, *(("exact",) if "degrees" in keys else ())), where)
     name = label(row, "name", f"{where}.")
     given = [key for key in keys if key in row]
     if len(given) != 1:
@@ -35,20 +37,26 @@ def read_configuration(row: dict[str, Any], where: str, robot: Robot) -> Configu
     if len(values) != kind.legs:
         raise InputError(f"{field}: {len(values)} values; give {kind.legs}, one per leg")
     if robot.chains:
-        exact = [_joint_value(key, value, f"{field}[{i}]") for i, value in enumerate(values, 1)]
+        exact = truth(row, "exact", where)
+        locked = [_joint_value(key, value, f"{field}[{i}]", exact=exact) for i, value in enumerate(values, 1)]
+        stand_ins = tuple(
+            replace(entry, name=f"leg {i}") for i, (_, entry) in enumerate(locked, 1) if entry is not None
+        )
         try:
-            return robot.lock(name, exact)
+            return replace(robot.lock(name, [value for value, _ in locked]), stand_ins=stand_ins)
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
     numbers = [parse_positive(value, f"{field}[{i}]") for i, value in enumerate(values, 1)]
     return Configuration(name, tuple(n * n if key == "lengths" else n for n in numbers))
 
 
-def _joint_value(key: str, value: object, where: str) -> object:
+def _joint_value(key: str, value: object, where: str, *, exact: bool) -> tuple[JointValue, StandIn | None]:
     if key == "cos_sin":
-        return parse_cosine_and_sine(value, where)
+        return parse_cosine_and_sine(value, where), None
+    if key == "degrees":
+        return angle_in_degrees(value, where, exact=exact)
     number = parse_rational(value, where)
-    return cosine_and_sine(number) if key == "half_tangents" else number
+    return cosine_and_sine(number) if key == "half_tangents" else number, None
 
 
 def _lengths_squared_at(pose: object, where: str, robot: Robot) -> tuple[Fraction, ...]:

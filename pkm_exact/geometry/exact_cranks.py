@@ -13,6 +13,7 @@ from typing import Final
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import cosine_and_sine
+from pkm_exact.geometry.rational import rational_root
 
 DENOMINATOR: Final = 10**6
 """Greatest one of half tangents: an angle is off by 10^-12 or so."""
@@ -42,9 +43,9 @@ def exact_crank(at_0: Vector, at_90: Vector, digit: Fraction) -> tuple[Vector, V
     ([21.650726, 12.499842, 0.0], True, Fraction(625, 1), 0.000274)
     """
     kept, other = at_90, at_0
-    length = _rational_root(_dot(at_90, at_90))
-    if length is None and _rational_root(_dot(at_0, at_0)) is not None:
-        kept, other, length = at_0, at_90, _rational_root(_dot(at_0, at_0))
+    length = rational_root(_dot(at_90, at_90))
+    if length is None and rational_root(_dot(at_0, at_0)) is not None:
+        kept, other, length = at_0, at_90, rational_root(_dot(at_0, at_0))
     if length is None:
         root = _root(_dot(at_90, at_90))
         length = round(root / digit) * digit
@@ -112,11 +113,6 @@ def _dot(a: Vector, b: Vector) -> Fraction:
 
 def _dot2(pair: tuple[Fraction, Fraction]) -> Fraction:
     return pair[0] * pair[0] + pair[1] * pair[1]
-
-
-def _rational_root(square: Fraction) -> Fraction | None:
-    root = Fraction(isqrt(square.numerator), isqrt(square.denominator))
-    return root if root * root == square else None
 
 
 def _root(square: Fraction) -> Fraction:

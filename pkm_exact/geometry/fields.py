@@ -42,6 +42,14 @@ def list_field(value: object, where: str, length: int) -> list[Any]:
     return value
 
 
+def truth(table: dict[str, Any], key: str, where: str) -> bool:
+    """A truth value; false if the key is left out."""
+    value = table.get(key, False)
+    if not isinstance(value, bool):
+        raise InputError(f"{where}.{key}: {shown(value)} is neither true nor false; write one of them")
+    return value
+
+
 def table_field(table: dict[str, Any], key: str, example: str) -> dict[str, Any]:
     """A table that must be there; ``example`` is a line to write into it."""
     value = required(table, key, "")

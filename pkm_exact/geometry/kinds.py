@@ -61,7 +61,7 @@ class Kind:
 
 
 _LEG_KEYS: Final = ("lengths", "lengths_squared", "pose")
-_CRANK_KEYS: Final = ("half_tangents", "cos_sin")
+_CRANK_KEYS: Final = ("half_tangents", "cos_sin", "degrees")
 _SLIDE_KEYS: Final = ("slides",)
 
 KINDS: Final[Mapping[str, Kind]] = MappingProxyType(

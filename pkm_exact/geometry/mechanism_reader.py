@@ -1,7 +1,7 @@
 """Mechanisms in model files: ``kind = "constraints"``, with a table for each constraint.
 
 What a table may hold follows from the type's own fields and their roles; nothing here knows a type by name, but for the
-two spellings of a value that is a square, as ``length`` and ``length_squared``.
+two spellings of a value that is a square, as ``length`` and ``length_squared``, and an angle in place of a product.
 """
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.constraint_types import CONSTRAINTS
 from pkm_exact.constraints.form import SIZE
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.fields import known_keys, label, list_field, required, table_field
-from pkm_exact.geometry.inverse import UNIT_METRIC
+from pkm_exact.geometry.fields import known_keys, label, list_field, required, table_field, truth
+from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
 from pkm_exact.geometry.mechanism import MOST_CONSTRAINTS, LockedValues, Mechanism
+from pkm_exact.geometry.polar_vectors import PolarVector
 from pkm_exact.geometry.pose_reader import read_pose
 from pkm_exact.geometry.rational import parse_positive, parse_rational, parse_vector
 from pkm_exact.motions.motion import Motion
@@ -48,7 +49,7 @@ def read_mechanism(table: dict[str, Any], head: Mapping[str, str]) -> Mechanism:
     rows = _tables(table, "constraints", required=True)
     if len(rows) > MOST_CONSTRAINTS:
         raise InputError(f"constraints: {len(rows)} given; give 1 to {MOST_CONSTRAINTS}")
-    found = [_constraint(row, f"constraints[{i}]", motion) for i, row in enumerate(rows, 1)]
+    found = [_constraint(row, f"constraints[{i}]", motion, metric) for i, row in enumerate(rows, 1)]
     actuated = tuple(constraint.name for constraint, is_actuated in found if is_actuated)
     constraints = tuple(constraint for constraint, _ in found)
     who = head["name"], head["unit"], head["source"]
@@ -89,7 +90,7 @@ def _tables(table: dict[str, Any], key: str, *, required: bool) -> list[dict[str
     return rows
 
 
-def _constraint(row: dict[str, Any], where: str, motion: Motion) -> tuple[Constraint, bool]:
+def _constraint(row: dict[str, Any], where: str, motion: Motion, metric: Metric) -> tuple[Constraint, bool]:
     """The constraint of a table, and whether it is actuated; then its value is 1 until a configuration sets it."""
     name = label(row, "name", f"{where}.")
     type_ = label(row, "type", f"{where}.")
@@ -101,9 +102,7 @@ def _constraint(row: dict[str, Any], where: str, motion: Motion) -> tuple[Constr
     spellings = () if value is None else value_keys(found)
     others = [field for field in found.fields if field != value]
     known_keys(row, ("name", "type", "actuated", *others, *spellings), where)
-    is_actuated = row.get("actuated", False)
-    if not isinstance(is_actuated, bool):
-        raise InputError(f"{where}.actuated: {shown(is_actuated)} is neither true nor false; write one of them")
+    is_actuated = truth(row, "actuated", where)
     if is_actuated and value is None:
         raise InputError(f"{where}.actuated: the type {type_} has no value that an actuator could set; remove it")
     data = {field: _field(row, field, found.fields[field], where, motion) for field in others}
@@ -114,7 +113,12 @@ def _constraint(row: dict[str, Any], where: str, motion: Motion) -> tuple[Constr
         if not is_actuated and len(given) != 1:
             wanted = " or ".join(spellings)
             raise InputError(f"{where}: {' and '.join(given) or 'no value'} given; give {wanted}, or actuated = true")
-        data[value] = Fraction(1) if is_actuated else _value(row[given[0]], given[0], found, f"{where}.{given[0]}")
+        data[value] = Fraction(1)
+    if value is not None and not is_actuated:
+        written = row[given[0]]
+        if isinstance(written, PolarVector) and value == "product":
+            written = written.product(data["base"], data["platform"], metric)
+        data[value] = _value(written, given[0], found, f"{where}.{given[0]}")
     built: Any = found
     return built(**data, name=name), is_actuated
 

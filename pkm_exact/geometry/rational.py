@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from abc import ABC, abstractmethod
 from decimal import Decimal
 from fractions import Fraction
+from math import isqrt
 from typing import Final
 
 from pkm_exact.constraints.form import Vector
@@ -28,6 +30,14 @@ class NumberText(str):
 
     def __repr__(self) -> str:
         return ascii(str(self))[1:-1]
+
+
+class WrittenVector(ABC):
+    """A vector that a model file does not give by its coordinates (``polar_vectors``)."""
+
+    @abstractmethod
+    def numbers(self, dimension: int) -> list[Fraction]:
+        """Its coordinates, rational ones, so many."""
 
 
 def parse_rational(value: object, where: str) -> Fraction:
@@ -84,6 +94,8 @@ def parse_vector(row: object, where: str, dimension: int = 3) -> Vector:
     >>> parse_vector(["1/2", 3], "x", 2)
     (Fraction(1, 2), Fraction(3, 1), Fraction(0, 1))
     """
+    if isinstance(row, WrittenVector):
+        row = row.numbers(dimension)
     if not isinstance(row, list | tuple):
         raise InputError(f"{where}: {shown(row)} is not a list; give a list of {dimension} numbers")
     if len(row) != dimension:
@@ -91,6 +103,18 @@ def parse_vector(row: object, where: str, dimension: int = 3) -> Vector:
     numbers = [parse_rational(value, f"{where}[{i}]") for i, value in enumerate(row, 1)]
     x, y, z = numbers + [Fraction(0)] * (3 - dimension)
     return x, y, z
+
+
+def rational_root(square: Fraction) -> Fraction | None:
+    """The square root of a number that is not negative, if it is rational.
+
+    Examples
+    --------
+    >>> rational_root(Fraction(9, 4)), rational_root(Fraction(2))
+    (Fraction(3, 2), None)
+    """
+    root = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+    return root if root * root == square else None
 
 
 def bounded(value: Fraction, original: object, where: str, digits: int = MAX_DIGITS) -> Fraction:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import re
 import tomllib
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
@@ -17,7 +18,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.geometry.chain_reader import CHAIN_TABLES, exact_cranks, read_chains, read_joints
 from pkm_exact.geometry.configurations import read_configuration
 from pkm_exact.geometry.fields import known_keys, label, required
-from pkm_exact.geometry.inverse import UNIT_METRIC
+from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
@@ -31,10 +32,12 @@ from pkm_exact.geometry.machines.machine_reader import read_machine
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.mechanism_reader import read_mechanism
 from pkm_exact.geometry.nominal_pose import read_nominal
+from pkm_exact.geometry.polar_vectors import PolarVector, with_polar_vectors
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
 from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.geometry.tolerances import read_tolerances
 from pkm_exact.geometry.written_digits import finest_digit
+from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.wording import printable, shown
 
 __all__ = ["parse_rational", "read_robot", "robot_from_toml"]
@@ -160,12 +163,36 @@ def any_from_toml(text: str) -> Robot | Mechanism | Linkage | Links:
     """What the text of a model file describes."""
     table = _parse(text)
     nominal = table.pop("nominal", None)
-    found = _described(table)
+    kind = table.get("kind")
+    table, polar = with_polar_vectors(table, _metric(table), exact=kind in (CHAINS_KIND, LINKS_KIND))
+    found = _noted(_described(table), polar)
     if nominal is None:
         return found
     if isinstance(found, Linkage | Links):
         raise InputError(f"nominal: a file of kind {found.kind} has no pose to choose; take the table out")
     return replace(found, nominal=read_nominal(nominal, found.motion, found.metric))
+
+
+def _metric(table: dict[str, Any]) -> Metric:
+    """That of the coordinates in a file; whatever is wrong with it is said by those who read it."""
+    kind = table.get("kind")
+    machine = machine_kind(kind) if isinstance(kind, str) and kind not in KINDS else None
+    try:
+        return parse_metric(table["metric"], PLANAR)
+    except (KeyError, InputError):
+        return UNIT_METRIC if machine is None else machine.metric
+
+
+def _noted(
+    found: Robot | Mechanism | Linkage | Links, polar: Sequence[PolarVector]
+) -> Robot | Mechanism | Linkage | Links:
+    """The same with what stands in for angles of its geometry."""
+    stand_ins = tuple(stand_in for vector in polar for stand_in in vector.stand_ins.values())
+    if not stand_ins or isinstance(found, Linkage | Links):
+        return found
+    if isinstance(found, Robot):
+        return replace(found, stand_ins=(*found.stand_ins, *stand_ins))
+    return replace(found, stand_ins=(*found.stand_ins, *stand_ins))
 
 
 def _described(table: dict[str, Any]) -> Robot | Mechanism | Linkage | Links:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.angle_degrees import StandIn
 from pkm_exact.geometry.chains import Chain, Crank, JointValue, parse_cosine_and_sine
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.joints import in_plane, parse_joints, parse_metric, refuse_equal_legs
@@ -43,12 +44,15 @@ class Configuration:
         Positions of the slides, or (cos, sin) of the cranks' angles; empty if the legs themselves are actuated.
     written_digit : Fraction or None
         Unit of its last decimal in the model file; None without decimals.
+    stand_ins : tuple of StandIn
+        Angles among the joint values that were given in degrees and are taken as others, by how much.
     """
 
     name: str
     lengths_squared: tuple[Fraction, ...]
     joint_values: tuple[JointValue, ...] = ()
     written_digit: Fraction | None = field(default=None, repr=False, compare=False)
+    stand_ins: tuple[StandIn, ...] = field(default=(), repr=False, compare=False)
 
     def __post_init__(self) -> None:
         where = f"configuration {shown(self.name)}, lengths_squared"
@@ -84,8 +88,8 @@ class Robot(Machine):
         Of actuators, passive joints, legs and position, if there are any.
     nominal : NominalPose or None
         The pose in which it is meant to be.
-    stand_ins : tuple of str
-        What stands in for numbers of the model file that are not exact: sentences.
+    stand_ins : tuple of StandIn or str
+        What stands in for numbers of the model file that are not exact: angles, or sentences.
     written_digit : Fraction or None
         Unit of the last decimal of joints, cranks, slides and rods in the model file; None without decimals.
 
@@ -109,7 +113,7 @@ class Robot(Machine):
     tolerances: Tolerances | None = None
     limits: Limits | None = None
     nominal: NominalPose | None = None
-    stand_ins: tuple[str, ...] = field(default=(), repr=False, compare=False)
+    stand_ins: tuple[StandIn | str, ...] = field(default=(), repr=False, compare=False)
     written_digit: Fraction | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -217,7 +221,7 @@ class Robot(Machine):
             raise InputError(f"configuration: a {self.kind} robot has knees only in a configuration; name one")
         kind = KINDS[self.kind].gough
         note = f"as {kind}: the knees of the {self.kind} robot in configuration {locked.name} are its base joints"
-        reduced = Configuration(locked.name, locked.lengths_squared)
+        reduced = Configuration(locked.name, locked.lengths_squared, stand_ins=locked.stand_ins)
         return replace(
             self,
             kind=kind,

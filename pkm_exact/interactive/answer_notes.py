@@ -10,6 +10,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from pkm_exact.claim_wording import DIGITS, NEARBY, NEARBY_MOVES, NEARBY_SINGULAR
+from pkm_exact.geometry.angle_degrees import stand_in_sentences
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.geometry.robot import Robot
@@ -58,13 +59,11 @@ def nominal_notes(robot: Machine | None, poses: Sequence[Pose]) -> tuple[str, ..
 
 def stand_in_notes(robot: Machine | None, configuration: str | None) -> tuple[str, ...]:
     """What stands in for angles that were given in degrees, in the geometry and the configuration."""
-    if isinstance(robot, Robot):
-        return robot.stand_ins
-    if not isinstance(robot, Mechanism):
+    if not isinstance(robot, Robot | Mechanism):
         return ()
     chosen = [entry for entry in robot.configurations if entry.name == configuration]
     found = (*robot.stand_ins, *(stand_in for entry in chosen for stand_in in entry.stand_ins))
-    return tuple(map(str, found))
+    return stand_in_sentences(found)
 
 
 def written_digit(robot: Machine, configuration: str | None) -> Fraction | None:

@@ -17,21 +17,23 @@ from typing import Final
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
+from pkm_exact.geometry.chains import CosSin
 from pkm_exact.geometry.drives import Drive, Part
 from pkm_exact.geometry.inverse import Metric
-from pkm_exact.geometry.machines.dimension_readers import length, vectors, word
+from pkm_exact.geometry.machines.dimension_readers import length, turn, vectors
 from pkm_exact.geometry.machines.machine_kind import Assembly, Dimensions, Group, Joint, MachineKind
 from pkm_exact.geometry.surds import Surd
 from pkm_exact.motions.motion_groups import SPATIAL
 
 _ZERO: Final = Fraction(0)
-_HEADINGS: Final = {"0": (1, 0), "90": (0, 1), "180": (-1, 0), "-90": (0, -1)}
+_ONE: Final = Fraction(1)
+_HEADINGS: Final = {"0": (_ONE, _ZERO), "90": (_ZERO, _ONE), "180": (-_ONE, _ZERO), "-90": (_ZERO, -_ONE)}
 """Cosine and sine."""
 
 
 def assemble(given: Dimensions, metric: Metric) -> Assembly:  # noqa: ARG001 - no turns but exact ones
     """Six legs whose feet the carriage moves together."""
-    heading = _HEADINGS[given["heading"]]
+    heading = given["heading"]
     legs: list[Constraint] = []
     parts: dict[str, list[Part]] = {"X": [], "Y": [], "tilt": []}
     for k, ((x, y, z), joint) in enumerate(zip(given["base"], given["platform"], strict=True), 1):
@@ -55,13 +57,13 @@ def assemble(given: Dimensions, metric: Metric) -> Assembly:  # noqa: ARG001 - n
     return Assembly(tuple(legs), groups, tuple(drives))
 
 
-def _turned(vector: Vector, heading: tuple[int, int]) -> Vector:
+def _turned(vector: Vector, heading: CosSin) -> Vector:
     (x, y, z), (c, s) = vector, heading
     return c * x - s * y, s * x + c * y, z
 
 
 def carriage_branches(
-    end: Vector, reach: Fraction, arm: Fraction, heading: str
+    end: Vector, reach: Fraction, arm: Fraction, heading: str | CosSin
 ) -> tuple[tuple[Surd, Surd, Surd, Fraction], ...]:
     """The carriage positions X, Y and the cosine and sine of the tilt that bring the arm's end to a point.
 
@@ -78,7 +80,7 @@ def carriage_branches(
     square = 1 - sine * sine
     if square < 0:
         return ()
-    root, (c, s) = Surd.root_of(square), _HEADINGS[heading]
+    root, (c, s) = Surd.root_of(square), _HEADINGS[heading] if isinstance(heading, str) else heading
     found = []
     for sign in (Fraction(-1), Fraction(1)) if square else (Fraction(1),):
         cosine = root.scaled(sign)
@@ -99,7 +101,7 @@ CARRIAGE: Final = MachineKind(
         vectors("platform", "joints of its platform", _JOINTS, 6),
         length("reach", "r0, from the slides to the arm's hinge", "2"),
         length("arm", "r1, the length of the arm", "5"),
-        word("heading", "degrees about the vertical", ("0", "90", "180", "-90")),
+        turn("heading", "degrees about the vertical: 0, 90, 180, -90, or { degrees = 30 }", _HEADINGS),
     ),
     assemble,
     {

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any, TypeAlias
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.chains import CosSin
 from pkm_exact.geometry.fields import list_field, required
 from pkm_exact.geometry.machines.machine_kind import Dimension
 from pkm_exact.geometry.mechanism import MOST_CONSTRAINTS
+from pkm_exact.geometry.polar_vectors import PolarVector
 from pkm_exact.geometry.rational import parse_positive, parse_rational, parse_vector
 from pkm_exact.wording import shown
 
@@ -104,22 +107,28 @@ def vectors(
 
 
 def vector(key: str, what: str, example: str, size: int, default: tuple[int, ...] | None = None) -> Dimension:
-    """One vector."""
+    """One vector; one of two numbers is outwards and upwards, which no metric touches."""
 
     def read(found: Mapping[str, Any], where: str) -> Vector:
         if default is not None and key not in found:
             return parse_vector(list(default), key, size)
-        return parse_vector(required(dict(found), key, f"{where}."), f"{where}.{key}", size)
+        written = required(dict(found), key, f"{where}.")
+        if isinstance(written, PolarVector) and size == 2:
+            written = written.in_ordinary_coordinates()
+        return parse_vector(written, f"{where}.{key}", size)
 
     return Dimension(key, what, read, example, default is not None)
 
 
-def numbers(key: str, what: str, example: str, count: int | None) -> Dimension:
-    """So many numbers."""
+def numbers(key: str, what: str, example: str, count: int | None, *, angles: bool = False) -> Dimension:
+    """So many numbers; with ``angles`` some may be angles between two directions, which the recipe knows."""
 
-    def read(table: Mapping[str, Any], where: str) -> tuple[Fraction, ...]:
+    def read(table: Mapping[str, Any], where: str) -> tuple[Fraction | PolarVector, ...]:
         rows = _row(required(dict(table), key, f"{where}."), f"{where}.{key}", count)
-        return tuple(parse_rational(value, f"{where}.{key}[{i}]") for i, value in enumerate(rows, 1))
+        return tuple(
+            value if angles and isinstance(value, PolarVector) else parse_rational(value, f"{where}.{key}[{i}]")
+            for i, value in enumerate(rows, 1)
+        )
 
     return Dimension(key, what, read, example)
 
@@ -134,6 +143,20 @@ def word(key: str, what: str, words: tuple[str, ...], *, table: str = "dimension
         return str(value)
 
     return Dimension(key, what, read, f'"{words[0]}"', is_optional=True, table=table)
+
+
+def turn(key: str, what: str, words: Mapping[str, CosSin]) -> Dimension:
+    """Cosine and sine of an angle, by one of a few words or as { degrees = 30 }; that of the first if left out."""
+    by_word = word(key, what, tuple(words))
+
+    def read(found: Mapping[str, Any], where: str) -> CosSin:
+        value = found.get(key)
+        if isinstance(value, PolarVector):
+            cosine, sine = value.in_ordinary_coordinates().numbers(2)
+            return cosine, sine
+        return words[by_word.read(found, where)]
+
+    return replace(by_word, read=read)
 
 
 def _row(value: object, where: str, count: int | None) -> list[Any]:

@@ -9,7 +9,7 @@ from typing import Any, Final, TypeAlias
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.angle_degrees import StandIn, angle_in_degrees
 from pkm_exact.geometry.chains import JointValue
-from pkm_exact.geometry.fields import known_keys, label, list_field, table_field
+from pkm_exact.geometry.fields import known_keys, label, list_field, table_field, truth
 from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.limits_reader import read_limits
 from pkm_exact.geometry.machines.machine_kind import Assembly, Group, Joint, MachineKind
@@ -87,9 +87,7 @@ def _configuration(row: dict[str, Any], where: str, mechanism: Mechanism, groups
             )
         found = mechanism.values_at(*read_pose(row["pose"], f"{where}.pose", mechanism.motion, mechanism.metric))
         return LockedValues(name, tuple(found[constraint] for constraint in mechanism.actuated))
-    exact = row.get("exact", False)
-    if not isinstance(exact, bool):
-        raise InputError(f"{where}.exact: {shown(exact)} is neither true nor false; write one of them")
+    exact = truth(row, "exact", where)
     found_values = [value for group in groups for value in _group_values(row, where, mechanism, group, exact=exact)]
     values = tuple(value for value, _ in found_values)
     try:

@@ -21,6 +21,7 @@ from pkm_exact.geometry.inverse import Metric, dot
 from pkm_exact.geometry.machines.dimension_readers import numbers, vectors
 from pkm_exact.geometry.machines.machine_kind import Assembly, Dimensions, Group, Joint, MachineKind
 from pkm_exact.geometry.machines.triangle import along
+from pkm_exact.geometry.polar_vectors import PolarVector
 from pkm_exact.motions.motion_groups import SPHERICAL
 
 
@@ -40,6 +41,8 @@ def assemble(given: Dimensions, metric: Metric) -> Assembly:
             raise InputError(
                 f"dimensions.axes[{k}]: its square is {norm}; give a vector whose square is a positive integer"
             )
+        if isinstance(product, PolarVector):
+            product = product.product(link, held, metric)
         still = along((dot(axis, link, metric) / norm, axis))
         turning = along((1, link), (-1, still))
         if not any(turning):
@@ -72,9 +75,10 @@ SPHERICAL_3_RRR: Final = MachineKind(
         ),
         numbers(
             "products",
-            "cosines of the links' angles, times the lengths of both directions",
+            "cosines of the links' angles, times the lengths of both directions; or angles as { degrees = 60 }",
             '["1/5", "-1/4", "1/3"]',
             3,
+            angles=True,
         ),
     ),
     assemble,
