@@ -27,6 +27,8 @@ def digest(*data: Data) -> int:
 
 
 def _spelled(data: Data) -> str:
+    if type(data) is int:
+        return f"{data:x}"
     if isinstance(data, str):
         return repr(data)
     if isinstance(data, Fraction):

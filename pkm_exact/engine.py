@@ -133,7 +133,8 @@ class _Run:
             If another prime shows other poses, or it is proved that there are more.
         """
         self.stages.enter("completeness")
-        proof = prove_complete(representation, self.problem, self.policy, self.stages.amount)
+        elimination = start.frame.elimination
+        proof = prove_complete(representation, self.problem, self.policy, self.stages.amount, elimination)
         if proof is None and start.frame.at_next_prime().count != start.count:
             raise UnluckyPrimeError("two primes have different poses")
         return proof

@@ -31,7 +31,7 @@ from pkm_exact.claim import CompletenessRoute
 from pkm_exact.completeness import short_proof as short
 from pkm_exact.completeness.closed_section import closed_section
 from pkm_exact.completeness.conditions import Conditions
-from pkm_exact.completeness.finite_section import is_finite
+from pkm_exact.completeness.finite_section import is_finite, most_at_infinity
 from pkm_exact.completeness.infinity import PointsAtInfinity, is_at_infinity, points_at_infinity, singular_points
 from pkm_exact.completeness.modular_rank import modular_rank
 from pkm_exact.completeness.pose_bound import pose_bound
@@ -186,6 +186,30 @@ def test_unlucky_primes_are_not_asked_alone(first: list[int], monkeypatch: pytes
     assert proof is not None
     assert proof.infinity is not None
     assert proof.infinity.multiplicity == 4
+
+
+@pytest.mark.parametrize("name", ["hexaglide", "mssm", "ssm-exact"])
+def test_the_bound_for_points_at_infinity_holds(name: str) -> None:
+    points = _infinity(name).univariate.degree
+    for is_quick in (False, True):
+        most = most_at_infinity(_robot(name), next(_primes()), is_quick=is_quick)
+        assert most is not None
+        assert points <= most <= 40
+
+
+@pytest.mark.parametrize("name", ["similar-planar-s", "pentapod", "micabo-h"])
+def test_curves_at_infinity_have_no_bound_and_points_are_not_looked_for(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert most_at_infinity(_robot(name), next(_primes())) is None
+    assert points_at_infinity(_robot(name), _primes(), BITS) is None
+    monkeypatch.setattr(short, "points_at_infinity", lambda *_, **__: pytest.fail("looked for points"))
+    assert short_proof(_robot(name), 12, 12, Policy()) is None
+
+
+def test_too_few_points_at_infinity_are_not_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(short, "points_at_infinity", lambda *_, **__: pytest.fail("looked for points"))
+    assert short_proof(_robot("hexaglide"), 1, 1, Policy()) is None
 
 
 def test_points_at_infinity_are_verified_exactly() -> None:

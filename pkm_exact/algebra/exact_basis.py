@@ -10,18 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import gcd
 
-from flint import fmpz_mat
-
-from pkm_exact.algebra.groebner import Trace, UnluckyPrimeError
+from pkm_exact.algebra.elimination_trace import Trace
+from pkm_exact.algebra.exact_reduction import ExactPolynomial, echelon_form, exact_new_rows
+from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.monomials import MonomialRing, divides, exponent_fields
 from pkm_exact.algebra.reduction import Row
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.stages import Amount, Watch
-
-ExactPolynomial = tuple[tuple[int, int], ...]
-"""Packed monomials in decreasing order, each with its integer coefficient; the coefficients are coprime."""
 
 
 @dataclass(frozen=True)
@@ -63,16 +59,17 @@ def exact_basis(system: PolynomialSystem, trace: Trace, watch: Watch | None = No
     ]
     elements = echelon_form(generators)
     _require_leading(elements, trace.start)
+    known = [_fields(ring, element) for element in elements]
     steps = []
     for done, step in enumerate(trace.steps):
         if watch is not None:
             watch(Amount(done, len(trace.steps), "exact matrices", detail=f"{len(step.rows)} rows"))
         rows = [multiple(elements[index], monomial) for index, monomial in step.rows]
-        known = [_fields(ring, element) for element in elements]
-        found = ((row, _fields(ring, row)) for row in echelon_form(rows))
+        found = ((row, _fields(ring, row)) for row in exact_new_rows(rows, step.leading))
         new = [row for row, fields in found if not any(divides(lead, fields) for lead in known)]
         _require_leading(new, step.new)
         elements += new
+        known += [_fields(ring, element) for element in new]
         steps.append(step.rows)
     return ExactBasis(ring, tuple(elements), tuple(steps))
 
@@ -90,32 +87,3 @@ def _fields(ring: MonomialRing, polynomial: ExactPolynomial) -> int:
 def multiple(polynomial: ExactPolynomial, monomial: int) -> ExactPolynomial:
     """The polynomial times a packed monomial."""
     return tuple((key + monomial, value) for key, value in polynomial)
-
-
-def echelon_form(polynomials: Sequence[ExactPolynomial]) -> list[ExactPolynomial]:
-    """The reduced row echelon form over Q, each row cleared to coprime integers, largest leading monomial first.
-
-    Examples
-    --------
-    >>> echelon_form([((2, 1), (1, 1)), ((2, 1), (0, 3))])
-    [((2, 1), (0, 3)), ((1, 1), (0, -3))]
-    """
-    columns = sorted({monomial for polynomial in polynomials for monomial, _ in polynomial}, reverse=True)
-    position = {monomial: index for index, monomial in enumerate(columns)}
-    table = [[0] * len(columns) for _ in polynomials]
-    for row, polynomial in zip(table, polynomials, strict=True):
-        for monomial, value in polynomial:
-            row[position[monomial]] = value
-    if not columns:
-        return []
-    echelon, _, rank = fmpz_mat(table).rref()
-    rows = []
-    for index in range(rank):
-        entries = [int(echelon[index, column]) for column in range(len(columns))]
-        content = gcd(*entries)
-        lead = next(value for value in entries if value)
-        content = content if lead > 0 else -content
-        rows.append(
-            tuple((monomial, value // content) for monomial, value in zip(columns, entries, strict=True) if value)
-        )
-    return rows

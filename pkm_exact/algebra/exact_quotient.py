@@ -17,7 +17,8 @@ from itertools import combinations
 
 from flint import fmpq, fmpq_mat, nmod_mat, nmod_poly
 
-from pkm_exact.algebra.exact_basis import ExactBasis, ExactPolynomial
+from pkm_exact.algebra.exact_basis import ExactBasis
+from pkm_exact.algebra.exact_reduction import ExactPolynomial
 from pkm_exact.algebra.monomials import MonomialRing
 from pkm_exact.algebra.quotient import standard_monomials
 

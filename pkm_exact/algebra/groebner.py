@@ -12,8 +12,9 @@ A Groebner basis modulo one prime is a guide, not a proof: what it suggests over
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+from pkm_exact.algebra.elimination_trace import Course, Step, Trace
 from pkm_exact.algebra.monomials import MonomialRing, divides, exponent_fields
 from pkm_exact.algebra.reduction import Row, new_rows, read_row, row_echelon, row_matrix
 from pkm_exact.algebra.system import ModularPolynomial
@@ -30,24 +31,6 @@ class UnluckyPrimeError(PkmExactError):
 
 
 @dataclass(frozen=True)
-class Step:
-    """One matrix: the rows that span its row space, all its leading monomials, and those of them that are new."""
-
-    rows: tuple[Row, ...]
-    leading: frozenset[int]
-    new: tuple[int, ...]
-
-
-@dataclass(frozen=True)
-class Trace:
-    """What an elimination did: enough to repeat it at another prime without a search."""
-
-    start: tuple[int, ...]
-    steps: tuple[Step, ...]
-    basis: tuple[int, ...]
-
-
-@dataclass(frozen=True)
 class GroebnerBasis:
     """A minimal Groebner basis modulo a prime, degree reverse lexicographic; each element is monic.
 
@@ -57,14 +40,24 @@ class GroebnerBasis:
     ring : MonomialRing
     elements : tuple of (packed monomials, coefficients)
         Sorted by leading monomial.
-    trace : Trace
-        How it was found.
+    trace : Trace or None
+        How it was found, if that was recorded.
+    course : Course or None
+        From which the trace can be found later; None where a trace was followed.
     """
 
     prime: int
     ring: MonomialRing
     elements: tuple[ModularPolynomial, ...]
     trace: Trace | None = field(repr=False)
+    course: Course | None = field(default=None, repr=False, compare=False)
+
+    def recorded(self) -> GroebnerBasis:
+        """The same with its trace."""
+        if self.trace is not None or self.course is None:
+            return self
+        place = {element[0][0]: index for index, element in enumerate(self.course.known)}
+        return replace(self, trace=self.course.trace([place[lead] for lead in self.leading_monomials], self.prime))
 
     @property
     def leading_monomials(self) -> tuple[int, ...]:
@@ -109,7 +102,7 @@ def learn(
     degree_limit : int
         Largest degree of a critical pair that is treated.
     record : bool
-        Whether to find the rows that mattered, so that ``apply`` can repeat the run (one more elimination a step).
+        Whether to find the rows that mattered, so that ``apply`` can repeat the run; ``recorded`` does so later.
     watch : callable, optional
         Gets how many critical pairs are done before each matrix.
 
@@ -118,7 +111,8 @@ def learn(
     OutOfReachError
         If a critical pair exceeds the degree limit.
     """
-    return _Elimination(polynomials, ring, prime).run(degree_limit, record, watch)
+    basis = _Elimination(polynomials, ring, prime).run(degree_limit, watch)
+    return basis.recorded() if record else basis
 
 
 def apply(trace: Trace, polynomials: list[ModularPolynomial], ring: MonomialRing, prime: int) -> GroebnerBasis:
@@ -155,12 +149,6 @@ def _interreduced(polynomials: list[ModularPolynomial], prime: int) -> list[Modu
     return [read_row(reduced, row, columns, pivot) for row, pivot in enumerate(pivots)]
 
 
-def _spanning_rows(rows: list[Row], known: list[ModularPolynomial], prime: int) -> list[Row]:
-    """The first rows that form a basis of the row space."""
-    columns = sorted({monomial + multiplier for index, multiplier in rows for monomial in known[index][0]})
-    return [rows[index] for index in row_echelon(row_matrix(rows, known, columns, prime).transpose())[1]]
-
-
 @dataclass(frozen=True)
 class _Pair:
     degree: int
@@ -184,7 +172,7 @@ class _Elimination:
         self._divisor_cache: dict[int, tuple[int, int]] = {}
         self.generators = _interreduced(polynomials, prime)
 
-    def run(self, degree_limit: int, record: bool, watch: Watch | None) -> GroebnerBasis:
+    def run(self, degree_limit: int, watch: Watch | None) -> GroebnerBasis:
         for generator in self.generators:
             self._append(generator)
         for index in range(len(self.known) - 1, -1, -1):
@@ -198,11 +186,10 @@ class _Elimination:
             if watch is not None:
                 watch(Amount(done, done + len(self.pairs), "critical pairs", "at least", f"degree {degree}"))
             done += len(selected)
-            steps.append(self._reduce(selected, record))
+            steps.append(self._reduce(selected))
         basis = sorted(self._minimal(), key=lambda index: self.known[index][0][0])
-        start = tuple(generator[0][0] for generator in self.generators)
-        trace = Trace(start, tuple(step for step in steps if step.new), tuple(basis)) if record else None
-        return GroebnerBasis(self.prime, self.ring, tuple(self.known[index] for index in basis), trace)
+        course = Course(tuple(steps), tuple(self.known), len(self.generators))
+        return GroebnerBasis(self.prime, self.ring, tuple(self.known[index] for index in basis), None, course)
 
     def _minimal(self) -> list[int]:
         """Indices of the basis elements whose leading monomial no other one divides."""
@@ -217,7 +204,7 @@ class _Elimination:
         self.exponents.append(self.ring.unpack(polynomial[0][0]))
         self.fields.append(exponent_fields(self.exponents[-1]))
 
-    def _reduce(self, selected: list[_Pair], record: bool) -> Step:
+    def _reduce(self, selected: list[_Pair]) -> Step:
         chosen = set(selected)
         self.pairs = [pair for pair in self.pairs if pair not in chosen]
         halves: dict[Row, None] = {}
@@ -229,8 +216,6 @@ class _Elimination:
         found = new_rows(rows, self.known, self.prime)
         new = tuple(polynomial[0][0] for polynomial in found)
         leading = _leading(rows, self.known).union(new)
-        if record and found:
-            rows = _spanning_rows(rows, self.known, self.prime)
         first = len(self.known)
         for polynomial in found:
             self._append(polynomial)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from pkm_exact.algebra import groebner
+from pkm_exact.algebra.elimination_trace import Trace
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.algebra.quotient import QuotientAlgebra, quotient_algebra
 from pkm_exact.algebra.system import PolynomialSystem
@@ -45,18 +46,29 @@ class Elimination:
     policy : Policy
     watch : callable, optional
         Gets how far the elimination at a prime has come.
+    learned : dict
+        By prime, the bases that were found from scratch. Another elimination of the same system may begin with them.
     """
 
     system: PolynomialSystem
     policy: Policy
     watch: Watch | None = field(default=None, repr=False, compare=False)
     _primes: Iterator[int] = field(init=False, repr=False)
-    _trace: groebner.Trace | None = field(init=False, default=None, repr=False)
+    _digest: int = field(init=False, repr=False)
+    _trace: Trace | None = field(init=False, default=None, repr=False)
     primes_used: list[int] = field(init=False, default_factory=list)
     primes_unlucky: list[int] = field(init=False, default_factory=list)
+    learned: dict[int, groebner.GroebnerBasis] = field(init=False, default_factory=dict, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        self._primes = primes_from(self.policy.seed_for(self.system.digest), self.policy.prime_bits)
+        self._digest = self.system.digest
+        self._primes = primes_from(self.policy.seed_for(self._digest), self.policy.prime_bits)
+
+    def knowing(self, other: Elimination) -> Elimination:
+        """This elimination, which finds no basis again that another one has found of the same system."""
+        if self._digest == other._digest and self.policy == other.policy:
+            self.learned.update(other.learned)
+        return self
 
     def image(self, *, record: bool = False) -> ModularImage:
         """The image at the next prime, found from scratch; with ``record`` its trace is kept for ``following``.
@@ -72,7 +84,7 @@ class Elimination:
             self._trace = basis.trace
         return self._finished(prime, basis)
 
-    def trace(self) -> groebner.Trace | None:
+    def trace(self) -> Trace | None:
         """The trace of an elimination at the next prime; None if the staircase is infinite there.
 
         Raises
@@ -104,9 +116,13 @@ class Elimination:
         return self.image(record=True)
 
     def _learned(self, prime: int, *, record: bool) -> groebner.GroebnerBasis:
-        limit = self.policy.degree_limit
-        system, ring = self.system.modulo(prime), self.system.monomials
-        return groebner.learn(system, ring, prime, degree_limit=limit, record=record, watch=self.watch)
+        if prime not in self.learned:
+            limit = self.policy.degree_limit
+            system, ring = self.system.modulo(prime), self.system.monomials
+            self.learned[prime] = groebner.learn(
+                system, ring, prime, degree_limit=limit, record=False, watch=self.watch
+            )
+        return self.learned[prime].recorded() if record else self.learned[prime]
 
     def _next_prime(self) -> int:
         prime = next(self._primes, None)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from flint import fmpq, fmpq_mat
 
@@ -46,7 +46,7 @@ class ClosedSection:
     quadrics: tuple[tuple[fmpq, ...], ...]
     is_empty: bool
 
-    @property
+    @cached_property
     def system(self) -> PolynomialSystem:
         """The quadrics as a system over the integers; of the polynomial 1 alone if there is no pose."""
         names = tuple(_NAMES[index] for index in self.unknowns)

@@ -24,14 +24,15 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 
+from pkm_exact.algebra.elimination_trace import Trace
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
-from pkm_exact.algebra.groebner import Trace, UnluckyPrimeError
+from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.quotient import standard_monomials
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.claim import CompletenessRoute
-from pkm_exact.completeness.closed_section import closed_section
+from pkm_exact.completeness.closed_section import ClosedSection, closed_section
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.infinity import PointsAtInfinity
 from pkm_exact.completeness.short_proof import short_proof
@@ -81,17 +82,23 @@ def has_as_many_legs_as_freedoms(problem: ForwardProblem) -> bool:
     return unnamed and is_of_legs(problem) and len(problem.constraints) == problem.motion.dimension
 
 
-def elimination_system(problem: ForwardProblem) -> PolynomialSystem:
-    """The system that is eliminated over Q."""
+def elimination_system(problem: ForwardProblem, section: ClosedSection | None = None) -> PolynomialSystem:
+    """The system that is eliminated over Q; the closed section is found unless it is given."""
     if has_as_many_legs_as_freedoms(problem):
         return SE3().formulate(problem).system
-    return closed_section(Conditions.of(problem)).system
+    return (section or closed_section(Conditions.of(problem))).system
 
 
 def prove_complete(
-    representation: PoseRepresentation, problem: ForwardProblem, policy: Policy, watch: Watch | None = None
+    representation: PoseRepresentation,
+    problem: ForwardProblem,
+    policy: Policy,
+    watch: Watch | None = None,
+    earlier: Elimination | None = None,
 ) -> CompletenessProof | None:
     """A proof that a verified representation is complete, or None if none of those known here applies.
+
+    What an earlier elimination of the same system found modulo primes is not found again.
 
     Raises
     ------
@@ -105,11 +112,15 @@ def prove_complete(
         and are_isolated(representation, problem, policy)
     ):
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)
+    section = None
     if goes_shortly(problem, policy):
-        proof = _shortly(representation, problem, policy)
+        conditions = Conditions.of(problem)
+        section = closed_section(conditions)
+        proof = _shortly(representation, problem, policy, conditions, section)
         if proof is not None:
             return proof
-    proofs = (_by_elimination(basis, representation, problem, policy) for basis in bases(problem, policy, watch))
+    found = bases(elimination_system(problem, section), policy, watch, earlier)
+    proofs = (_by_elimination(basis, representation, problem, policy) for basis in found)
     return next((proof for proof in proofs if proof is not None), None)
 
 
@@ -120,7 +131,13 @@ def goes_shortly(problem: ForwardProblem, policy: Policy) -> bool:
     return policy.short_proofs and not problem.motion.is_planar
 
 
-def _shortly(representation: PoseRepresentation, problem: ForwardProblem, policy: Policy) -> CompletenessProof | None:
+def _shortly(
+    representation: PoseRepresentation,
+    problem: ForwardProblem,
+    policy: Policy,
+    conditions: Conditions,
+    section: ClosedSection,
+) -> CompletenessProof | None:
     """A proof without an elimination, in which multiple poses count twice."""
     degree = representation.univariate.degree
     found: Multiplicities = ()
@@ -128,7 +145,7 @@ def _shortly(representation: PoseRepresentation, problem: ForwardProblem, policy
         least = least_multiplicities(representation, problem, policy)
         found = tuple((factor, min(multiplicity, 2)) for factor, multiplicity in least)
     total = total_of(found) if found else degree
-    proof = short_proof(Conditions.of(problem), degree, total, policy)
+    proof = short_proof(conditions, degree, total, policy, section)
     return None if proof is None else CompletenessProof(proof.route, total, (), found, proof.infinity)
 
 
@@ -164,18 +181,23 @@ def prove_inconsistent(problem: ForwardProblem, policy: Policy, watch: Watch | N
         proof = short_proof(Conditions.of(problem), 0, 0, policy)
         if proof is not None:
             return CompletenessProof(proof.route, 0, infinity=proof.infinity)
-    found = (solution_bound(basis, policy) == 0 and basis for basis in bases(problem, policy, watch))
+    found = (
+        solution_bound(basis, policy) == 0 and basis for basis in bases(elimination_system(problem), policy, watch)
+    )
     return next((_elimination_proof(basis, 0) for basis in found if basis), None)
 
 
-def bases(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> Iterator[ExactBasis]:
-    """Eliminations over Q of the poses' ideal, along traces modulo primes at which it is finite.
+def bases(
+    system: PolynomialSystem, policy: Policy, watch: Watch | None = None, earlier: Elimination | None = None
+) -> Iterator[ExactBasis]:
+    """Eliminations over Q of a system's ideal, along traces modulo primes at which it is finite.
 
     What one trace does not prove, another may, if its prime was unlucky; but a prime that gives a trace a second time
     shows that it is the robot's. None follows.
     """
-    system = elimination_system(problem)
     elimination = Elimination(system, policy)
+    if earlier is not None:
+        elimination = elimination.knowing(earlier)
     traces: list[Trace | None] = []
     for _ in range(policy.attempts):
         trace = elimination.trace()

@@ -21,7 +21,7 @@ from pkm_exact.algebra.lifting import lift_by_primes
 from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.algebra.rur import ModularRepresentation, squarefree_part
 from pkm_exact.completeness.conditions import Conditions
-from pkm_exact.completeness.rigid_motions import IntegerSection, Quadric, boundary_quadrics, variety_quadrics
+from pkm_exact.completeness.rigid_motions import HORIZON, IntegerSection, Quadric, boundary_quadrics, variety_quadrics
 from pkm_exact.constraints.form import SIZE
 from pkm_exact.digests import digest
 from pkm_exact.errors import ReconstructionError
@@ -38,7 +38,6 @@ MISSES = 12
 """Primes without an image of the points, one after another, after which the first one is taken for unlucky."""
 FEW = 3
 """Unknowns whose relations the quick way takes."""
-_HORIZON = (0,) * (SIZE - 1) + (1,)
 
 
 @dataclass(frozen=True)
@@ -83,7 +82,7 @@ def points_at_infinity(
     chosen: Chosen = {}
     first = FEW if is_quick else None
     boundary = IntegerSection.of(
-        [*boundary_quadrics(conditions.metric), *conditions.quadrics], [*conditions.forms, _HORIZON]
+        [*boundary_quadrics(conditions.metric), *conditions.quadrics], [*conditions.forms, HORIZON]
     )
     section = _Section.at(boundary, next(primes), chosen, first)
     if section is None or not section.dimension:

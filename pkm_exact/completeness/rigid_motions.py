@@ -24,6 +24,8 @@ from pkm_exact.formulations.motion_variety import MOTION_COORDINATES, motion_qua
 Quadric: TypeAlias = Mapping[tuple[int, int], int]
 """Integer coefficients on products of two of the 17 coordinates, the smaller index first."""
 IntegerForm: TypeAlias = Sequence[int]
+HORIZON: IntegerForm = (0,) * (SIZE - 1) + (1,)
+"""The form h: its zeros are at infinity."""
 
 _NAMES = ("s", "u1", "u2", "u3", "c1", "c2", "c3", *(f"r{i}{j}" for i in "123" for j in "123"), "h")
 
@@ -76,15 +78,27 @@ def restricted(quadrics: Sequence[Quadric], forms: Sequence[IntegerForm], prime:
     """Quadrics on the common zeros of integer forms, modulo a prime: number of unknowns, coefficients on ``pairs``."""
     basis = zero_space(forms, prime)
     size = basis.ncols()
-    transposed = basis.transpose()
+    coordinates = [[(k, int(value)) for k, value in enumerate(row) if value] for row in basis.tolist()]
+    found = _substituted(quadrics, coordinates, size)
+    return size, [[value % prime for value in values] for values in found]
+
+
+def _substituted(
+    quadrics: Sequence[Quadric], coordinates: Sequence[Sequence[tuple[int, int]]], size: int
+) -> list[list[int]]:
+    """Quadrics on ``pairs`` of unknowns, by each coordinate's unknowns with their coefficients."""
+    place = {pair: number for number, pair in enumerate(pairs(size))}
+    places = [[place[min(i, j), max(i, j)] for j in range(size)] for i in range(size)]
     found = []
     for quadric in quadrics:
-        table = nmod_mat(SIZE, SIZE, prime)
+        values = [0] * len(place)
         for (i, j), value in quadric.items():
-            table[i, j] = value % prime
-        entries = (transposed * table * basis).tolist()
-        found.append([int(entries[i][j]) + (int(entries[j][i]) if i != j else 0) for i, j in pairs(size)])
-    return size, found
+            for k, left in coordinates[i]:
+                factor, line = value * left, places[k]
+                for m, right in coordinates[j]:
+                    values[line[m]] += factor * right
+        found.append(values)
+    return found
 
 
 @dataclass(frozen=True)
@@ -117,15 +131,9 @@ class IntegerSection:
                 values[pivot] = -table[row][column]
             content = gcd(*map(int, values))
             columns.append([value // content for value in values])
-        transposed = fmpz_mat(columns)
-        basis = transposed.transpose()
-        found = []
-        for quadric in quadrics:
-            square = fmpz_mat(SIZE, SIZE)
-            for (i, j), value in quadric.items():
-                square[i, j] = value
-            entries = (transposed * square * basis).tolist()
-            found.append([entries[i][j] + (entries[j][i] if i != j else 0) for i, j in pairs(len(free))])
+        coordinates = [[(k, int(column[i])) for k, column in enumerate(columns) if column[i]] for i in range(SIZE)]
+        found = _substituted(quadrics, coordinates, len(free))
+        basis = fmpz_mat(columns).transpose()
         return IntegerSection(basis, fmpz_mat(found))
 
     def modulo(self, prime: int) -> tuple[nmod_mat, nmod_mat] | None:

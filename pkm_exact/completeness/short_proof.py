@@ -12,9 +12,9 @@ from typing import Final
 
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.claim import CompletenessRoute
-from pkm_exact.completeness.closed_section import closed_section
+from pkm_exact.completeness.closed_section import ClosedSection, closed_section
 from pkm_exact.completeness.conditions import Conditions
-from pkm_exact.completeness.finite_section import is_finite
+from pkm_exact.completeness.finite_section import is_finite, most_at_infinity
 from pkm_exact.completeness.infinity import PointsAtInfinity, points_at_infinity
 from pkm_exact.completeness.modular_rank import modular_rank
 from pkm_exact.completeness.pose_bound import form_rank, pose_bound
@@ -41,7 +41,9 @@ class ShortProof:
     infinity: PointsAtInfinity | None = None
 
 
-def short_proof(conditions: Conditions, distinct: int, total: int, policy: Policy) -> ShortProof | None:
+def short_proof(
+    conditions: Conditions, distinct: int, total: int, policy: Policy, section: ClosedSection | None = None
+) -> ShortProof | None:
     """A proof that the poses listed are all, or None if no short way closes.
 
     Parameters
@@ -54,17 +56,23 @@ def short_proof(conditions: Conditions, distinct: int, total: int, policy: Polic
         The sum of numbers that are at most their multiplicities, 1 only at poses proved to be simple.
     policy : Policy
         For primes, and how far points at infinity are lifted.
+    section : ClosedSection, optional
+        That of the conditions, if it is known.
     """
     primes = primes_from(policy.seed_for(conditions.digest), policy.prime_bits)
     bound = pose_bound(conditions)
     if distinct == total == bound.least:
         is_lower = bound.least < bound.degree
         return ShortProof(CompletenessRoute.PRODUCT_BOUND if is_lower else CompletenessRoute.REFINED_BEZOUT)
-    if modular_rank(closed_section(conditions), next(primes), total) == total:
+    if modular_rank(section or closed_section(conditions), next(primes), total) == total:
         return ShortProof(CompletenessRoute.MODULAR_RANK)
     if conditions.motion != SPATIAL or not _is_square(conditions):
         return None
-    # "No" may be the fault of primes or of too few relations: it is asked twice.
+    # "No" may be the fault of primes or of too few relations: it is asked twice. Curves at infinity, or too few points,
+    # are seen soonest in a bound for their number.
+    bounds = (most_at_infinity(conditions, next(primes), is_quick=is_quick) for is_quick in (False, True))
+    if not any(most is not None and total + 2 * most >= bound.degree for most in bounds):
+        return None
     bits = min(policy.lifting_bits, LIFTING_BITS)
     tried = (points_at_infinity(conditions, primes, bits, is_quick=is_quick) for is_quick in (True, False))
     found = next(filter(None, tried), None)

@@ -9,7 +9,7 @@ prime know.
 
 from __future__ import annotations
 
-from pkm_exact.algebra.groebner import Step, Trace
+from pkm_exact.algebra.elimination_trace import Step, Trace
 from pkm_exact.algebra.monomials import MonomialRing
 
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from random import Random
 from typing import Final
 
-from pkm_exact.algebra.exact_basis import echelon_form
+from pkm_exact.algebra.exact_reduction import echelon_form
 from pkm_exact.algebra.groebner import OutOfReachError
 from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring

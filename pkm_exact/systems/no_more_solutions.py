@@ -10,9 +10,10 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 
+from pkm_exact.algebra.elimination_trace import Trace
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
-from pkm_exact.algebra.groebner import OutOfReachError, Trace, UnluckyPrimeError
+from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.quotient import standard_monomials
 from pkm_exact.algebra.representation import UnivariateRepresentation
