@@ -21,6 +21,7 @@ from hashlib import sha256
 from math import inf
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 from checker_mutations import PACKAGE, SOURCES, Mutant, mutants
 from mutant_runs import Example, Outcome, Reach, examples_in, measured, outcomes
@@ -78,7 +79,7 @@ class Journal:
         self.path, self.most = path, most
         sources = b"".join(source.read_bytes() for source in SOURCES[checker])
         self.checker = sha256(sources).hexdigest()[:16]
-        self.names = {example.name for zipped in path.parent.glob("*.zip") for example in examples_in(zipped)}
+        self.names = {name for zipped in path.parent.glob("*.zip") for name in ZipFile(zipped).namelist()}
         self.corpus = sha256("\n".join(sorted(example.name for example in examples)).encode()).hexdigest()[:16]
         self.known: dict[Key, dict[str, Any]] = {}
         if path.exists():

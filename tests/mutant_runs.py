@@ -71,16 +71,16 @@ class Example:
         if self.kept is not None:
             return self.kept
         with ZipFile(self.archive) as archive:
-            data = archive.read(self.name)
-        if len(data) < LARGE:
-            self.kept = data
-        return data
+            return archive.read(self.name)
 
 
 def examples_in(path: Path) -> list[Example]:
     """The certificates in a ZIP file that ``checker_corpus`` wrote."""
     with ZipFile(path) as archive:
-        return [Example(name, path) for name in archive.namelist()]
+        return [
+            Example(entry.filename, path, kept=archive.read(entry) if entry.file_size < LARGE else None)
+            for entry in archive.infolist()
+        ]
 
 
 def check(checker: str) -> Callable[[bytes], Answer]:
