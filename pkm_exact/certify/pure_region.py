@@ -549,7 +549,9 @@ class Placed:
         direction = eq.moved(axis) if platform else eq.numbers(axis)
         along = plus((-1 if platform else 1, eq.inner(direction, self.rod)))
         squares = self.without_squares(times(along, along))
-        sizes = times(eq.inner(direction, direction), self.without_squares(eq.inner(self.rod, self.rod)))
+        squared = self.without_squares(eq.inner(self.rod, self.rod))
+        pure.require(squared, "cones: a leg has no direction all over the chart")
+        sizes = times(eq.inner(direction, direction), squared)
         rest = plus((1, squares), (-Fraction(COSINES[angle]), sizes))
         if angle > 90:
             return ("or", [Test(along, "0+"), Test(plus((-1, rest)), "0+")])

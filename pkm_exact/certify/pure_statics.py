@@ -30,7 +30,6 @@ KEYS: Final = (
 )
 MAX_LEGS: Final = 12
 MAX_CANDIDATES: Final = 20_000
-MAX_HYPERPLANES: Final = 2000
 MAX_VERTICES: Final = 4096
 NEARLY: Final = 1 - Fraction(1, 10**12)
 
@@ -73,10 +72,15 @@ def rational(value: Any, where: str) -> Fraction:
     return number
 
 
+def entries_of(value: Any, where: str, length: int) -> list[Any]:
+    """A list of so many."""
+    pure.well_formed(isinstance(value, list) and len(value) == length, f"{where}: not a list of {length}")
+    return list(value)
+
+
 def vector(value: Any, where: str, length: int) -> Row:
     """So many rational numbers."""
-    pure.well_formed(isinstance(value, list) and len(value) == length, f"{where}: not a list of {length}")
-    return tuple(rational(entry, f"{where}[{k}]") for k, entry in enumerate(value, 1))
+    return tuple(rational(entry, f"{where}[{k}]") for k, entry in enumerate(entries_of(value, where, length), 1))
 
 
 def fields(value: Any, where: str, keys: str) -> list[Any]:
@@ -100,7 +104,7 @@ def integers(value: Any, where: str, length: int, allowed: range | None = None) 
         found = vector(value, where, length)
         pure.well_formed(all(x.denominator == 1 for x in found), f"{where}: not integers")
         return tuple(map(int, found))
-    good = isinstance(value, list) and len(value) == length and all(type(x) is int and x in allowed for x in value)
+    good = all(type(x) is int and x in allowed for x in entries_of(value, where, length))
     pure.well_formed(good, f"{where}: not {length} integers from {allowed.start} to {allowed.stop - 1}")
     return tuple(value)
 
@@ -122,8 +126,7 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
     pure.well_formed(speeds is None or min(speeds) > 0, "speeds: one is not positive")
     forces = None
     if values[10] is not None:
-        pairs = list_of(values[10], "forces", MAX_LEGS)
-        pure.well_formed(len(pairs) == count, f"forces: not a list of {count}")
+        pairs = entries_of(values[10], "forces", count)
         forces = [vector(pair, f"forces[{k}]", 2) for k, pair in enumerate(pairs, 1)]
         pure.well_formed(all(low < high for low, high in forces), "forces: a least one is not below the greatest")
     length = None if values[11] is None else rational(values[11], "length")
@@ -147,8 +150,7 @@ def read_machine(values: Sequence[Any]) -> Machine:
     freedoms = integers(values[1], "freedoms", len(values[1]), range(6))
     pure.well_formed(list(freedoms) == sorted(set(freedoms)), "freedoms: not increasing")
     position = vector(values[2], "position", 3)
-    lines = list_of(values[3], "rotation", 3)
-    pure.well_formed(len(lines) == 3, "rotation: not a list of 3")
+    lines = entries_of(values[3], "rotation", 3)
     rotation = [vector(line, f"rotation[{k}]", 3) for k, line in enumerate(lines, 1)]
     legs = list_of(values[4], "legs", MAX_LEGS)
     pure.well_formed(len(legs) >= len(freedoms), "legs: fewer than freedoms")
@@ -187,8 +189,8 @@ def read_velocity(value: Any, count: int, n: int) -> tuple[list[tuple[int, int]]
     points = []
     for k, vertex in enumerate(list_of(vertices, "velocity_polytope.vertices", MAX_VERTICES), 1):
         where = f"velocity_polytope.vertices[{k}]"
-        pure.well_formed(isinstance(vertex, list) and len(vertex) == n, f"{where}: not a list of {n}")
-        points.append(tuple(vector(line, f"{where}[{j}]", count) for j, line in enumerate(vertex, 1)))
+        lines = entries_of(vertex, where, n)
+        points.append(tuple(vector(line, f"{where}[{j}]", count) for j, line in enumerate(lines, 1)))
     return sides, points
 
 
@@ -212,8 +214,7 @@ def read_wrench(value: Any, count: int, n: int) -> tuple[list[tuple[tuple[int, .
 def read_ellipsoid(value: Any, count: int, n: int) -> tuple[Row, list[Row]]:
     """Weights and matrix."""
     weights, matrix = fields(value, "ellipsoid", "weights matrix")
-    lines = list_of(matrix, "ellipsoid.matrix", 6)
-    pure.well_formed(len(lines) == n, f"ellipsoid.matrix: not a list of {n}")
+    lines = entries_of(matrix, "ellipsoid.matrix", n)
     found = [vector(line, f"ellipsoid.matrix[{k}]", n) for k, line in enumerate(lines, 1)]
     return vector(weights, "ellipsoid.weights", count), found
 
@@ -266,7 +267,7 @@ def check_velocity(
     pure.affordable(choices <= MAX_CANDIDATES, "velocity_polytope: too many choices of legs")
     pure.spend((choices + 1) * count * count * 60_000 * machine.effort(speeds))
     pure.require(rank([list(row) for row in machine.rows]) == n, "velocity_polytope: is not bounded")
-    found: dict[frozenset[tuple[int, int]], tuple[Row, ...]] = {}
+    found: set[frozenset[tuple[int, int]]] = set()
     for chosen in combinations(range(count), n):
         inverse = inverted([list(machine.rows[k]) for k in chosen])
         if inverse is None:
@@ -275,21 +276,14 @@ def check_velocity(
             point = tuple(in_lengths(line, chosen, signs, speeds, count) for line in inverse)
             sides = tight(machine, speeds, point)
             if sides is not None:
-                found[sides] = point
-    listed = {}
+                found.add(sides)
+    listed = set()
     for vertex in vertices:
         sides = tight(machine, speeds, vertex)
         pure.require(sides is not None, "velocity_polytope: a vertex lies outside")
-        listed[sides] = vertex
+        listed.add(sides)
     pure.require(len(listed) == len(vertices), "velocity_polytope: a vertex is listed twice")
-    pure.require(set(listed) == set(found), "velocity_polytope: not all vertices are listed, or others are")
-    for sides, point in found.items():
-        other = listed[sides]
-        same = all(
-            root_sum_sign([x - y for x, y in zip(a, b, strict=True)], machine.squares) == 0
-            for a, b in zip(point, other, strict=True)
-        )
-        pure.require(same, "velocity_polytope: a vertex is not where its legs put it")
+    pure.require(listed == found, "velocity_polytope: not all vertices are listed, or others are")
     on = {side: frozenset(key for key in found if side in key) for key in found for side in key}
     maximal = {side for side, keys in on.items() if not any(keys < other for other in on.values())}
     alike: dict[frozenset[frozenset[tuple[int, int]]], tuple[int, int]] = {}
@@ -366,7 +360,6 @@ def check_wrench(
     """Check 2: all hyperplanes that n - 1 rows span, and all cells between them, are found anew."""
     count, n = len(machine.rows), machine.freedoms
     choices = comb(count, n - 1)
-    pure.affordable(choices <= MAX_HYPERPLANES, "wrench_polytope: too many choices of legs")
     pure.spend((choices + MAX_VERTICES) * count * n * n * 10_000 * machine.effort(*forces))
     rows = [primitive(row) for row in machine.rows]
     normals = {}
@@ -374,7 +367,6 @@ def check_wrench(
         normal = annihilator([list(row) for row in chosen], n)
         if normal is not None:
             normals[normal] = [sum(a * b for a, b in zip(normal, row, strict=True)) for row in rows]
-    pure.require(normals and any(any(values) for values in normals.values()), "wrench_polytope: has no interior")
     pure.require(rank([list(map(Fraction, row)) for row in rows]) == n, "wrench_polytope: has no interior")
     idle = "wrench_polytope: a leg exerts nothing, so that its force has no end at a vertex"
     pure.require(all(any(row) for row in rows), idle)
@@ -417,7 +409,6 @@ def cells_of(places: list[int], fixed: list[list[int]], rows: list[tuple[int, ..
             known = dict(zip(flat, inner, strict=True))
             for side in (1, -1):
                 cells.add(tuple(known.get(k, side if v > 0 else -side) for k, v in zip(places, values, strict=True)))
-        pure.affordable(len(cells) <= MAX_VERTICES, "wrench_polytope: too many vertices")
     return cells
 
 

@@ -203,6 +203,8 @@ def _cone(
     along = product(g, axis, rod)
     square = without_squares(along * along, leg, pose)
     size = product(g, axis, axis) * without_squares(product(g, rod, rod), leg, pose)
+    if size.is_zero():
+        raise InputError(f"{name}: the leg has no direction at any pose of the region; leave limits out, or that leg")
     tight, loose = (square - rational(c) * size for c in squared_cosines(cones.angles[k]))
     if cones.angles[k] <= 90:
         return All((Atom(name, along), Atom(name, tight, loose=loose)))

@@ -222,6 +222,8 @@ class RegionEquations:
         axis = [ring.number(x) for x in cone.axis] if side == "base" else self._turned(cone.axis)
         along = ring.dot(axis, leg.rod) if side == "base" else -ring.dot(axis, leg.rod)
         size = ring.times(ring.dot(axis, axis), self._reduced(ring.dot(leg.rod, leg.rod), leg))
+        if size.is_zero():
+            raise rejected("cones: a leg has no direction all over the chart")
         difference = self._reduced(ring.times(along, along), leg) - ring.number(SQUARED_COSINES[cone.degrees]) * size
         if cone.degrees <= 90:
             return ("and", [Test(along, "0+"), Test(difference, "0+")])

@@ -1,0 +1,693 @@
+"""Region certificates made by hand, honest ones and forgeries, with what both checkers must say of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from copy import deepcopy
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+from handmade_regions import (
+    ALONG,
+    Content,
+    Placed,
+    chart_of,
+    cone,
+    leg,
+    limits_of,
+    part,
+    point_of,
+    put,
+    random_legs,
+    region,
+    texts,
+    vanishing_form,
+)
+
+Row = tuple[Content, str, str]
+"""A certificate without its digest, the verdict, and how its last line begins."""
+
+INSIDE = "paving: the part of letter 1 is not proved to be inside"
+OUTSIDE = "paving: the part of letter 1 is not proved to be outside"
+BEYOND = "counterexample: a pose is not one of the region"
+GOOD = "claim: all poses of the region are good"
+NO_FAILURE = "counterexample: no condition is proved to fail there"
+BROKEN = "claim: not all poses of the region are good, as one shows"
+ONE_SIGN = "counterexample: the determinants are not proved to have opposite signs"
+TWO_SIGNS = "claim: not all poses of the region are good, as the determinant"
+
+LIMITS = (
+    *(("ls", "quaternion x"), ("cs", "quaternion y"), ("c", "quaternion z"), ("c", "turns x"), ("c", "turns y")),
+    *(("l", "pitch x"), ("s", "roll z"), ("l", "yaw y"), ("lc", "turns z"), ("c", "quaternion x")),
+)
+
+
+def random_rows() -> Iterator[tuple[str, Row]]:
+    """Limits that hold or do not, one after another, of robots made at random."""
+    for seed, (types, kind) in enumerate(LIMITS):
+        random = Random(seed)
+        metric = [1, 1, 1] if "c" in types else random.choice([[2, 3, 5], [1, 3, 1], [4, 1, 2]])
+        content = region(metric=metric, **chart_of(kind, "spatial", random))
+        random_legs(types, content, random)
+        good, bad = limits_of(content, random)
+        for path, value in good:
+            put(content, path, value)
+        assert min(Placed(content, point_of(content)).margins()) > 0
+        yield f"limits {seed}: all hold", (content, "accepted", GOOD)
+        yield f"limits {seed}: none fails", (pointed(content), "rejected", NO_FAILURE)
+        for number, (path, value) in enumerate(bad):
+            wrong = deepcopy(content)
+            put(wrong, path, value)
+            assert min(Placed(wrong, point_of(wrong)).margins()) < 0
+            where = f"limits {seed}: {'.'.join(map(str, path))}, {number}"
+            yield where, (wrong, "rejected", INSIDE)
+            yield f"{where} fails", (pointed(wrong), "accepted", BROKEN)
+            yield f"{where} outside", (as_map(wrong, "o"), "accepted", "")
+        yield from _reaches(seed, content)
+
+
+def _reaches(seed: int, content: Content) -> Iterator[tuple[str, Row]]:
+    """Rods too short: the pose is not reached, whatever is asked."""
+    for k, entry in enumerate(content["robot"]["legs"]):
+        if entry["actuator"]["type"] == "length":
+            continue
+        for condition in ("reachable", "no_type_1"):
+            fine = deepcopy(content) | {"conditions": [condition]}
+            short = deepcopy(fine)
+            short["robot"]["legs"][k]["actuator"]["rod_squared"] = "1/1000000"
+            assert not Placed(short, point_of(short)).reached
+            yield f"limits {seed}: {condition} {k}", (fine, "accepted", GOOD)
+            yield f"limits {seed}: {condition} {k}, short", (short, "rejected", INSIDE)
+            yield f"limits {seed}: {condition} {k}, short, fails", (pointed(short), "accepted", BROKEN)
+
+
+def pointed(content: Content) -> Content:
+    """The claim that the pose at the point is not good."""
+    found = deepcopy(content) | {"claim": "not-all", "paving": "", "inside": 0}
+    return found | {"counterexample": [texts(point_of(content))]}
+
+
+def as_map(content: Content, word: str) -> Content:
+    """A map with this word, and its measure."""
+    found = deepcopy(content) | {"claim": "map", "paving": word, "inside": word.count("i")}
+    if set(found["chart"]["variables"]) <= set("xyz"):
+        found["measure"] = ["0", "0"]
+    return found
+
+
+FULL = (
+    ("planar", "lll", "quaternion x", 0),
+    ("planar", "lsc", "yaw y", 0),
+    ("planar", "ss", "turns x", 1),
+    ("schoenflies", "lscl", "quaternion z", 0),
+    ("schoenflies", "lsl", "yaw", 1),
+    ("translation", "lsc", "turns y", 0),
+    ("translation", "lc", "turns z", 1),
+    ("spherical", "llc", "pitch x", 0),
+    ("spherical", "sc", "roll y", 1),
+    ("spherical", "ls", "yaw z", 1),
+    ("spatial", "llllsl", "quaternion y", 0),
+    ("spatial", "lllll", "turns z", 1),
+    ("spatial", "llsl", "roll", 2),
+    ("spatial", "lllc", "pitch", 2),
+    ("spatial", "llll", "yaw", 2),
+)
+
+
+def determinant_rows() -> Iterator[tuple[str, Row]]:
+    """Whether the determinant has one sign or two at two poses."""
+    for seed, (motion, types, kind, number) in enumerate(FULL):
+        random = Random(1000 + seed)
+        metric = [1, 1, 1] if "c" in types else random.choice([[2, 3, 5], [1, 3, 1], [4, 1, 2]])
+        content = region(metric=metric, **_chart(kind, motion, random))
+        content["conditions"], content["robot"]["forms"] = ["no_type_2"], []
+        random_legs(types, content, random)
+        for _ in range(number):
+            content["robot"]["forms"].append(texts(vanishing_form(content, random)))
+        placed = Placed(content, point_of(content))
+        if placed.reached and abs(placed.determinant()) > 0.05:
+            yield f"determinant {seed}: not 0", (content, "accepted", GOOD)
+            yield f"determinant {seed}: not 0, there", (pointed(content), "rejected", NO_FAILURE)
+        far = _with_both_signs(content, random)
+        if far is not None:
+            yield from far_rows(seed, content, far)
+
+
+def _chart(kind: str, motion: str, random: Random) -> Content:
+    """As ``chart_of``; a turn alone leaves C where it is."""
+    if len(kind.split()) == 2:
+        return chart_of(kind, motion, random)
+    found = chart_of(f"{kind} z", motion, random)
+    if "z" in found["variables"]:
+        found["box"].pop(0)
+        found["place"][2] = 3
+    return found | {"variables": [kind]}
+
+
+def _with_both_signs(content: Content, random: Random) -> list[list[Fraction]] | None:
+    """Three poses, all reached: the determinant has one sign at two of them, and the other at the third."""
+    count = len(content["chart"]["variables"])
+    found: dict[bool, list[list[Fraction]]] = {True: [], False: []}
+    for _ in range(60):
+        point = [Fraction(random.randint(-60, 60), 12) for _ in range(count)]
+        placed = Placed(content, point)
+        value = placed.determinant() if placed.reached else 0
+        if abs(value) > 1e-6:
+            found[value > 0].append(point)
+    one, other = sorted(found.values(), key=len)
+    return [*other[:2], one[0]] if one and len(other) > 1 else None
+
+
+def far_rows(seed: int, content: Content, points: list[list[Fraction]]) -> Iterator[tuple[str, Row]]:
+    """Two claims of two poses: one is true."""
+    content = deepcopy(content) | {"claim": "not-all", "paving": "", "inside": 0}
+    content["chart"]["box"] = [["-9", "9"]] * len(points[0])
+    alike, apart = content | {"counterexample": texts(points[:2])}, content | {"counterexample": texts(points[1:])}
+    yield f"determinant {seed}: one sign", (alike, "rejected", ONE_SIGN)
+    yield f"determinant {seed}: two signs", (apart, "accepted", TWO_SIGNS)
+
+
+# Shapes, forms and cranks
+
+MOVED = (("quaternion x", [2, 3, 5]), ("roll z", [1, 3, 2]), ("yaw y", [4, 1, 2]))
+
+
+def shape_rows() -> Iterator[tuple[str, Row]]:
+    """Poses a little inside of shapes and outside of them, in plain products, whatever the metric is."""
+    for seed, (kind, metric) in enumerate(MOVED):
+        random = Random(200 + seed)
+        far = leg((0, 0, 0), (1, 2, 3), (1000, 2000))
+        content = region([far], metric=metric, **chart_of(kind, "spatial", random))
+        c = [Fraction(x).limit_denominator(1 << 40) for x in Placed(content, point_of(content)).place]
+        for number, (linear, weights) in enumerate(
+            (([2, -3, 5], [0, 0, 0]), ([1, 0, 0], [3, 1, 2]), ([0] * 3, [0, 0, 7]))
+        ):
+            value = sum(b * x - a * x * x for b, a, x in zip(linear, weights, c, strict=True))
+            for step, status, line in ((1, "accepted", BROKEN), (-1, "rejected", BEYOND)):
+                wrong = content | {"shape": [part(9), part(-value + Fraction(step, 500), linear, weights), part(8)]}
+                yield f"shape {seed}, {number}, {step}", (pointed(wrong), status, line)
+            wide = part(-value + Fraction(1, 50), linear, weights), part(-value - Fraction(1, 50), linear, weights)
+            for shape, all_of, outside in ((wide[0], "rejected", "accepted"), (wide[1], "accepted", "accepted")):
+                both = content | {"shape": [part(9), shape]}
+                yield f"shape {seed}, {number}, all, {all_of}", (both, all_of, GOOD if all_of == "accepted" else INSIDE)
+                yield f"shape {seed}, {number}, out, {all_of}", (as_map(both, "o"), outside, "")
+            near = deepcopy(content) | {"shape": [wide[1]]}
+            near["robot"]["legs"][0]["reach"] = None
+            yield f"shape {seed}, {number}, out of it", (as_map(near, "o"), "accepted", "")
+            yield f"shape {seed}, {number}, not in it", (as_map(near, "i"), "rejected", INSIDE)
+
+
+def form_rows() -> Iterator[tuple[str, Row]]:
+    """Forms that are 0 all over a chart, and with any of their numbers changed no longer."""
+    for seed, kind in enumerate(("turns z", "yaw")):
+        random = Random(300 + seed)
+        content = region([leg((0, 0, 0), (1, 2, 3))], metric=[2, 3, 5], **_chart(kind, "spatial", random))
+        form = vanishing_form(content, random)
+        content["robot"]["forms"] = texts([[0] * 17, form])
+        yield f"form {seed}", (content, "accepted", GOOD)
+        for place in range(17):
+            wrong = deepcopy(content)
+            wrong["robot"]["forms"][1][place] = str(form[place] + 1)
+            yield f"form {seed}: number {place}", (wrong, "rejected", "chart: its poses are not all")
+
+
+CRANK = {"u": (1, 0, 0), "v": (0, 1, 0)}
+AT_180 = {"place": ["x", 1, 2], "box": [[-2, 0]], "modes": [1], "points": [[-1]]}
+FREE = {"motion": "spherical", "variables": ["yaw"], "box": [[0, "1/2"]], "place": [0, 0, 0]}
+FREE |= {"turns": [[1, 0], [1, 0], ["yaw"]], "modes": [1]}
+"""A rod from a crank to a point of the crank's axis: the crank turns freely, h, m and D are 0 at all poses."""
+
+
+def free_crank(side: str) -> Content:
+    """The rod is called within 30 degrees of an axis of the plane of the crank, with which it makes any angle."""
+    return region([leg((0, 0, 0), (0, 0, 2), **CRANK, rod=5)], **FREE, **{side: [cone((1, 0, 0), 30)]})
+
+
+def slide(*reach: Any, **entries: Any) -> Content:
+    """q = 3 + y, y^2 = 25 - x^2, x from 3 to 4: from 6 to 7; with the other mode from -1 to 0."""
+    driven = leg((0, 0, 0), (0, 3, 0), reach or None, direction=(0, 1, 0), rod=25)
+    return region([driven], **{"modes": [1], **entries})
+
+
+SMALL = Fraction(1, 1 << 60)
+COPLANAR = [leg((0, 0, 0), (1, 0, 0)), leg((0, 0, 0), (0, 1, 0)), leg((0, 0, 0), (0, 0, 1))]
+"""Pushed by (x, 0, 0): the determinant of what becomes of them is 1 + x."""
+PUSHED = {"motion": "translation", "conditions": ["no_type_2"], "modes": [0] * 3, "box": [[-2, 2]]}
+
+CASES: dict[str, Row] = {
+    "a leg, exactly": (region(), "accepted", GOOD),
+    "a leg, too short": (region([leg((0,) * 3, (0,) * 3, (3 + SMALL, 4))]), "rejected", INSIDE),
+    "a leg, too long": (region([leg((0,) * 3, (0,) * 3, (3, 4 - SMALL))]), "rejected", INSIDE),
+    "a leg at its least length": (region(points=[[3]]), "rejected", NO_FAILURE),
+    "a leg at its greatest length": (region(points=[[4]]), "rejected", NO_FAILURE),
+    "below the box": (region(points=[[3 - SMALL]]), "rejected", BEYOND),
+    "above the box": (region(points=[[4 + SMALL]]), "rejected", BEYOND),
+    "a leg longer at one end": (region(box=[[3, 5]], points=[[5]]), "accepted", BROKEN),
+    "a leg shorter at one end": (region(box=[[2, 3]], points=[[2]]), "accepted", BROKEN),
+    "on a shape": (region(box=[[3, 5]], points=[[5]], shape=[part(5, (-1, 0, 0))]), "accepted", BROKEN),
+    "a slide": (slide(6 - SMALL, 7 + SMALL), "accepted", GOOD),
+    "a slide, too low": (slide(6 + SMALL, 8), "rejected", INSIDE),
+    "a slide, too high": (slide(5, 7 - SMALL), "rejected", INSIDE),
+    "a slide, the other way": (slide(-1 - SMALL, SMALL, modes=[-1]), "accepted", GOOD),
+    "a slide, the other way, too low": (slide(-1 + SMALL, 1, modes=[-1]), "rejected", INSIDE),
+    "a slide, the other way, too high": (slide(-2, -SMALL, modes=[-1]), "rejected", INSIDE),
+    "a slide in halves": (
+        slide(6 - SMALL, 7 + SMALL, box=[[2, 4]], paving="sui", axes=[0], claim="undecided"),
+        "accepted",
+        "",
+    ),
+    "a slide in halves, too low": (
+        slide(6 + SMALL, 9, box=[[2, 4]], paving="sui", axes=[0], claim="undecided"),
+        "rejected",
+        "",
+    ),
+    "a slide in halves, too high": (
+        slide(0, 7 - SMALL, box=[[2, 4]], paving="sui", axes=[0], claim="undecided"),
+        "rejected",
+        "",
+    ),
+    "a slide in lower halves": (
+        slide(6 - SMALL, 7 + SMALL, box=[[3, 5]], paving="siu", axes=[0], claim="undecided"),
+        "accepted",
+        "",
+    ),
+    "a slide at its end": (slide(box=[[4, 5]], conditions=["reachable"]), "accepted", GOOD),
+    "a slide beyond its end": (slide(box=[[4, 5 + SMALL]], conditions=["reachable"]), "rejected", INSIDE),
+    "a slide at its end is singular": (slide(box=[[4, 5]], conditions=["no_type_1"]), "rejected", INSIDE),
+    "a slide at its end is singular there": (
+        slide(box=[[4, 5]], conditions=["no_type_1"], points=[[5]]),
+        "accepted",
+        BROKEN,
+    ),
+    "a slide at its end is reached there": (
+        slide(box=[[4, 5]], conditions=["reachable"], points=[[5]]),
+        "rejected",
+        NO_FAILURE,
+    ),
+    "a slide in a plane": (slide(6, 7, points=[["18/5"]]), "rejected", NO_FAILURE),
+    "a slide not reached": (slide(6, 7, box=[[3, 6]], points=[["11/2"]]), "accepted", BROKEN),
+    "outside from its end on": (
+        slide(box=[[5, 6]], conditions=["no_type_1"], claim="map", measure=["0", "0"], paving="o"),
+        "accepted",
+        "",
+    ),
+    "not outside at its end": (
+        slide(box=[[5, 6]], conditions=["reachable"], claim="map", measure=["0", "0"], paving="o"),
+        "rejected",
+        OUTSIDE,
+    ),
+    "a mode that does not matter": (slide(modes=[0]), "accepted", GOOD),
+    "a mode that does not matter for what is reached": (
+        slide(5, 8, modes=[0], conditions=["reachable"]),
+        "accepted",
+        GOOD,
+    ),
+    "a mode of limits": (slide(5, 8, modes=[0]), "malformed", "modes"),
+    "a mode of cones": (slide(modes=[0], base_cones=[cone((1, 0, 0), 180)]), "malformed", "modes"),
+    "a mode of cones of the platform": (slide(modes=[0], platform_cones=[cone((1, 0, 0), 180)]), "malformed", "modes"),
+    "a mode of determinants": (slide(modes=[0], conditions=["no_type_2"]), "malformed", "modes"),
+    "any cone": (slide(base_cones=[cone((1, 0, 0), 180)]), "accepted", GOOD),
+    "a crank beyond a half turn": (
+        region([leg((0, 0, 0), (0, 0, 0), (0, 0), **CRANK, rod=5)], **AT_180),
+        "accepted",
+        BROKEN,
+    ),
+    "a crank at a half turn": (
+        region([leg((0, 0, 0), (0, 0, 0), (180, 180), **CRANK, rod=5)], **AT_180),
+        "rejected",
+        NO_FAILURE,
+    ),
+    "a crank at an end": (
+        region([leg((0, 0, 0), (0, 0, 0), (90, 180), **CRANK, rod=5)], **AT_180),
+        "rejected",
+        NO_FAILURE,
+    ),
+    "a crank at another end": (
+        region([leg((0, 0, 0), (0, 0, 0), (180, 270), **CRANK, rod=5)], **AT_180),
+        "rejected",
+        NO_FAILURE,
+    ),
+    "a crank before its range": (
+        region([leg((0, 0, 0), (0, 0, 0), (-90, 90), **CRANK, rod=5)], **AT_180),
+        "accepted",
+        BROKEN,
+    ),
+    "a crank in all of a turn": (
+        region([leg((0, 0, 0), (0, 0, 0), (-270, 90), **CRANK, rod=5)], **AT_180),
+        "rejected",
+        NO_FAILURE,
+    ),
+    "a crank in more than a turn": (
+        region([leg((0, 0, 0), (0, 0, 0), (0, 450), **CRANK, rod=5)], **AT_180),
+        "rejected",
+        NO_FAILURE,
+    ),
+    "a free crank in a cone": (free_crank("base_cones"), "rejected", "cones: a leg has no direction"),
+    "a free crank in a cone of the platform": (
+        free_crank("platform_cones"),
+        "rejected",
+        "cones: a leg has no direction",
+    ),
+    "a free crank": (region([leg((0, 0, 0), (0, 0, 2), **CRANK, rod=5)], **FREE), "accepted", GOOD),
+    "a leg without length": (
+        region([leg((0,) * 3, (0,) * 3)], conditions=["no_type_1"], box=[[0, 1]], points=[[0]]),
+        "accepted",
+        BROKEN,
+    ),
+    "a leg with some length": (
+        region([leg((0,) * 3, (0,) * 3)], conditions=["no_type_1"], box=[[0, 1]], points=[[SMALL]]),
+        "rejected",
+        NO_FAILURE,
+    ),
+    "legs of length 0": (
+        region(
+            [leg((0, 0, 0), (0, 0, 0))], **{**FREE, "modes": [0]}, conditions=["no_type_1"], claim="map", paving="o"
+        ),
+        "accepted",
+        "",
+    ),
+    "two signs": (region(COPLANAR, **PUSHED, points=[[-2], [0]]), "accepted", TWO_SIGNS),
+    "two signs, the other way": (region(COPLANAR, **PUSHED, points=[[0], [-2]]), "accepted", TWO_SIGNS),
+    "one positive sign": (region(COPLANAR, **PUSHED, points=[[1], [2]]), "rejected", ONE_SIGN),
+    "one negative sign": (region(COPLANAR, **PUSHED, points=[["-3/2"], [-2]]), "rejected", ONE_SIGN),
+    "a sign and 0": (region(COPLANAR, **PUSHED, points=[[-1], [0]]), "rejected", ONE_SIGN),
+    "0 and a sign": (region(COPLANAR, **PUSHED, points=[[-2], [-1]]), "rejected", ONE_SIGN),
+    "0 twice": (region(COPLANAR, **PUSHED, points=[[-1], [-1]]), "rejected", ONE_SIGN),
+    "singular there": (region(COPLANAR, **PUSHED, points=[[-1]]), "accepted", BROKEN),
+    "not singular there": (region(COPLANAR, **PUSHED, points=[[-1 + SMALL]]), "rejected", NO_FAILURE),
+    "not singular": (region(COPLANAR, **{**PUSHED, "box": [[0, 2]]}), "accepted", GOOD),
+    "not singular, negative": (region(COPLANAR, **{**PUSHED, "box": [[-3, -2]]}), "accepted", GOOD),
+    "singular at an end": (region(COPLANAR, **{**PUSHED, "box": [[-1, 2]]}), "rejected", INSIDE),
+    "singular at the other end": (region(COPLANAR, **{**PUSHED, "box": [[-2, -1]]}), "rejected", INSIDE),
+    "never outside": (
+        region(COPLANAR, **{**PUSHED, "box": [[0, 2]]}, claim="map", paving="o", measure=["0", "0"]),
+        "rejected",
+        OUTSIDE,
+    ),
+    "two legs of three": (region(COPLANAR[:2], **{**PUSHED, "modes": [0] * 2}), "malformed", "conditions: as many"),
+    "four legs of three": (
+        region([*COPLANAR, ALONG], **{**PUSHED, "modes": [0] * 4}),
+        "malformed",
+        "conditions: as many",
+    ),
+    "nowhere": (region(points=[]), "malformed", "counterexample: neither"),
+    "two poses without a determinant": (region(points=[[3], [4]]), "malformed", "counterexample: neither"),
+    "three poses": (region(COPLANAR, **PUSHED, points=[[-2], [0], [1]]), "malformed", "counterexample: neither"),
+}
+
+# Words, counts and measures: x from 3 to 4 is in the limits up to 7/2
+
+PLANE = {"place": ["x", "y", 0], "variables": ["x", "y"], "box": [[3, 4], [0, 2]], "position": [[3, "7/2"]]}
+FREELY = [leg((0, 0, 0), (0, 0, 0))]
+LETTERS = "paving: the part of letter"
+
+
+def word(paving: str, claim: str = "map", **entries: Any) -> Content:
+    """A paving of these poses."""
+    measure = {"measure": ["1", "3/2"] if claim == "map" else None}
+    return region(FREELY, **PLANE, **{"axes": [0, 0], **measure, **entries}, claim=claim, paving=paving)
+
+
+WORDS: dict[str, Row] = {
+    "a map": (word("sisuo"), "accepted", "measure: between"),
+    "a map along y first": (word("ssisuosisuo", axes=[1, 0, 0]), "accepted", "measure: between"),
+    "a map along y": (word("sisuo", axes=[0, 1]), "rejected", f"{LETTERS} 5"),
+    "a map of halves along y": (word("sii", axes=[1]), "rejected", f"{LETTERS} 2"),
+    "the upper half is not inside": (word("sii"), "rejected", f"{LETTERS} 3 is not proved to be inside"),
+    "the upper half is not outside": (word("sio"), "rejected", f"{LETTERS} 3 is not proved to be outside"),
+    "a quarter is not inside": (word("sisio"), "rejected", f"{LETTERS} 4 is not proved to be inside"),
+    "a half too deep": (word("sisuo", axes=[0]), "rejected", "paving: letter 3 halves"),
+    "no halves": (word("sisuo", axes=[]), "rejected", "paving: letter 1 halves"),
+    "halves to spare": (word("sisuo", axes=[0, 0, 1]), "accepted", "measure: between"),
+    "no part": (word(""), "rejected", "paving: parts of the region are missing"),
+    "a part missing": (word("sisu"), "rejected", "paving: parts of the region are missing"),
+    "a part more": (word("sisuou"), "rejected", "paving: it goes on"),
+    "a least measure": (word("sisuo", measure=["3/4", "3/2"]), "rejected", "measure: not that"),
+    "a greatest measure": (word("sisuo", measure=["1", "2"]), "rejected", "measure: not that"),
+    "no measure": (word("sisuo", measure=None), "rejected", "measure: not that"),
+    "a measure of all": (word("u", "undecided", measure=["0", "2"]), "rejected", "measure: claimed"),
+    "nothing decided": (word("u", "undecided"), "accepted", "claim: none but"),
+    "some outside": (word("sisuo", "undecided"), "accepted", "claim: none but"),
+    "outside alone": (
+        region(FREELY, **{**PLANE, "box": [[4, 5], [0, 1]]}, paving="o", claim="undecided"),
+        "accepted",
+        "claim: none",
+    ),
+    "all undecided": (
+        region(FREELY, **{**PLANE, "box": [[3, "7/2"], [0, 1]]}, claim="undecided"),
+        "rejected",
+        "claim: all parts",
+    ),
+    "all of it": (region(FREELY, **{**PLANE, "box": [[3, "7/2"], [0, 1]]}), "accepted", GOOD),
+    "all of it, undecided": (word("siu", "all"), "rejected", "claim: not all parts"),
+    "all of it, outside": (
+        region(FREELY, **{**PLANE, "box": [[4, 5], [0, 1]]}, paving="o"),
+        "rejected",
+        "claim: not all parts",
+    ),
+    "one more inside": (word("sisuo", inside=2), "rejected", "inside, undecided"),
+    "one less inside": (word("sisuo", inside=0), "rejected", "inside, undecided"),
+    "one more undecided": (word("sisuo", undecided=2), "rejected", "inside, undecided"),
+    "one less undecided": (word("sisuo", undecided=0), "rejected", "inside, undecided"),
+    "a map of turns": (region(FREELY, **FREE | {"modes": [0]}, claim="map"), "accepted", "paving: 1 parts"),
+    "a measure of turns": (
+        region(FREELY, **FREE | {"modes": [0]}, claim="map", measure=["1", "1"]),
+        "rejected",
+        "measure: claimed",
+    ),
+    "a measure of all that is good": (region(measure=["1", "1"]), "rejected", "measure: claimed"),
+    **{
+        f"beside a pose: {key}": (
+            region(box=[[3, 5]], points=[[5]]) | {key: value},
+            "malformed",
+            "paving: there is one",
+        )
+        for key, value in {"paving": "i", "inside": 1, "undecided": 1, "measure": ["0", "0"]}.items()
+    },
+    "a pose beside parts": (region(counterexample=[["3"]]), "malformed", "counterexample: there is one"),
+}
+
+# The format
+
+UNTURNED = [[1, 0], [-2, 0], [1, 0]]
+_TURNED: list[list[Any]] = [[[1, 2], *UNTURNED[1:]], [UNTURNED[0], [1, 2], UNTURNED[2]], [*UNTURNED[:2], [1, 2]]]
+
+
+def _group(motion: str, status: str, line: str = "chart", **entries: Any) -> Row:
+    base: Content = {"place": [0, 0, 0] if motion == "spherical" else ["x", 0, 0], "motion": motion}
+    if motion == "spherical":
+        base |= {"variables": ["yaw"], "turns": [*UNTURNED[:2], ["yaw"]]}
+    return region(FREELY, **base | entries), status, GOOD if status == "accepted" else line
+
+
+GROUPS: dict[str, Row] = {
+    "planar, above": _group("planar", "malformed", place=["x", 0, 1]),
+    "planar, below": _group("planar", "malformed", place=["x", 0, -1]),
+    "planar, a variable height": _group("planar", "malformed", place=[3, 0, "z"], variables=["z"]),
+    "planar, turned": _group("planar", "accepted", quaternion=[3, 0, 0, 1]),
+    "planar, tilted": _group("planar", "malformed", quaternion=[3, 1, 0, 0]),
+    "planar, tilted about y": _group("planar", "malformed", quaternion=[3, 0, 1, 0]),
+    "Schoenflies, turned": _group("schoenflies", "accepted", place=["x", 1, 2], quaternion=[3, 0, 0, 1]),
+    "Schoenflies, tilted": _group("schoenflies", "malformed", quaternion=[3, 1, 0, 0]),
+    "Schoenflies, tilted about y": _group("schoenflies", "malformed", quaternion=[3, 0, 1, 0]),
+    "Schoenflies, turning": _group(
+        "schoenflies", "accepted", turns=[*UNTURNED[:2], ["yaw"]], variables=["x", "yaw"], box=[[0, 1]] * 2
+    ),
+    "Schoenflies, tilting": _group(
+        "schoenflies", "malformed", turns=[["roll"], *UNTURNED[1:]], variables=["x", "roll"], box=[[0, 1]] * 2
+    ),
+    "Schoenflies, tilting about y": _group(
+        "schoenflies",
+        "malformed",
+        turns=[UNTURNED[0], ["pitch"], UNTURNED[2]],
+        variables=["x", "pitch"],
+        box=[[0, 1]] * 2,
+    ),
+    "spherical": _group("spherical", "accepted", turns=[[1, 2], [2, 1], ["yaw"]]),
+    **{
+        f"spherical, moved along {'xyz'[k]}": _group("spherical", "malformed", place=[int(i == k) for i in range(3)])
+        for k in range(3)
+    },
+    "spherical, moved back": _group("spherical", "malformed", place=[0, -1, 0]),
+    "translation": _group("translation", "accepted", turns=UNTURNED),
+    **{
+        f"{motion}, turned {k}": _group(
+            motion, "accepted" if k == 2 and motion != "translation" else "malformed", turns=turns
+        )
+        for motion in ("translation", "schoenflies", "planar")
+        for k, turns in enumerate(_TURNED)
+    },
+    **{
+        f"translation, turned {k}, by a quaternion": _group(
+            "translation", "malformed", quaternion=[1, *(int(k == i) for i in range(3))]
+        )
+        for k in range(3)
+    },
+}
+
+
+def _with(status: str, value: Any, *path: Any, **entries: Any) -> Row:
+    content = region(**entries)
+    entry = content
+    for key in path[:-1]:
+        entry = entry[key]
+    entry[path[-1]] = value
+    return content, status, ""
+
+
+def _crank(status: str, reach: Any = None, **entries: Any) -> Row:
+    return (
+        region(
+            [leg((0, 0, 0), (0, 0, 0), reach, **{**CRANK, "rod": 16, **entries})], modes=[1], conditions=["reachable"]
+        ),
+        status,
+        "",
+    )
+
+
+ROBOT, CHART = "robot", "chart"
+FORMAT: dict[str, Row] = {
+    "12 legs": (region([ALONG] * 12), "accepted", GOOD),
+    "13 legs": (region([ALONG] * 13), "too-large", "robot.legs: more than 12"),
+    "64 forms": (region(forms=[[0] * 17] * 64), "accepted", GOOD),
+    "65 forms": (region(forms=[[0] * 17] * 65), "too-large", "robot.forms: more than 64"),
+    "64 parts of a shape": (region(shape=[part(1)] * 64), "accepted", GOOD),
+    "65 parts of a shape": (region(shape=[part(1)] * 65), "too-large", "shape: more than 64"),
+    "120 axes": (region(axes=[0] * 120), "accepted", GOOD),
+    "121 axes": (region(axes=[0] * 121), "too-large", "axes: more than 120"),
+    "an axis beyond": _with("malformed", [0, 1, 0], "axes"),
+    "an axis beyond, first": _with("malformed", [1, 0], "axes"),
+    "an axis beyond, last": _with("malformed", [0, 1], "axes"),
+    "an axis before": _with("malformed", [0, -1], "axes"),
+    "three limits of the position": (region(position=[[3, 4], [0, 0], [0, 0]]), "accepted", GOOD),
+    "four limits of the position": (region(position=[[3, 4], [0, 0], [0, 0], [0, 0]]), "malformed", ""),
+    "limits out of order": (region(position=[[4, 3]]), "malformed", ""),
+    "a shape of 16 numbers": _with("malformed", [["0"] * 16], ROBOT, "forms"),
+    "no modes": _with("malformed", [], "modes"),
+    **{
+        f"a mode {mode}": _with("accepted" if abs(mode) < 2 else "malformed", [mode], "modes")
+        for mode in (-2, -1, 1, 2)
+    },
+    "two modes, the first none": (region([ALONG] * 2, modes=[2, 0]), "malformed", ""),
+    "two modes, the last none": (region([ALONG] * 2, modes=[0, 2]), "malformed", ""),
+    "a mode of true": _with("malformed", [True], "modes"),
+    "a metric of halves, first": _with("malformed", ["1/2", "1", "1"], ROBOT, "metric"),
+    "a metric of halves, last": _with("malformed", ["1", "1", "1/2"], ROBOT, "metric"),
+    "a metric of 0": _with("malformed", ["1", "0", "1"], ROBOT, "metric"),
+    "two cones of a leg": (region(base_cones=[cone((1, 0, 0), 180)] * 2), "malformed", ""),
+    "two cones of a leg's end": (region(platform_cones=[cone((1, 0, 0), 180)] * 2), "malformed", ""),
+    "one cone of two legs": (region([ALONG] * 2, base_cones=[cone((1, 0, 0), 180)]), "malformed", ""),
+    **{
+        f"a cone of {angle} degrees": _with(
+            "malformed", str(angle), ROBOT, "base_cones", 0, "degrees", base_cones=[cone((1, 0, 0), 30)]
+        )
+        for angle in (0, 29, 31, 44, 46, 59, 61, 89, 91, 119, 121, 134, 136, 149, 151, 179, 181)
+    },
+    **{
+        f"an axis along {k}": (region(base_cones=[cone([int(i == k) for i in range(3)], 180)]), "accepted", GOOD)
+        for k in range(3)
+    },
+    "a leg from 0 on": (region([leg((0,) * 3, (0,) * 3, (0, 4))]), "accepted", GOOD),
+    "a leg from less than 0 on": (region([leg((0,) * 3, (0,) * 3, (-SMALL, 4))]), "malformed", ""),
+    "a leg of one length": (region([leg((0,) * 3, (0,) * 3, (3, 3))]), "rejected", INSIDE),
+    "a slide from less than 0 on": (slide(-1, 8), "accepted", GOOD),
+    "a crank": _crank("accepted"),
+    "a crank of right angles": _crank("accepted", (-90, 450)),
+    "a crank from 45 degrees": _crank("malformed", (45, 90)),
+    "a crank to 135 degrees": _crank("malformed", (90, 135)),
+    "a crank of weight 4": _crank("accepted", v=(0, 2, 0), weight=4),
+    "a crank of weight 4 with limits": _crank("malformed", (0, 90), v=(0, 2, 0), weight=4),
+    "a crank of weight 1/4": _crank("malformed", v=(0, "1/2", 0), weight="1/4"),
+    "a crank of another weight": _crank("malformed", v=(0, 2, 0), weight=3),
+    "a crank of less weight": _crank("malformed", v=(0, 2, 0), weight=5),
+    "a crank of weight 0": _crank("malformed", v=(0, 0, 0), weight=0),
+    "a crank of nothing": _crank("malformed", u=(0, 0, 0), v=(0, 0, 0)),
+    "a crank that is an ellipse": _crank("malformed", v=(1, 1, 0), weight=2),
+    "a crank that is an ellipse, too": _crank("malformed", v=(-1, 1, 0), weight=2),
+    "a crank without a rod": _crank("malformed", rod=0),
+    "a slide along nothing": (
+        region([leg((0,) * 3, (0,) * 3, direction=(0, 0, 0), rod=1)], modes=[1]),
+        "malformed",
+        "",
+    ),
+    "a point for a box": (region(box=[[3, 3]]), "malformed", ""),
+    "a box from 4 to 3": (region(box=[[4, 3]]), "malformed", ""),
+    "two variables, one a point": (region(**{**PLANE, "position": [], "box": [[3, 3], [0, 1]]}), "malformed", ""),
+    "two variables, the other a point": (region(**{**PLANE, "position": [], "box": [[3, 4], [1, 1]]}), "malformed", ""),
+    "no variables": (region(variables=[], box=[], place=[3, 0, 0], axes=[]), "malformed", ""),
+    "a variable twice": (region(variables=["x", "x"], box=[[3, 4]] * 2), "malformed", ""),
+    "variables in another order": (
+        region(variables=["y", "x"], place=["x", "y", 0], box=[[3, 4]] * 2),
+        "malformed",
+        "",
+    ),
+    "a variable that is no coordinate": (region(variables=["w"], place=["w", 0, 0]), "malformed", ""),
+    "another variable's place": (region(variables=["x", "y"], place=["y", "x", 0], box=[[3, 4]] * 2), "malformed", ""),
+    "a variable in two places": (region(place=["x", "x", 0]), "malformed", ""),
+    "a variable without a place": (region(variables=["x", "y"], box=[[3, 4]] * 2), "malformed", ""),
+    "a place of a variable that there is not": (region(place=["x", "y", 0]), "malformed", ""),
+    "a variable turn without its name": (region(turns=[[1, 0], [1, 0], ["yaw"]]), "malformed", ""),
+    "a turn for a place": (region(variables=["x", "yaw"], place=["x", "yaw", 0], box=[[3, 4]] * 2), "malformed", ""),
+    "a turn of another name": (
+        region(variables=["x", "yaw"], turns=[["yaw"], [1, 0], [1, 0]], box=[[3, 4]] * 2),
+        "malformed",
+        "",
+    ),
+    "a place for a turn": (region(turns=[["x"], [1, 0], [1, 0]]), "malformed", ""),
+    "a turn of nothing": (region(turns=[[1, 0], [0, 0], [1, 0]]), "malformed", ""),
+    "half a turn": (region(turns=[[1, 0], [0, 1], [1, 0]]), "accepted", GOOD),
+    "two turns": (region(turns=[[1, 0], [1, 0]]), "malformed", ""),
+    "no orientation": _with("malformed", None, CHART, "quaternion"),
+    "turns beside a quaternion": _with("malformed", [["1", "0"]] * 3, CHART, "turns"),
+    "a quaternion of nothing": (region(quaternion=[0, 0, 0, 0]), "malformed", ""),
+    **{
+        f"a quaternion of {k} alone": (region(quaternion=[int(i == k) for i in range(4)]), "accepted", GOOD)
+        for k in range(4)
+    },
+    "a quaternion of three": (region(quaternion=[1, 0, 0]), "malformed", ""),
+    **{
+        f"a weight below 0: {k}": (
+            region(shape=[part(1), part(1, weights=[-int(i == k) for i in range(3)])]),
+            "malformed",
+            "shape: a weight",
+        )
+        for k in range(3)
+    },
+    "a weight below 0 in the first part": (
+        region(shape=[part(1, weights=(-1, 0, 0)), part(1)]),
+        "malformed",
+        "shape: a weight",
+    ),
+    "weights above 0": (region(shape=[part(100, weights=(1, 2, 3))]), "accepted", GOOD),
+    "conditions in another order": (region(conditions=["limits", "reachable"]), "malformed", ""),
+    "a condition twice": (region(conditions=["limits", "limits"]), "malformed", ""),
+    "no condition": (region(conditions=[]), "malformed", ""),
+    "two conditions": (region(conditions=["reachable", "limits"]), "accepted", GOOD),
+    "a pose of two numbers": (region(points=[[3, 4]]), "malformed", ""),
+    "letters of another alphabet": _with("malformed", "j", "paving"),
+    "a list of letters": _with("malformed", ["i"], "paving"),
+    "a true version": _with("malformed", True, "version"),
+    "version 0": _with("malformed", 0, "version"),
+    "version 2": _with("malformed", 2, "version"),
+    "a claim of its own": _with("malformed", "most", "claim"),
+    "a motion of its own": _with("malformed", "cylindrical", ROBOT, "motion"),
+    "a leg of its own": _with("malformed", {"type": "rope"}, ROBOT, "legs", 0, "actuator"),
+    "a leg of no type": _with("malformed", [], ROBOT, "legs", 0, "actuator"),
+    "a name of no text": _with("malformed", 5, ROBOT, "name"),
+    "a unit of no text": _with("malformed", 5, ROBOT, "unit"),
+    "a source of no text": _with("malformed", 5, ROBOT, "source"),
+    "a leg's name of no text": _with("malformed", 5, ROBOT, "legs", 0, "name"),
+    "measure out of order": (word("sisuo", measure=["3/2", "1"]), "malformed", ""),
+}
+
+ROWS: dict[str, Row] = {
+    **dict(random_rows()),
+    **dict(determinant_rows()),
+    **dict(shape_rows()),
+    **dict(form_rows()),
+    **CASES,
+    **WORDS,
+    **GROUPS,
+    **FORMAT,
+}
