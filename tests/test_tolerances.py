@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 from budgets import budget
-from certificate_tools import at, check_resealed, last_line, with_entry
+from certificate_tools import at, both, both_resealed, check_resealed, last_line, with_entry
 from hypothesis import given
 from hypothesis import strategies as st
 from samples import MODELS, boxed, random_placed, shipped, solved, tolerant
@@ -162,7 +162,7 @@ def test_completeness_of_a_spatial_robot() -> None:
 
 
 def test_a_tolerance_too_large_is_not_proved_but_a_fraction_is() -> None:
-    result = tolerant("3-rrr", "0.001")
+    result = tolerant("3-rrr", "0.01")
     assert not result.is_complete
     failed = [box for box in result.boxes if not box.is_proved]
     assert failed
@@ -171,6 +171,44 @@ def test_a_tolerance_too_large_is_not_proved_but_a_fraction_is() -> None:
         assert box.dominant is not None
         again = tolerance_boxes(result.problem, result.tolerances.scaled(box.fraction), boxed("3-rrr"))
         assert again.boxes[box.pose - 1].is_proved
+
+
+@cache
+def _measured(tolerance: str) -> tuple[dict[str, Any], ToleranceResult, Solution]:
+    """A hexapod whose joints were measured to a micrometre, with legs of 222.5 mm."""
+    robot = read_robot(Path(__file__).parent / "cases" / "cad3.toml")
+    problem = robot.problem(robot.configuration("home"))
+    solution = solve_krawczyk(problem)
+    result = tolerance_boxes(problem, Tolerances.uniform(tolerance), solution)
+    return tolerance_certificate(robot, "home", result), result, solution
+
+
+def test_a_tenth_of_a_millimetre_in_all_data_of_a_hexapod() -> None:
+    content, result, solution = _measured("0.1")
+    assert len(result.boxes) == 8
+    assert result.is_proved
+    assert both(canonical_bytes(content)).status == "accepted"
+    require_samples_inside(result, solution, 100, 5)
+
+
+@pytest.mark.parametrize("tolerance", ["0.01", "0.003"])
+def test_what_is_proved_is_proved_for_smaller_tolerances(tolerance: str) -> None:
+    assert _measured(tolerance)[1].is_proved
+
+
+@pytest.mark.parametrize(
+    ("key", "factor", "reason"),
+    [
+        ("outer", Fraction(40), "at most one solution"),
+        ("inner", Fraction(1, 2), "the inner box is not proved to hold a solution"),
+    ],
+)
+def test_boxes_too_wide_or_too_narrow_are_refused(key: str, factor: Fraction, reason: str) -> None:
+    content, path = _measured("0.1")[0], ("boxes", 0, key)
+    radii = [hex(int(int(value, 16) * factor)) for value in at(content, path)]
+    verdict = both_resealed(with_entry(content, path, radii))
+    assert verdict.status == "rejected"
+    assert reason in last_line(verdict)
 
 
 def test_a_singular_pose_has_no_box() -> None:
@@ -385,7 +423,7 @@ def test_the_command(tmp_path: Path, capsys: Capture) -> None:
 
 
 def test_the_command_says_what_is_not_proved(capsys: Capture) -> None:
-    assert main(["solve", str(PLANAR), "--method", "krawczyk", "--tolerance", "0.001"]) == 3
+    assert main(["solve", str(PLANAR), "--method", "krawczyk", "--tolerance", "0.01"]) == 3
     text = capsys.readouterr().out
     assert "of the tolerance, not for all of it" in text
     assert "what moves the platform most is the length of leg" in text

@@ -2897,6 +2897,11 @@ class Rectangle:
         """Whether 0 is in the rectangle."""
         return self.re.contains_zero() and self.im.contains_zero()
 
+    def largest(self) -> int:
+        """At least the largest absolute value, times 2^p."""
+        re, im = self.re.largest(), self.im.largest()
+        return isqrt(re * re + im * im) + 1 if im else re
+
     def conjugate(self) -> Rectangle:
         """The conjugate numbers."""
         return Rectangle(self.re, -1 * self.im)
@@ -2975,22 +2980,30 @@ class Family:
         """The derivatives of the quantities at x."""
         return [[summed((v * x[j] for j, v in terms), zero) for terms in form] for form in self.polar]
 
-    def forms(self, *, uncertain: bool) -> list[list[Interval]]:
-        """Study's condition, unless planar, and the legs as rows of coefficients, for all robots if ``uncertain``."""
-        da, db, dl = self.errors if uncertain else [self.zero] * 3
+    def forms(self) -> list[list[Interval]]:
+        """Study's condition, unless planar, and the legs of the nominal robot as rows of coefficients."""
         rows = [] if self.planar else [[*[self.zero] * 17, self.one]]
-        for joint, other, length in zip(self.base, self.platform, self.lengths, strict=True):
-            a = [x + da if axis in self.axes else x for axis, x in enumerate(joint)]
-            b = [x + db if axis in self.axes else x for axis, x in enumerate(other)]
-            squares = summed((x.square() for x in (*a, *b)), self.zero) - (length + dl).square()
+        for a, b, length in zip(self.base, self.platform, self.lengths, strict=True):
+            squares = summed((x.square() for x in (*a, *b)), self.zero) - length.square()
             twice = [-2 * x for x in a]
             rows.append([squares, *(x * y for x in twice for y in b), *twice, *(2 * x for x in b), self.one, self.zero])
         return rows
 
+    def quadric(self, form: Sequence[Interval]) -> list[list[Interval]]:
+        """The derivatives of those of a form in the quantities: a symmetric matrix."""
+        found = [[self.zero] * len(self.places) for _ in self.places]
+        for c, rows in zip(form, self.polar, strict=True):
+            if c.low or c.high:
+                for i, terms in enumerate(rows):
+                    for j, v in terms:
+                        found[i][j] = found[i][j] + v * c
+        return found
+
     def leg_changes(self, at: Sequence[Rectangle]) -> list[Rectangle]:
         """E_i = N (2 d.(R b - a) - 2 l t + |R b - a|^2 - t^2), from the quantities at a point.
 
-        d = C + R B - A, and d.(R b) = (R^-1 d).b with R^-1 d = R^-1 C + B - R^-1 A.
+        d = C + R B - A, and d.(R b) = (R^-1 d).b with R^-1 d = R^-1 C + B - R^-1 A. It is linear in the quantities:
+        their derivatives give its derivatives.
         """
         da, db, dl = self.errors
         norm, position, turned = at[0], at[10:13], at[13:16]
@@ -3027,7 +3040,10 @@ def polar_forms(places: Sequence[int]) -> list[list[list[tuple[int, int]]]]:
 
 
 class Neighbourhood:
-    """The equations F of a family around a centre m: Y, F(m), and the changes E_i of the legs at m."""
+    """The equations F of a family around a centre m: Y, F(m), and the changes E_i of the legs at m.
+
+    ``slope`` is Y F'(m) of the nominal robot; ``curvature[a][b]`` are the derivatives of the entry (a, b) of Y F'.
+    """
 
     def __init__(self, family: Family, place: Place, exponent: int, name: str) -> None:
         self.family = family
@@ -3038,14 +3054,31 @@ class Neighbourhood:
         one = Rectangle(family.one, family.zero)
         self.weights = [family.rectangle(pair, 0) for pair in weights]
         self.centre = [family.rectangle(pair, exponent) for pair in place.centre]
-        slopes = [[midpoint(entry) for entry in row] for row in self.jacobian(self.centre, uncertain=False)]
-        inverse = near_inverse(slopes, family.p)
+        forms, jacobian = family.forms(), self.jacobian()
+        inverse = near_inverse([[midpoint(entry) for entry in row] for row in jacobian], family.p)
         require(inverse is not None, f"{name}: the Jacobian at its centre seems singular")
         self.inverse = [[exact_rectangle(entry, family.p) for entry in row] for row in inverse or ()]
         quantities = family.quantities(self.centre, self.nothing)
-        self.residual = [self.form_value(row, quantities) for row in family.forms(uncertain=False)]
+        self.residual = [self.form_value(row, quantities) for row in forms]
         self.residual.append(self.chart_value() - one)
         self.changes = family.leg_changes(quantities)
+        columns = list(zip(*jacobian, strict=True))
+        self.slope = [[inner_product(row, column) for column in columns] for row in self.inverse]
+        quadrics = [family.quadric(form) for form in forms]
+        places = range(len(columns))
+        self.curvature = [
+            [[self.weighted(row, [q[b][j] for q in quadrics]) for j in places] for b in places] for row in self.inverse
+        ]
+
+    def weighted(self, row: Sequence[Rectangle], values: Sequence[Interval]) -> Rectangle:
+        """The sum of a row of Y times values of all equations but the last; zeros are left out."""
+        terms = (y.scaled(v) for y, v in zip(row, values, strict=False) if v.low or v.high)
+        return summed(terms, self.nothing)  # type: ignore[no-any-return]
+
+    def on_legs(self, changes: Sequence[Rectangle]) -> list[Rectangle]:
+        """Values for all equations: 0 for Study's condition and the chart."""
+        before = [] if self.family.planar else [self.nothing]
+        return [*before, *changes, self.nothing]
 
     def chart_value(self) -> Rectangle:
         """w.e at the centre."""
@@ -3057,40 +3090,76 @@ class Neighbourhood:
         terms = (v.scaled(c) for c, v in zip(form, values, strict=True) if c.low or c.high)
         return summed(terms, self.nothing)  # type: ignore[no-any-return]
 
-    def jacobian(self, x: Sequence[Rectangle], *, uncertain: bool) -> list[list[Rectangle]]:
-        """F' at x, of all robots if ``uncertain``."""
-        slopes = list(zip(*self.family.slopes(x, self.nothing), strict=True))
-        rows = [[self.form_value(form, c) for c in slopes] for form in self.family.forms(uncertain=uncertain)]
-        return [*rows, [*self.weights, *[self.nothing] * (len(x) - len(self.weights))]]
+    def jacobian(self) -> list[list[Rectangle]]:
+        """F'(m) of the nominal robot."""
+        slopes = list(zip(*self.family.slopes(self.centre, self.nothing), strict=True))
+        rows = [[self.form_value(form, c) for c in slopes] for form in self.family.forms()]
+        return [*rows, [*self.weights, *[self.nothing] * (len(self.centre) - len(self.weights))]]
 
     def around(self, widths: Sequence[int]) -> list[Rectangle]:
         """The box around the centre."""
         spread = self.family.spread(widths, self.exponent, real=self.real)
         return [m + side for m, side in zip(self.centre, spread, strict=True)]
 
-    def defect(self, widths: Sequence[int], *, uncertain: bool) -> list[list[Rectangle]]:
-        """1 - Y F' on a box."""
-        columns = list(zip(*self.jacobian(self.around(widths), uncertain=uncertain), strict=True))
-        one = Rectangle(self.family.one, self.family.zero)
+    def defect(self, widths: Sequence[int], *, uncertain: bool, half: bool = False) -> list[list[Rectangle]]:
+        """1 - Y F' on a box, or on the box of half the size."""
+        family = self.family
+        spread = family.spread(widths, self.exponent + half, real=self.real)
+        one = Rectangle(family.one, family.zero)
+        found = [
+            [
+                (one if a == b else self.nothing) - at - inner_product(derivatives, spread)
+                for b, (at, derivatives) in enumerate(zip(*rows, strict=True))
+            ]
+            for a, rows in enumerate(zip(self.slope, self.curvature, strict=True))
+        ]
+        if not uncertain:
+            return found
+        slopes = family.slopes([m + side for m, side in zip(self.centre, spread, strict=True)], self.nothing)
+        columns = [self.on_legs(family.leg_changes(column)) for column in zip(*slopes, strict=True)]
         return [
-            [(one if i == j else self.nothing) - inner_product(row, column) for j, column in enumerate(columns)]
-            for i, row in enumerate(self.inverse)
+            [entry - inner_product(y, column) for entry, column in zip(row, columns, strict=True)]
+            for row, y in zip(found, self.inverse, strict=True)
         ]
 
     def contracts(self, widths: Sequence[int], *, uncertain: bool) -> bool:
-        """Whether Krawczyk's operator maps the box into its interior, and N(e) is not 0 there."""
+        """Whether Krawczyk's operator maps the box into its interior, for the nominal robot; N(e) not being 0 there.
+
+        Or, if ``uncertain``, whether x -> x - Y F(x) does so for all robots: F(x) - F(m) = F'((x + m) / 2) (x - m).
+        """
         spread = self.family.spread(widths, self.exponent, real=self.real)
-        right = list(self.residual)
+        right = self.residual
         if uncertain:
-            for place, change in enumerate(self.changes, len(right) - 1 - len(self.changes)):
-                right[place] = right[place] + change
-        for row, y, side in zip(self.defect(widths, uncertain=uncertain), self.inverse, spread, strict=True):
+            right = [value + change for value, change in zip(right, self.on_legs(self.changes), strict=True)]
+        defect = self.defect(widths, uncertain=uncertain, half=uncertain)
+        for row, y, side in zip(defect, self.inverse, spread, strict=True):
             image = inner_product(row, spread) - inner_product(y, right)
             for part, within in ((image.re, side.re), (image.im, side.im)):
                 inside = within.low < part.low and part.high < within.high
                 if not inside and not (within.high == 0 == part.low == part.high):
                     return False
+        return self.has_poses(widths)
+
+    def has_poses(self, widths: Sequence[int]) -> bool:
+        """Whether N(e) is not 0 on the box."""
         return not self.family.quantities(self.around(widths), self.nothing)[0].contains_zero()
+
+    def is_regular(self, widths: Sequence[int]) -> bool:
+        """Whether F' is regular, and N(e) not 0, all over the box, for all robots; then Y is regular too.
+
+        By v > 0 with |1 - Y F'| v < v: the spectral radius is below 1.
+        """
+        p, size = self.family.p, len(widths)
+        bounds = [[entry.largest() for entry in row] for row in self.defect(widths, uncertain=True)]
+        sums = near_inverse(less_than_one(bounds, p), p)
+        if sums is None:
+            return False
+        vector = [int(sum((entry.re for entry in row), Fraction(0)) * (1 << p)) for row in sums]
+        bits = max(map(most_bits, (*bounds, vector)))
+        spend(size**2 * (200 + product_cost(bits, bits)))
+        images = [sum(b * v for b, v in zip(row, vector, strict=True)) for row in bounds]
+        shrinks = all(v > 0 and image < v << p for v, image in zip(vector, images, strict=True))
+        return shrinks and self.has_poses(widths)
 
     def is_nearest(self, widths: Sequence[int]) -> bool:
         """Whether the nominal solution, which is in the box, is within 1/2 + 2^-20 units of the grid of the centre.
@@ -3117,6 +3186,14 @@ class Neighbourhood:
         """Rotation and position on a box, in the new frames."""
         values = self.family.quantities(self.around(widths), self.nothing)
         return [value.over(values[0]) for value in values[1:13]]
+
+
+def less_than_one(bounds: Sequence[Sequence[int]], p: int) -> list[list[Gaussian]]:
+    """1 - B for a matrix in units of 2^-p."""
+    return [
+        [Gaussian(Fraction((int(i == j) << p) - v, 1 << p), Fraction(0)) for j, v in enumerate(row)]
+        for i, row in enumerate(bounds)
+    ]
 
 
 def inner_product(one: Sequence[Any], other: Sequence[Any]) -> Any:
@@ -3177,14 +3254,14 @@ def are_distinct(one: Sequence[Rectangle], other: Sequence[Rectangle]) -> bool:
 
 
 def check_place(at: Neighbourhood, place: Place, core: Sequence[int], name: str) -> None:
-    """Exactly one solution of every robot in the outer box, the nominal one in the core, which lies in it."""
+    """At most one solution of every robot in the outer box, the nominal one in the core, which lies in it."""
     require(min(place.outer) >= core[0], f"{name}: smaller than the core of the nominal solution")
     nominal = at.contracts(core, uncertain=False)
     require(nominal, f"{name}: not proved to hold a solution of the nominal robot")
     nearest = at.is_nearest(core)
     require(nearest, f"{name}: its centre is not the grid point nearest to the nominal solution")
-    every = at.contracts(place.outer, uncertain=True)
-    require(every, f"{name}: not proved to hold exactly one solution of every robot within tolerance")
+    regular = at.is_regular(place.outer)
+    require(regular, f"{name}: not proved to hold at most one solution of every robot within tolerance")
 
 
 def check_pose_box(at: Neighbourhood, box: PoseBox, name: str) -> None:
@@ -3193,7 +3270,7 @@ def check_pose_box(at: Neighbourhood, box: PoseBox, name: str) -> None:
     inside = all(a <= b for a, b in zip(box.inner, box.place.outer, strict=True))
     require(inside, f"{name}: the inner box is not contained in the outer one")
     holds = at.contracts(box.inner, uncertain=True)
-    require(holds, f"{name}: the inner box is not proved to hold the solution")
+    require(holds, f"{name}: the inner box is not proved to hold a solution of every robot within tolerance")
     inverses = inverse_jacobians(at, box.inner)
     require(inverses is not None, f"{name}: the Jacobian is not proved regular in it")
     effect = [
@@ -3218,19 +3295,16 @@ def check_pose_box(at: Neighbourhood, box: PoseBox, name: str) -> None:
 
 
 def inverse_jacobians(at: Neighbourhood, widths: Sequence[int]) -> list[list[Interval]] | None:
-    """Enclosures of the inverses of all matrices in F' on a box that is mapped into its interior, real.
+    """Enclosures of the inverses of all matrices in F', real, on the box of half the size.
 
-    With M = 1 - Y F' they are V = Y + M Y + M^2 Y + .., and |V - Y| is at most the least S that is not negative and not
-    less than |M| (|Y| + S). One near it is computed and tried, a little larger each time. None if none is found.
+    They are regular on the whole box. With M = 1 - Y F' they are V = Y + M Y + M^2 Y + .., and |V - Y| is at most the
+    least S that is not negative and not less than |M| (|Y| + S). One near it is computed and tried, a little larger
+    each time. None if none is found.
     """
     p, size = at.family.p, len(widths)
-    m = [[entry.re.largest() for entry in row] for row in at.defect(widths, uncertain=True)]
+    m = [[entry.re.largest() for entry in row] for row in at.defect(widths, uncertain=True, half=True)]
     y = [[entry.re for entry in row] for row in at.inverse]
-    rest = [
-        [Gaussian(Fraction((int(i == j) << p) - v, 1 << p), Fraction(0)) for j, v in enumerate(row)]
-        for i, row in enumerate(m)
-    ]
-    powers = near_inverse(rest, p)
+    powers = near_inverse(less_than_one(m, p), p)
 
     def applied(matrix: list[list[int]], other: list[list[int]]) -> list[list[int]]:
         """The product, rounded up."""
@@ -3347,6 +3421,8 @@ def check_all_solutions(
         name = f"pair {number}"
         at = Neighbourhood(family, place, certificate.exponent, name)
         check_place(at, place, core, name)
+        holds = at.contracts(place.outer, uncertain=True)
+        require(holds, f"{name}: not proved to hold a solution of every robot within tolerance")
         found = at.motion_in(core)
         cores = [*cores, found, [value.conjugate() for value in found]]
     degree = certificate.degree

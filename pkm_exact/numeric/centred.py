@@ -135,6 +135,13 @@ def gradient_forms(motion: Motion) -> fmpz_mat:
 
 
 @cache
+def gradients_of_gradients(motion: Motion) -> fmpz_mat:
+    """All 2 M_k, each a row of n^2 entries."""
+    size = len(motion.support)
+    return fmpz_mat(QUANTITIES, size**2, gradient_forms(motion).entries())
+
+
+@cache
 def _gradient_balls(motion: Motion, kind: Any) -> Balls:
     return kind(arb_mat(gradient_forms(motion)))
 

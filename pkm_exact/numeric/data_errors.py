@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from flint import acb, acb_mat, arb, arb_mat
+from flint import acb, arb
 
 from pkm_exact.balls import ball
 from pkm_exact.geometry.tolerances import Tolerances
@@ -77,7 +77,7 @@ class LegErrors:
 
 
 def leg_errors(robot: CentredRobot, errors: DataErrors, values: Sequence[acb]) -> list[LegErrors]:
-    """The E_i at a point (or in a box), from the quantities there."""
+    """The E_i at a point (or in a box), from the quantities there; they are linear in the quantities."""
     axes = range(2 if robot.problem.motion.is_planar else 3)
     norm = values[centred.NORM]
     position, turned = values[centred.POSITION : centred.ROTATION], values[centred.TURNED : centred.POSITION]
@@ -94,19 +94,3 @@ def leg_errors(robot: CentredRobot, errors: DataErrors, values: Sequence[acb]) -
         bounds = (*(errors.base for _ in axes), *(errors.platform for _ in axes), errors.lengths)
         found.append(LegErrors(influences, bounds, rest))
     return found
-
-
-def form_errors(robot: CentredRobot, errors: DataErrors) -> acb_mat:
-    """By how much the rows of the legs may change."""
-    zero = arb(0)
-    third = zero if robot.problem.motion.is_planar else arb(1)
-    da = [errors.base, errors.base, errors.base * third]
-    db = [errors.platform, errors.platform, errors.platform * third]
-    rows = [[zero] * centred.QUANTITIES] if robot.problem.motion.has_study_condition else []
-    for a, b, length in zip(robot.legs.base, robot.legs.platform, robot.legs.lengths, strict=True):
-        row = [zero, *(2 * v for v in db), *(-2 * v for v in da)]
-        row += [-2 * (a[i] * db[j] + da[i] * b[j] + da[i] * db[j]) for i in range(3) for j in range(3)]
-        constant = sum((2 * v * dv + dv * dv for v, dv in zip((*a, *b), (*da, *db), strict=True)), zero)
-        row += [constant - 2 * length * errors.lengths - errors.lengths * errors.lengths, zero]
-        rows.append(row)
-    return acb_mat(arb_mat(rows))

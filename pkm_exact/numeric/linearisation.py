@@ -4,8 +4,13 @@ For F the nominal equations and E what errors of the data do to them (``data_err
 
     K(X, P) = m - Y (F(m) + E(m, P)) + (1 - Y F'(X, P)) (X - m)
 
-and loses nothing in the parameters. If it lies in the interior of X, then for every p in P the box X holds exactly one
-zero of F + E, and the Jacobian is regular there, all over X.
+and loses nothing in the parameters at m. The equations of every robot are quadrics, F(x) = x^T Q x and so on, so that
+
+    Y F'(X) = Y F'(m) + (2 Y Q) (X - m),
+
+where 2 Y Q is computed before a box comes in: a sum of balls does not know which of them are one unknown, and may be
+wider by a factor of 60. As F_p(x) - F_p(m) = F_p'((x + m) / 2) (x - m), F' on the box of half the size is enough to
+show a zero in X (``Slopes``), and F' on X to show that there is no second one.
 """
 
 from __future__ import annotations
@@ -19,10 +24,18 @@ from flint import acb, acb_mat, arb, arb_mat
 
 from pkm_exact.balls import Balls, unit_matrix
 from pkm_exact.motions.motion import Motion
-from pkm_exact.numeric.centred import NORM, CentredRobot, Chart, gradients, quantities, quantities_at
+from pkm_exact.numeric.centred import (
+    NORM,
+    CentredRobot,
+    Chart,
+    gradients,
+    gradients_of_gradients,
+    quantities,
+    quantities_at,
+)
 from pkm_exact.numeric.charts import chart_row, chart_values
-from pkm_exact.numeric.data_errors import DataErrors, form_errors, leg_errors
-from pkm_exact.numeric.krawczyk_operator import Equations, around_zero, contraction, holds_one, inflated
+from pkm_exact.numeric.data_errors import DataErrors, leg_errors
+from pkm_exact.numeric.krawczyk_operator import around_zero, contraction, inflated, is_inside, krawczyk
 
 ENLARGEMENTS: Final = 16
 """Boxes tried one after another, each somewhat larger than the image of the one before."""
@@ -80,27 +93,36 @@ class Linearisation:
         """Y F(m)."""
         return self.inverse * self.values
 
+    @cached_property
+    def slope(self) -> acb_mat:
+        """Y F'(m)."""
+        slopes = gradients(self.centre, self.robot.problem.motion)[0]
+        return self.inverse * centred_jacobian(self.robot, self.robot.forms, self.chart, slopes)
+
+    @cached_property
+    def curvature(self) -> acb_mat:
+        """Derivatives of Y F' by x, n^2 x n: for every entry of that matrix, row by row, a row."""
+        size = self.robot.size
+        quadrics = acb_mat(gradients_of_gradients(self.robot.problem.motion))
+        rows = (self.robot.forms * quadrics).entries() + [acb(0)] * size**2
+        return acb_mat(size**2, size, (self.inverse * acb_mat(size, size**2, rows)).entries())
+
     def jacobian(self, box: acb_mat) -> acb_mat:
         """Y F'(X), with X given moved to 0."""
-        return self.jacobian_of(self.robot.forms, box)
-
-    def jacobian_of(self, forms: acb_mat, box: acb_mat) -> acb_mat:
-        """The same for other rows of the equations."""
-        slopes = gradients(self.centre + box, self.robot.problem.motion)[0]
-        return self.inverse * centred_jacobian(self.robot, forms, self.chart, slopes)
+        size = self.robot.size
+        return self.slope + acb_mat(size, size, (self.curvature * box).entries())
 
     def around(self, radii: Sequence[arb]) -> Balls:
         """The box with these radii around m; a little larger where Arb rounds."""
         return self.centre + around_zero(self, radii)
 
-    def with_errors(self, errors: DataErrors | None) -> Equations:
+    def with_errors(self, errors: DataErrors | None) -> Linearisation | TolerantEquations:
         """The equations of all robots with such errors in their data; None stands for no error."""
         if errors is None:
             return self
         totals = [leg.total for leg in leg_errors(self.robot, errors, self.quantities)]
-        padded = [acb(0)] * (self.robot.size - 1 - len(totals)) + totals + [acb(0)]
-        residual = self.inverse * (self.values + acb_mat(self.robot.size, 1, padded))
-        return TolerantEquations(self, self.robot.forms + form_errors(self.robot, errors), residual)
+        residual = self.inverse * (self.values + padded(totals, self.robot.size))
+        return TolerantEquations(self, errors, residual)
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,14 +132,13 @@ class TolerantEquations:
     Attributes
     ----------
     nominal : Linearisation
-    forms : (n - 1) x 18 matrix
-        The rows of the equations.
+    errors : DataErrors
     residual : n x 1 matrix
         Y (F(m) + E(m, P)).
     """
 
     nominal: Linearisation
-    forms: acb_mat
+    errors: DataErrors
     residual: acb_mat
 
     @property
@@ -126,8 +147,42 @@ class TolerantEquations:
         return self.nominal.is_real
 
     def jacobian(self, box: acb_mat) -> acb_mat:
-        """Y F'(X, P), with X given moved to 0."""
-        return self.nominal.jacobian_of(self.forms, box)
+        """Y F'(X, P), with X given moved to 0. E is linear in the quantities: its derivatives are E of theirs."""
+        near, robot = self.nominal, self.nominal.robot
+        slopes = gradients(near.centre + box, robot.problem.motion)[0].transpose().tolist()
+        columns = [[leg.total for leg in leg_errors(robot, self.errors, column)] for column in slopes]
+        changes = [padded(column, robot.size).entries() for column in columns]
+        return near.jacobian(box) + near.inverse * acb_mat(changes).transpose()
+
+
+def padded(legs: Sequence[acb], size: int) -> acb_mat:
+    """Values of the equations of the legs as a column, 0 for the other equations."""
+    return acb_mat(size, 1, [acb(0)] * (size - 1 - len(legs)) + [*legs, acb(0)])
+
+
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """Equations that are quadrics, with F'((X + m) / 2) in place of F'(X) (``krawczyk_operator.Equations``).
+
+    F(x) - F(m) = F'((x + m) / 2) (x - m), so that x -> x - Y F(x) maps a box X into its image: if that lies in X, there
+    is a zero in it, and every zero in X lies in the image. It need not be the only one.
+    """
+
+    equations: Linearisation | TolerantEquations
+
+    @property
+    def is_real(self) -> bool:
+        """Whether the point is real."""
+        return self.equations.is_real
+
+    @property
+    def residual(self) -> acb_mat:
+        """Y F(m)."""
+        return self.equations.residual
+
+    def jacobian(self, box: acb_mat) -> acb_mat:
+        """Y F'((X + m) / 2), with X given moved to 0."""
+        return self.equations.jacobian(box / 2)
 
 
 def linearise(robot: CentredRobot, chart: Chart, centre: acb_mat) -> Linearisation | None:
@@ -160,27 +215,33 @@ def refined(robot: CentredRobot, chart: Chart, point: acb_mat, exponent: int) ->
 
 
 def inverse_jacobians(near: Linearisation, errors: DataErrors | None, radii: Sequence[arb]) -> arb_mat | None:
-    """Enclosures of the inverses V of the matrices in F'(X, P), real; None if one may be singular.
+    """Enclosures of the inverses V of the matrices in F'((X + m) / 2, P), real; None if one may be singular.
 
     With M = 1 - Y F' they are V = Y + M Y + M^2 Y + .., so V - Y is at most (1 - |M|)^-1 |M| |Y|, for |M| the matrix of
     upper bounds, if its spectral radius is below 1: then the sum of its powers is that inverse, and not negative.
     """
-    size, equations = near.robot.size, near.with_errors(errors)
-    left = contraction(equations, around_zero(equations, radii))
-    bounds = arb_mat(size, size, [value.real.abs_upper() for value in left.entries()])
-    inverse = arb_mat(size, size, [value.real for value in near.inverse.entries()])
+    left = contraction(Slopes(near.with_errors(errors)), around_zero(near, radii))
+    bounds = arb_mat([[value.real.abs_upper() for value in row] for row in left.tolist()])
+    powers = sum_of_powers(bounds)
+    if powers is None:
+        return None
+    inverse = arb_mat([[value.real for value in row] for row in near.inverse.tolist()])
+    reaches = powers * bounds * arb_mat([[abs(value) for value in row] for row in inverse.tolist()])
+    return inverse + arb_mat([[arb(0, value.upper()) for value in row] for row in reaches.tolist()])
+
+
+def sum_of_powers(bounds: arb_mat) -> arb_mat | None:
+    """1 + B + B^2 + .. of a matrix that is not negative; None if its spectral radius may not be below 1."""
     try:
-        powers = (unit_matrix(size) - bounds).inv()
+        powers = (unit_matrix(bounds.nrows()) - bounds).inv()
     except ZeroDivisionError:
         return None
-    if not all(value.is_finite() and value >= 0 for value in powers.entries()):
-        return None
-    reaches = powers * bounds * arb_mat(size, size, [abs(value) for value in inverse.entries()])
-    return inverse + arb_mat(size, size, [arb(0, value.upper()) for value in reaches.entries()])
+    # An inverse that is not negative is that sum: (1 - B)^-1 = 1 + .. + B^k + B^(k+1) (1 - B)^-1, term by term bounded.
+    return powers if all(value.is_finite() and value >= 0 for value in powers.entries()) else None
 
 
 def enclosing_radii(near: Linearisation, errors: DataErrors | None, exponent: int) -> Sequence[arb] | None:
-    """Radii, on the grid 2^-exponent, of a small box that Krawczyk's operator maps into its interior.
+    """Radii, on the grid 2^-exponent, of a small box in whose interior there is a solution of every robot.
 
     Starts with the enlargement of first order, |Y (F(m) + E(m, P))|. None if no such box was found.
     """
@@ -189,14 +250,26 @@ def enclosing_radii(near: Linearisation, errors: DataErrors | None, exponent: in
         sizes = (abs(value.real).max(abs(value.imag)).upper() for value in values)
         return [up(GROWTH * size, exponent) for size in sizes]
 
-    equations = near.with_errors(errors)
+    equations = Slopes(near.with_errors(errors))
     found = inflated(equations, enlarged(equations.residual.entries()), enlarged, ENLARGEMENTS)
     return None if found is None else found[0]
 
 
 def is_proved(near: Linearisation, errors: DataErrors | None, radii: Sequence[arb]) -> bool:
     """Whether the box with these radii holds exactly one solution for every robot, and N(e) is not 0 in it."""
-    if not holds_one(near.with_errors(errors), radii):
+    equations = near.with_errors(errors)
+    image = krawczyk(Slopes(equations), around_zero(near, radii))
+    return is_inside(equations, image, radii) and has_at_most_one(near, errors, radii)
+
+
+def has_at_most_one(near: Linearisation, errors: DataErrors | None, radii: Sequence[arb]) -> bool:
+    """Whether F' is regular all over the box for every robot, and N(e) is not 0 in it.
+
+    Then there is one solution at most: F(x) - F(y) = F'((x + y) / 2) (x - y). Of complex numbers, the bounds are those
+    of absolute values.
+    """
+    left = contraction(near.with_errors(errors), around_zero(near, radii))
+    if sum_of_powers(arb_mat([[value.abs_upper() for value in row] for row in left.tolist()])) is None:
         return False
     return not quantities_at(near.around(radii), near.robot.problem.motion)[NORM].contains(0)
 

@@ -33,7 +33,14 @@ from pkm_exact.numeric.centred import (
 from pkm_exact.numeric.charts import in_chart
 from pkm_exact.numeric.data_errors import data_errors
 from pkm_exact.numeric.deviations import MARGIN, PoseBounds, dominant_influence, pose_bounds
-from pkm_exact.numeric.linearisation import Linearisation, chart_weights, enclosing_radii, is_proved, up
+from pkm_exact.numeric.linearisation import (
+    Linearisation,
+    chart_weights,
+    enclosing_radii,
+    has_at_most_one,
+    is_proved,
+    up,
+)
 from pkm_exact.numeric.nominal import certified_point, certified_pose, complex_points, core_radii, exact_integer
 from pkm_exact.numeric.quaternions import quaternion_product
 from pkm_exact.numeric.tolerance_result import ProvedBox, ToleranceBox, ToleranceResult
@@ -153,7 +160,7 @@ def _proved_pose(near: Linearisation, tolerances: Tolerances, exponent: int) -> 
         return None
     core = core_radii(near.robot.size, exponent)
     outer = [max(radii) for radii in zip(inner, needed, core, strict=True)]
-    if not is_proved(near, errors, outer):
+    if not has_at_most_one(near, errors, outer):
         return None
     return _boxed(near, outer, inner, exponent), bounds
 

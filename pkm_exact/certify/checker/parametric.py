@@ -101,14 +101,11 @@ def robot_of(
     )
 
 
-def rows(robot: Robot, *, uncertain: bool) -> acb_mat:
-    """The coefficients of the legs, and of Study's condition unless planar, nominal or for all data at once."""
-    da, db, dl = robot.errors if uncertain else (arb(0),) * 3
+def rows(robot: Robot) -> acb_mat:
+    """The coefficients of the legs, and of Study's condition unless planar, of the nominal robot."""
     lines = [] if robot.planar else [[arb(0)] * (COUNT - 1) + [arb(1)]]
-    for a0, b0, l0 in zip(robot.base, robot.platform, robot.lengths, strict=True):
-        a = [x + da if i in robot.axes else x for i, x in enumerate(a0)]
-        b = [x + db if i in robot.axes else x for i, x in enumerate(b0)]
-        constant = sum((x * x for x in (*a, *b)), -(l0 + dl) * (l0 + dl))
+    for a, b, length in zip(robot.base, robot.platform, robot.lengths, strict=True):
+        constant = sum((x * x for x in (*a, *b)), -length * length)
         lines.append(
             [constant, *(-2 * x * y for x in a for y in b), *(-2 * x for x in a), *(2 * x for x in b), arb(1), arb(0)]
         )
@@ -127,6 +124,8 @@ def values(derivatives: acb_mat, x: acb_mat) -> list[acb]:
 
 def leg_changes(robot: Robot, at: Sequence[acb]) -> list[acb]:
     """By how much the equations of the legs can change at a point, from the quantities there.
+
+    It is linear in the quantities: from their derivatives, by how much derivatives of the equations can change.
 
     N (2 d.(R b - a) - 2 l t + |R b - a|^2 - t^2) with d = C + R B - A, for errors a, b, t of the data.
     """
@@ -148,7 +147,10 @@ def leg_changes(robot: Robot, at: Sequence[acb]) -> list[acb]:
 
 @dataclass(frozen=True)
 class Expansion:
-    """The equations around a centre m: chart, Y, F(m), E(m, P) on the legs, and the quantities at m."""
+    """The equations around a centre m: chart, Y, F(m), E(m, P) on the legs, Y F'(m), and its derivatives.
+
+    ``curvature`` has a row for every entry of Y F', row by row: its derivatives by the unknowns.
+    """
 
     robot: Robot
     weights: tuple[acb, ...]
@@ -156,35 +158,53 @@ class Expansion:
     inverse: acb_mat
     residual: acb_mat
     changes: list[acb]
+    slope: acb_mat
+    curvature: acb_mat
 
     @property
     def first(self) -> int:
         """Place of the first leg among the equations."""
         return 0 if self.robot.planar else 1
 
-    def jacobian(self, x: acb_mat, *, uncertain: bool) -> acb_mat:
-        """F'(x), for the nominal robot or for all."""
-        upper = rows(self.robot, uncertain=uncertain) * slopes(x, planar=self.robot.planar)
-        return _with_chart(upper, self.weights)
+    def on_legs(self, changes: Sequence[acb]) -> list[acb]:
+        """Values for all equations, 0 for those that are no legs."""
+        return [*[acb(0)] * self.first, *changes, acb(0)]
 
-
-def _with_chart(upper: acb_mat, weights: Sequence[acb]) -> acb_mat:
-    size = upper.ncols()
-    return acb_mat(size, size, [*upper.entries(), *weights, *[acb(0)] * (size - len(weights))])
+    def defect(self, box: acb_mat, *, uncertain: bool) -> acb_mat:
+        """1 - Y F' on a box, given moved to 0, for the nominal robot or for all."""
+        size = box.nrows()
+        unit = acb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
+        found = unit - self.slope - acb_mat(size, size, (self.curvature * box).entries())
+        if uncertain:
+            by_unknown = slopes(self.centre + box, planar=self.robot.planar).transpose().tolist()
+            columns = [self.on_legs(leg_changes(self.robot, column)) for column in by_unknown]
+            found -= self.inverse * acb_mat(columns).transpose()
+        return found
 
 
 def expand(robot: Robot, weights: Sequence[acb], centre: acb_mat) -> Expansion | None:
     """The expansion at an exact point; None if the Jacobian seems singular."""
-    derivatives = slopes(centre, planar=robot.planar)
-    jacobian = _with_chart(rows(robot, uncertain=False) * derivatives, weights)
+    forms, derivatives, size = rows(robot), slopes(centre, planar=robot.planar), centre.nrows()
+    jacobian = acb_mat(size, size, [*(forms * derivatives).entries(), *weights, *[acb(0)] * (size - len(weights))])
     try:
         inverse = jacobian.inv()
     except ZeroDivisionError:
         return None
-    exact = acb_mat(inverse.nrows(), inverse.ncols(), [acb(v.real.mid(), v.imag.mid()) for v in inverse.entries()])
+    exact = acb_mat(size, size, [acb(v.real.mid(), v.imag.mid()) for v in inverse.entries()])
     product_ = (jacobian * centre).entries()
-    residual = acb_mat(len(product_), 1, [*(v / 2 for v in product_[:-1]), product_[-1] - 1])
-    return Expansion(robot, tuple(weights), centre, exact, residual, leg_changes(robot, values(derivatives, centre)))
+    residual = acb_mat(size, 1, [*(v / 2 for v in product_[:-1]), product_[-1] - 1])
+    quadrics = acb_mat(arb_mat(fmpz_mat(COUNT, size * size, polar_forms(planar=robot.planar).entries())))
+    twice = acb_mat(size, size * size, [*(forms * quadrics).entries(), *[acb(0)] * size**2])
+    return Expansion(
+        robot,
+        tuple(weights),
+        centre,
+        exact,
+        residual,
+        leg_changes(robot, values(derivatives, centre)),
+        exact * jacobian,
+        acb_mat(size * size, size, (exact * twice).entries()),
+    )
 
 
 def box_around(radii: Sequence[arb], *, real: bool) -> acb_mat:
@@ -192,29 +212,56 @@ def box_around(radii: Sequence[arb], *, real: bool) -> acb_mat:
     return acb_mat(len(radii), 1, [acb(arb(0, r), arb(0) if real else arb(0, r)) for r in radii])
 
 
-def is_contraction(at: Expansion, radii: Sequence[arb], *, real: bool, uncertain: bool) -> bool:
-    """Whether Krawczyk's operator maps the box with these radii into its interior, for the robot or for all.
+def is_contraction(at: Expansion, radii: Sequence[arb], *, real: bool) -> bool:
+    """Whether Krawczyk's operator maps the box with these radii into its interior, for the nominal robot.
 
-    Then each has exactly one solution there; N(e) must be away from 0 too.
+    Then it has exactly one solution there; N(e) must be away from 0 too.
     """
     box = box_around(radii, real=real)
-    right = at.residual
-    if uncertain:
-        right = right + acb_mat(len(radii), 1, [*[acb(0)] * at.first, *at.changes, acb(0)])
-    image = _defect(at, box, uncertain=uncertain) * box - at.inverse * right
-    around = at.centre + box
-    inside = all(
+    image = at.defect(box, uncertain=False) * box - at.inverse * at.residual
+    return _is_inside(image, radii, real=real) and not _norm(at, box).contains(0)
+
+
+def holds_a_solution(at: Expansion, radii: Sequence[arb], *, real: bool) -> bool:
+    """Whether every robot has a solution in the interior of the box with these radii, if Y is regular.
+
+    F(x) - F(m) = F'((x + m) / 2) (x - m), so that x -> x - Y F(x) maps the box into this image.
+    """
+    box = box_around(radii, real=real)
+    right = at.residual + acb_mat(len(radii), 1, at.on_legs(at.changes))
+    return _is_inside(at.defect(box / 2, uncertain=True) * box - at.inverse * right, radii, real=real)
+
+
+def is_regular(at: Expansion, radii: Sequence[arb], *, real: bool) -> bool:
+    """Whether F' is regular, and N(e) not 0, all over the box with these radii, for all robots.
+
+    Then Y is regular, and no robot has two solutions there. |1 - Y F'| <= B is shown to have a spectral radius below 1:
+    by a positive vector v with B v < v.
+    """
+    box = box_around(radii, real=real)
+    bounds = arb_mat([[v.abs_upper() for v in row] for row in at.defect(box, uncertain=True).tolist()])
+    size = len(radii)
+    unit = arb_mat([[int(i == j) for j in range(size)] for i in range(size)])
+    try:
+        vector = (unit - bounds).solve(arb_mat(size, 1, [1] * size)).mid()
+    except ZeroDivisionError:
+        return False
+    images = (bounds * vector).entries()
+    shrinks = all(v > 0 and image < v for v, image in zip(vector.entries(), images, strict=True))
+    return shrinks and not _norm(at, box).contains(0)
+
+
+def _is_inside(image: acb_mat, radii: Sequence[arb], *, real: bool) -> bool:
+    return all(
         abs(v.real) < r and (v.imag == 0 if real else abs(v.imag) < r)
         for v, r in zip(image.entries(), radii, strict=True)
     )
-    return inside and not values(slopes(around, planar=at.robot.planar), around)[0].contains(0)
 
 
-def _defect(at: Expansion, box: acb_mat, *, uncertain: bool) -> acb_mat:
-    """1 - Y F' on the box."""
-    size = box.nrows()
-    unit = acb_mat(size, size, [int(i == j) for i in range(size) for j in range(size)])
-    return unit - at.inverse * at.jacobian(at.centre + box, uncertain=uncertain)
+def _norm(at: Expansion, box: acb_mat) -> acb:
+    """N(e) on a box, given moved to 0."""
+    around = at.centre + box
+    return values(slopes(around, planar=at.robot.planar), around)[0]
 
 
 def is_within(at: Expansion, radii: Sequence[arb], limit: arb, *, real: bool) -> bool:
@@ -224,7 +271,7 @@ def is_within(at: Expansion, radii: Sequence[arb], limit: arb, *, real: bool) ->
     """
     found, step = box_around(radii, real=real), at.inverse * at.residual
     for _ in range(NARROWINGS):
-        defect = _defect(at, found / 2, uncertain=False)
+        defect = at.defect(found / 2, uncertain=False)
         for _ in range(IMAGES):
             found = defect * found - step
             parts = [abs(part) for offset in found.entries() for part in (offset.real, offset.imag)]
@@ -274,11 +321,12 @@ def components(robot: Robot, x: acb_mat) -> tuple[Balls, arb_mat]:
 def changes_of_pose(at: Expansion, radii: Sequence[arb]) -> tuple[arb_mat, arb_mat] | None:
     """Z on the legs, and Z F(m): the pose of a robot is that at m, less Z (F(m) + E), over a box that holds it.
 
-    The box must be mapped into its interior. With M = 1 - Y F' on it, |M| its upper bounds, the inverses of F' are
-    V = Y + M Y + M^2 Y + .., and |V - Y| is at most (1 - |M|)^-1 |M| |Y|; the inverse is the sum of the powers of |M|.
+    F' is that on the box of half the size; it must be regular on the box. With M = 1 - Y F', |M| its upper bounds, the
+    inverses are V = Y + M Y + M^2 Y + .., and |V - Y| is at most (1 - |M|)^-1 |M| |Y|; the inverse is the sum of the
+    powers of |M|.
     """
     size, box = len(radii), box_around(radii, real=True)
-    defect = arb_mat(size, size, [v.real.abs_upper() for v in _defect(at, box, uncertain=True).entries()])
+    defect = arb_mat(size, size, [v.real.abs_upper() for v in at.defect(box / 2, uncertain=True).entries()])
     exact = arb_mat(size, size, [v.real for v in at.inverse.entries()])
     unit = arb_mat([[int(i == j) for j in range(size)] for i in range(size)])
     try:

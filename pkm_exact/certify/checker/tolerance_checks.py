@@ -24,7 +24,9 @@ from pkm_exact.certify.checker.parametric import (
     components,
     expand,
     greatest_length,
+    holds_a_solution,
     is_contraction,
+    is_regular,
     is_within,
     points_of_box,
     robot_of,
@@ -108,19 +110,19 @@ def _is_real(expansion: Expansion) -> bool:
 
 
 def _check_place(expansion: Expansion, document: ToleranceDocument, place: Place, name: str) -> None:
-    """Exactly one solution of every robot in the box, and the nominal one in its core, which lies in the box."""
+    """At most one solution of every robot in the box, and the nominal one in its core, which lies in the box."""
     real = _is_real(expansion)
     core = _core_radius(document)
     if min(place.outer) < core:
         raise rejected(f"{name}: smaller than the core of the nominal solution")
     outer = [_on_grid(r, document) for r in place.outer]
     cores = [_on_grid(core, document)] * len(outer)
-    if not is_contraction(expansion, cores, real=real, uncertain=False):
+    if not is_contraction(expansion, cores, real=real):
         raise rejected(f"{name}: not proved to hold a solution of the nominal robot")
     if not is_within(expansion, cores, NEAREST * _on_grid(1, document), real=real):
         raise rejected(f"{name}: its centre is not the grid point nearest to the nominal solution")
-    if not is_contraction(expansion, outer, real=real, uncertain=True):
-        raise rejected(f"{name}: not proved to hold exactly one solution of every robot within tolerance")
+    if not is_regular(expansion, outer, real=real):
+        raise rejected(f"{name}: not proved to hold at most one solution of every robot within tolerance")
 
 
 def _check_box(expansion: Expansion, document: ToleranceDocument, box: PoseBox) -> None:
@@ -131,8 +133,8 @@ def _check_box(expansion: Expansion, document: ToleranceDocument, box: PoseBox) 
     inner = [_on_grid(r, document) for r in box.inner]
     if any(a > b for a, b in zip(box.inner, box.place.outer, strict=True)):
         raise rejected(f"{name}: the inner box is not contained in the outer one")
-    if not is_contraction(expansion, inner, real=True, uncertain=True):
-        raise rejected(f"{name}: the inner box is not proved to hold the solution")
+    if not holds_a_solution(expansion, inner, real=True):
+        raise rejected(f"{name}: the inner box is not proved to hold a solution of every robot within tolerance")
     changes = changes_of_pose(expansion, inner)
     if changes is None:
         raise rejected(f"{name}: the Jacobian is not proved regular in it")
@@ -186,6 +188,8 @@ def _completeness(robot: Robot, document: ToleranceDocument, cores: list[list[ac
         name = f"pair {number}"
         expansion = _expansion(robot, document, place, name)
         _check_place(expansion, document, place, name)
+        if not holds_a_solution(expansion, [_on_grid(r, document) for r in place.outer], real=_is_real(expansion)):
+            raise rejected(f"{name}: not proved to hold a solution of every robot within tolerance")
         core = _core(expansion, document)
         cores += [core, [value.conjugate() for value in core]]
     degree = DEGREES[robot.planar]
