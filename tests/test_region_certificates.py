@@ -142,6 +142,18 @@ FRAUDS: dict[str, tuple[str, Callable[[dict[str, Any]], None], str]] = {
         lambda c: c.update(counterexample=[c["counterexample"][0]] * 2),
         "counterexample: the determinants",
     ),
+    "a region without poses": (
+        "a ball",
+        lambda c: c["shape"].append({"constant": "-1", "linear": ["0"] * 3, "weights": ["0"] * 3}),
+        "shape: the middle of the box is not in it",
+    ),
+    "two halves that do not meet": (
+        "a prism of a Delta",
+        lambda c: c["shape"].extend(
+            {"constant": "-1/4", "linear": [sign, "0", "0"], "weights": ["0"] * 3} for sign in ("1", "-1")
+        ),
+        "shape: the middle of the box is not in it",
+    ),
     "joints that forbid the poses": (
         "turns with joints",
         lambda c: c["robot"]["forms"][0].__setitem__(16, "1"),
@@ -163,6 +175,13 @@ def test_a_pose_beyond_a_ball_refutes_nothing() -> None:
     content |= {"claim": "not-all", "paving": "", "inside": 0}
     content["counterexample"] = [["60", "60", "830", "0"]]
     _both(content, "rejected", "counterexample: a pose is not one of the region")
+
+
+def test_a_region_that_holds_its_middle_has_poses() -> None:
+    """A part of the shape that is 0 there takes none of them away for certain: still accepted."""
+    content = content_of("a ball")
+    content["shape"].append({"constant": "0", "linear": ["1", "0", "0"], "weights": ["0"] * 3})
+    assert [status for status, _ in verdicts(content)] == ["accepted"] * 2
 
 
 MALFORMED: dict[str, tuple[str, Callable[[dict[str, Any]], None]]] = {

@@ -739,6 +739,9 @@ def checks(region: Region) -> Iterator[str]:
     yield f"paving: {region.inside} parts inside, {outside} outside, each proved; {undecided} undecided"
     if region.claim == "all":
         pure.require(not outside and not undecided, "claim: not all parts are inside")
+        center = tuple((low + high) / 2 for low, high in region.chart.box)
+        has_poses = all(value_at(part.polynomial, center, ()) >= 0 for part in shape)
+        pure.require(has_poses, "shape: the middle of the box is not in it, so nothing shows that the region has poses")
         yield "claim: all poses of the region are good"
     if region.claim == "undecided":
         pure.require(outside or undecided, "claim: all parts are inside, which is more than claimed")

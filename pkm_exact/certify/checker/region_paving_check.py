@@ -98,6 +98,9 @@ def _paved(document: RegionDocument, conditions: Conditions) -> Iterator[str]:
     if document.claim == "all":
         if counts["o"] or counts["u"]:
             raise rejected("claim: not all parts are inside")
+        middle = [(low + high) / 2 for low, high in document.box]
+        if any(_value(part.polynomial, middle, ()) < 0 for part in conditions.shape):
+            raise rejected("shape: the middle of the box is not in it, so nothing shows that the region has poses")
         yield "claim: all poses of the region are good"
     elif document.claim == "undecided":
         if not counts["u"] and not counts["o"]:
