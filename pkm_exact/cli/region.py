@@ -40,7 +40,8 @@ def region(
 
     QUESTION.toml says which region ([region]: a box, ball, cylinder or prism of positions, with a fixed orientation or
     intervals of angles), what is asked of its poses ([conditions]: reachable, limits, no_type_1, no_type_2), and which
-    answer is wanted ([answer]: all of it proved or a counterexample; a map; the largest cube or ball).
+    answer is wanted ([answer]: all of it proved or a counterexample; a map; the largest cube or ball; the locus of
+    singular poses; extremes of joint values).
 
     With -o an interrupted run leaves CERT.json.partial; the same command goes on from there, to the same bytes.
 
@@ -64,6 +65,10 @@ def region(
         if output is not None or picture is not None:
             raise InputError(f"{question}: answer.kind: a locus has neither certificate nor picture; leave -o out")
         return _locus(machine, asked, question, layout)
+    if asked.answer.kind == "extremes":
+        if output is not None or picture is not None:
+            raise InputError(f"{question}: answer.kind: extremes have neither certificate nor picture; leave -o out")
+        return _extremes(machine, asked, question, layout, verbose=verbose)
     for path, option in ((output, "-o"), (picture, "--picture")):
         if path is not None:
             arguments.require_other_file(Path(path), model, option)
@@ -96,6 +101,21 @@ def _locus(machine: RegionMachine, asked: RegionQuestion, question: str, layout:
     said = region_report.locus_json if layout == "json" else region_report.locus_text
     sys.stdout.write(said(machine, found))
     return ExitCode.DONE
+
+
+def _extremes(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str, *, verbose: bool) -> int:
+    from pkm_exact.cli import extremes_report
+    from pkm_exact.interactive.progress import Progress
+    from pkm_exact.regions.joint_ranges import joint_ranges
+
+    try:
+        with Progress(verbose=verbose) as progress:
+            ranges = joint_ranges(machine, asked, progress=progress)
+    except InputError as error:
+        raise InputError(f"{question}: {error}") from None
+    said = extremes_report.ranges_json if layout == "json" else extremes_report.ranges_text
+    sys.stdout.write(said(machine, asked, ranges))
+    return ExitCode.DONE if all(found.is_precise for found in ranges) else ExitCode.WEAKER_CLAIM
 
 
 def _answer(

@@ -59,7 +59,7 @@ def as_text(answer: RegionAnswer | LargestAnswer) -> str:
         lines.append(f"undecided share of the region's box: {float(answer.shares['undecided']):.3g}")
     if (bounds := measure(answer)) is not None:
         name = _MEASURES[len(answer.question.chart.variables)]
-        lines.append(f"{name} of what is good: between {_down(bounds.lo)} and {_up(bounds.hi)}")
+        lines.append(f"{name} of what is good: between {rounded_down(bounds.lo)} and {rounded_up(bounds.hi)}")
     arcs = None if word != "map" else arc_area(answer.machine, answer.question)
     if arcs is not None:
         low, high = _ends(arcs.area)
@@ -105,16 +105,17 @@ def _ends(interval: Interval) -> tuple[str, str]:
     return _rounded(interval.lo, ROUND_FLOOR, _MANY), _rounded(interval.hi, ROUND_CEILING, _MANY)
 
 
-def _down(value: Fraction) -> str:
+def rounded_down(value: Fraction) -> str:
     """Nine digits, rounded down.
 
-    >>> _down(Fraction(2, 3)), _up(Fraction(2, 3)), _down(Fraction(0))
+    >>> rounded_down(Fraction(2, 3)), rounded_up(Fraction(2, 3)), rounded_down(Fraction(0))
     ('0.666666666', '0.666666667', '0')
     """
     return _rounded(value, ROUND_FLOOR)
 
 
-def _up(value: Fraction) -> str:
+def rounded_up(value: Fraction) -> str:
+    """The same, rounded up."""
     return _rounded(value, ROUND_CEILING)
 
 

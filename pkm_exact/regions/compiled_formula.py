@@ -44,15 +44,20 @@ class Compiled:
         Coefficients: two along the axis of every root, for y^0 and y^1, then one axis for each variable.
     sizes : array
         Bounds of |coefficients|, for each combination of the roots.
+    exponent : int
+        The polynomial is 2^exponent times what the tensor says.
     """
 
     roots: tuple[int, ...]
     degrees: tuple[int, ...]
     tensor: Real
     sizes: Real
+    exponent: int = 0
 
 
-def compiled(polynomial: Polynomial, box: Sequence[Pair], scales: Sequence[int]) -> Compiled:
+def compiled(
+    polynomial: Polynomial, box: Sequence[Pair], scales: Sequence[int], degrees: Sequence[int] | None = None
+) -> Compiled:
     """A polynomial of a chart and roots, in doubles.
 
     Parameters
@@ -62,9 +67,11 @@ def compiled(polynomial: Polynomial, box: Sequence[Pair], scales: Sequence[int])
         Of the variables of the chart, which come first.
     scales : sequence of int
         y_i is taken in units of 2^scale.
+    degrees : sequence of int, optional
+        In all variables; at least those of the polynomial, which are taken by default.
     """
     count = len(box)
-    degrees = _degrees(polynomial)
+    degrees = degrees_of(polynomial) if degrees is None else degrees
     inner = degrees[:count]
     roots = tuple(k for k, d in enumerate(degrees[count:]) if d)
     size = int(np.prod([d + 1 for d in inner])) << len(roots)
@@ -80,7 +87,8 @@ def compiled(polynomial: Polynomial, box: Sequence[Pair], scales: Sequence[int])
         unit = Fraction(2) ** sum(scales[k] for k, used in zip(roots, combination, strict=True) if used)
         exact[combination] = [value * unit for value in bernstein_coefficients(terms, inner, box)]
     greatest = max((abs(value) for values in exact.values() for value in values), default=Fraction(0))
-    power = Fraction(2) ** -_exponent(greatest)
+    exponent = _exponent(greatest)
+    power = Fraction(2) ** -exponent
     tensor = np.zeros(shape)
     for combination, values in exact.items():
         tensor[combination] = np.array([float(value * power) for value in values]).reshape(shape[len(roots) :])
@@ -89,10 +97,10 @@ def compiled(polynomial: Polynomial, box: Sequence[Pair], scales: Sequence[int])
     least = np.zeros(shape[: len(roots)])
     for combination, values in exact.items():
         least[combination] = _LEAST if any(values) else 0.0
-    return Compiled(roots, tuple(inner), tensor, np.maximum(flat, least) * _SLACK)
+    return Compiled(roots, tuple(inner), tensor, np.maximum(flat, least) * _SLACK, exponent)
 
 
-def _degrees(polynomial: Polynomial) -> list[int]:
+def degrees_of(polynomial: Polynomial) -> list[int]:
     """In all variables; FLINT gives -1 for the polynomial that is 0."""
     return [max(0, int(d)) for d in polynomial.degrees()]
 
@@ -100,7 +108,7 @@ def _degrees(polynomial: Polynomial) -> list[int]:
 def root_scale(polynomial: Polynomial, box: Sequence[Pair], count: int) -> int:
     """A unit for the root of a polynomial on a box: 2^scale, near the root of its greatest coefficient."""
     terms = {tuple(map(int, key))[:count]: value for key, value in polynomial.to_dict().items()}
-    degrees = _degrees(polynomial)[:count]
+    degrees = degrees_of(polynomial)[:count]
     values = bernstein_coefficients(terms, degrees, box)
     return _exponent(max(map(abs, values), default=Fraction(0))) // 2
 
@@ -121,12 +129,15 @@ class CompiledFormula:
     roots : tuple of Compiled
         The D_i, each in units of 4^scale.
     variables : int
+    scales : tuple of int
+        Those of the y_i.
     """
 
     formula: Formula
     atoms: dict[int, tuple[Compiled, Compiled]]
     roots: tuple[tuple[Compiled, float], ...]
     variables: int
+    scales: tuple[int, ...] = ()
 
     def truths(self, depths: Sequence[int], places: NDArray[np.int64]) -> Truth:
         """What is proved of the formula on many boxes.
@@ -138,14 +149,21 @@ class CompiledFormula:
         places : array (n, k)
             Which of the 2^depth parts the box has.
         """
-        view = _View(depths, places)
+        return self.truths_in(View(depths, places))
+
+    def root_ends(self, view: View) -> list[tuple[Real, Real]]:
+        """Bounds of the y_i over the boxes of a view, each in its unit."""
         ends = []
         for root, factor in self.roots:
             low, high = view.range_of(root, [])
             ends.append((_root(low * factor, up=False), _root(high * factor, up=True)))
-        return self._truth(self.formula, view, ends, {})
+        return ends
 
-    def _truth(self, formula: Formula, view: _View, ends: list[tuple[Real, Real]], done: dict[int, Truth]) -> Truth:
+    def truths_in(self, view: View) -> Truth:
+        """``truths`` of the boxes of a view."""
+        return self._truth(self.formula, view, self.root_ends(view), {})
+
+    def _truth(self, formula: Formula, view: View, ends: list[tuple[Real, Real]], done: dict[int, Truth]) -> Truth:
         if isinstance(formula, Atom):
             if id(formula) not in done:
                 done[id(formula)] = self._atom(formula, view, ends)
@@ -156,7 +174,7 @@ class CompiledFormula:
             found = choose(found, self._truth(part, view, ends, done))
         return found
 
-    def _atom(self, atom: Atom, view: _View, ends: list[tuple[Real, Real]]) -> Truth:
+    def _atom(self, atom: Atom, view: View, ends: list[tuple[Real, Real]]) -> Truth:
         tight, loose = self.atoms[id(atom)]
         low, high = view.range_of(tight, ends)
         strictly = atom.sign is not Sign.NOT_NEGATIVE
@@ -185,12 +203,12 @@ def compiled_formula(
         tight = compiled(atom.polynomial, box, scales)
         loose = tight if atom.loose is None else compiled(atom.loose, box, scales)
         made[id(atom)] = tight, loose
-    return CompiledFormula(formula, made, tuple(found), count)
+    return CompiledFormula(formula, made, tuple(found), count, tuple(scales))
 
 
 def _largest(polynomial: Polynomial, box: Sequence[Pair], count: int) -> Fraction:
     terms = {tuple(map(int, key))[:count]: value for key, value in polynomial.to_dict().items()}
-    degrees = _degrees(polynomial)[:count]
+    degrees = degrees_of(polynomial)[:count]
     return max(map(abs, bernstein_coefficients(terms, degrees, box)), default=Fraction(0))
 
 
@@ -200,7 +218,7 @@ def _root(values: Real, *, up: bool) -> Real:
     return np.nextafter(np.nextafter(found, np.inf), np.inf) if up else np.maximum(found * (1 - 4 * UNIT), 0.0)
 
 
-class _View:
+class View:
     """Boxes, and the matrices that lead to them, made once for each degree."""
 
     def __init__(self, depths: Sequence[int], places: NDArray[np.int64]) -> None:
@@ -219,8 +237,8 @@ class _View:
             self._matrices[key] = matrices[inverse]
         return self._matrices[key]
 
-    def range_of(self, part: Compiled, ends: Sequence[tuple[Real, Real]]) -> tuple[Real, Real]:
-        """Bounds of a polynomial over the boxes."""
+    def coefficients_of(self, part: Compiled, ends: Sequence[tuple[Real, Real]]) -> tuple[Real, Real]:
+        """The coefficients over the boxes, of each in a row, and how far off they are at most."""
         matrices = [self._matrix(k, degree) for k, degree in enumerate(part.degrees)]
         found = on_sub_boxes(part.tensor, matrices, first=len(part.roots))
         sizes = np.broadcast_to(part.sizes, (self.count, *part.sizes.shape))
@@ -232,7 +250,11 @@ class _View:
             found = np.stack([constant + slope * low.reshape(shape), constant + slope * high.reshape(shape)], axis=-1)
             wide = high.reshape((self.count,) + (1,) * (sizes.ndim - 2))
             sizes = sizes[:, 0] + sizes[:, 1] * wide
-        flat = found.reshape(self.count, -1)
         factor = error_factor(part.degrees) + UNIT * (4 * len(part.roots) + 8)
         error = sizes.reshape(self.count) * factor * _SLACK
-        return flat.min(axis=1) - error * _SLACK, flat.max(axis=1) + error * _SLACK
+        return found.reshape(self.count, -1), error * _SLACK
+
+    def range_of(self, part: Compiled, ends: Sequence[tuple[Real, Real]]) -> tuple[Real, Real]:
+        """Bounds of a polynomial over the boxes."""
+        flat, error = self.coefficients_of(part, ends)
+        return flat.min(axis=1) - error, flat.max(axis=1) + error

@@ -42,6 +42,8 @@ class PlacedLeg:
         D, if there is a y.
     place : int
         That of y among the generators of the ring.
+    scale : polynomial or None
+        Of a crank m, of which the value is a multiple.
     """
 
     leg: RegionLeg
@@ -50,6 +52,7 @@ class PlacedLeg:
     value: tuple[Any, ...]
     root: Polynomial | None = None
     place: int = field(default=-1)
+    scale: Polynomial | None = None
 
 
 def product(metric: Metric, left: Any, right: Any) -> Any:
@@ -126,7 +129,7 @@ def _on_crank(
     m = a * a + share * b * b
     cosine, sine = a * h - mode * b * y, share * b * h + mode * a * y
     rod = [m * x - n * (cosine * p + sine * q) for x, p, q in zip(offset, u, v, strict=True)]
-    return PlacedLeg(leg, arm, rod, (cosine, sine), share * (m - h * h), place)
+    return PlacedLeg(leg, arm, rod, (cosine, sine), share * (m - h * h), place, m)
 
 
 def without_squares(polynomial: Polynomial, leg: PlacedLeg, pose: PosePolynomials) -> Polynomial:

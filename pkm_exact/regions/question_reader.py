@@ -21,13 +21,20 @@ from pkm_exact.precision import working_precision
 from pkm_exact.regions.chart import POSITIONS, TURNS, Chart
 from pkm_exact.regions.region_conditions import CONDITIONS, Conditions
 from pkm_exact.regions.region_legs import RegionMachine
-from pkm_exact.regions.region_question import ANSWERS, DEFAULT_BOXES, DEFAULT_STEPS, RegionQuestion, WantedAnswer
+from pkm_exact.regions.region_question import (
+    ANSWERS,
+    DEFAULT_BOXES,
+    DEFAULT_STEPS,
+    EXTREMES,
+    RegionQuestion,
+    WantedAnswer,
+)
 from pkm_exact.regions.region_shapes import Quadratic, in_model, polygon_shape, round_shape, side
 from pkm_exact.wording import printable, shown
 
 _TABLES: Final = ("region", "conditions", "answer")
 _SHAPES: Final = ("position", "ball", "cylinder", "prism")
-_TURNED: Final = ("quaternion", "rpy_degrees", "degrees")
+_TURNED: Final = ("quaternion", "rpy_degrees", "degrees", "any_axis_degrees")
 _MOST_STEPS: Final = 120
 _MOST_BOXES: Final = 10**8
 _MOST_CORNERS: Final = 64
@@ -71,10 +78,26 @@ def question_from_toml(text: str, machine: RegionMachine) -> RegionQuestion:
             raise InputError(f"region.{given[0]}: the answer largest has a shape of its own; remove it")
         return largest_question(_turned(region, machine), machine, conditions, answer, Fraction(1))
     position, shape, enlarged = _shape(region, machine)
+    any_axis = _any_axis(region, machine, answer)
     chart = _chart(position, _turned(region, machine))
-    if not chart.variables:
+    if not chart.variables and any_axis is None:
         raise InputError("region: is a single pose; give an interval for a coordinate, or ask `legs`")
-    return RegionQuestion(chart, shape, conditions, answer, enlarged)
+    return RegionQuestion(chart, shape, conditions, answer, enlarged or any_axis is not None, any_axis)
+
+
+def _any_axis(region: dict[str, Any], machine: RegionMachine, answer: WantedAnswer) -> Fraction | None:
+    """The square of the tangent of half the greatest angle of a turn about any axis, rounded up."""
+    if "any_axis_degrees" not in region:
+        return None
+    where = "region.any_axis_degrees"
+    if answer.kind != "extremes" or machine.motion not in ("spatial", "spherical"):
+        raise InputError(
+            f"{where}: is for the answer extremes of a robot that turns about every axis; give rpy_degrees"
+        )
+    angle = parse_positive(region["any_axis_degrees"], where)
+    if angle >= 180:
+        raise InputError(f"{where}: {shown(angle)} reaches 180 degrees; give less")
+    return _half_tangent(angle, 1, 1) ** 2
 
 
 def largest_question(
@@ -235,6 +258,8 @@ def _turned(region: dict[str, Any], machine: RegionMachine) -> tuple[Any, Any]:
             raise InputError(f"region: no orientation given; give one of {', '.join(_turned_keys(machine))}")
         return None, [still] * 3
     key = given[0]
+    if key == "any_axis_degrees":
+        return None, [still] * 3
     if key not in _turned_keys(machine):
         raise InputError(f"region.{key}: is not for this robot; give one of {', '.join(_turned_keys(machine))}")
     if key == "quaternion":
@@ -312,24 +337,42 @@ def _conditions(table: dict[str, Any], machine: RegionMachine) -> Conditions:
 
 
 def _answer(table: dict[str, Any], machine: RegionMachine) -> WantedAnswer:
-    known_keys(table, ("kind", "steps", "boxes", "shape", "about", "precision"), "answer")
+    known_keys(table, ("kind", "steps", "boxes", "shape", "about", "precision", "of"), "answer")
     kind = required(table, "kind", "answer.")
     if kind not in ANSWERS:
         raise InputError(f"answer.kind: {shown(kind)} is unknown; use one of: {', '.join(ANSWERS)}")
     steps = _count(table.get("steps", DEFAULT_STEPS), "answer.steps", _MOST_STEPS)
     boxes = _count(table.get("boxes", DEFAULT_BOXES), "answer.boxes", _MOST_BOXES)
+    of = _extremes_of(table, kind)
     if kind != "largest":
-        if given := [key for key in ("shape", "about", "precision") if key in table]:
-            raise InputError(f"answer.{given[0]}: belongs to the kind largest; remove it")
-        return WantedAnswer(kind, steps, boxes)
+        for key in ("shape", "about", *(() if of else ("precision",))):
+            if key in table:
+                raise InputError(f"answer.{key}: belongs to the kind largest; remove it")
+        return WantedAnswer(kind, steps, boxes, precision=_precision(table, "1/1000"), of=of)
     shape = required(table, "shape", "answer.")
     if shape not in ("cube", "ball"):
         raise InputError(f"answer.shape: {shown(shape)} is unknown; use one of: cube, ball")
     about = _numbers(required(table, "about", "answer."), "answer.about", _dimension(machine))
-    precision = parse_positive(table.get("precision", "1/100"), "answer.precision")
+    return WantedAnswer(kind, steps, boxes, shape, about, _precision(table, "1/100"))
+
+
+def _extremes_of(table: dict[str, Any], kind: str) -> str:
+    """Of what the least and greatest values are asked; nothing if another answer is."""
+    if kind != "extremes":
+        if "of" in table:
+            raise InputError("answer.of: belongs to the kind extremes; remove it")
+        return ""
+    found = required(table, "of", "answer.")
+    if found not in EXTREMES:
+        raise InputError(f"answer.of: {shown(found)} is unknown; use one of: {', '.join(EXTREMES)}")
+    return str(found)
+
+
+def _precision(table: dict[str, Any], usual: str) -> Fraction:
+    precision = parse_positive(table.get("precision", usual), "answer.precision")
     if not Fraction(1, 10**6) <= precision <= 1:
         raise InputError(f"answer.precision: {shown(precision)} is out of range; give a number from 1e-6 to 1")
-    return WantedAnswer(kind, steps, boxes, shape, about, precision)
+    return precision
 
 
 def _count(value: object, where: str, most: int) -> int:

@@ -65,7 +65,7 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
     InputError
         If the structure of the robot does not allow all poses of the chart, or working modes are needed and not named.
     """
-    pose, placed = _placed_legs(machine, chart, conditions)
+    pose, placed = placed_legs(machine, chart, conditions)
     _require_modes(machine, conditions)
     parts: list[Formula] = []
     parts += [Atom(f"{leg.leg.name} reaches", leg.root) for leg in placed if leg.root is not None]
@@ -82,7 +82,7 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
     return Asked(All(tuple(parts)), roots, determinant, pose)
 
 
-def _placed_legs(
+def placed_legs(
     machine: RegionMachine, chart: Chart, conditions: Conditions
 ) -> tuple[PosePolynomials, list[PlacedLeg]]:
     """The poses of a chart, which the structure allows, and the legs there."""
@@ -112,7 +112,7 @@ def constraint_rows(
     InputError
         As ``asked_of``.
     """
-    pose, placed = _placed_legs(machine, chart, conditions)
+    pose, placed = placed_legs(machine, chart, conditions)
     _require_modes(machine, replace(conditions, asked=("no_type_2",)))
     return pose, _rows(machine, pose, placed)
 

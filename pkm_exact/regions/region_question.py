@@ -10,7 +10,9 @@ from pkm_exact.regions.chart import Chart
 from pkm_exact.regions.region_conditions import Conditions
 from pkm_exact.regions.region_shapes import Quadratic
 
-ANSWERS: Final = ("all", "map", "largest", "locus")
+ANSWERS: Final = ("all", "map", "largest", "locus", "extremes")
+EXTREMES: Final = ("joint_values",)
+"""Of what the least and the greatest value may be asked."""
 DEFAULT_STEPS: Final = 30
 DEFAULT_BOXES: Final = 200_000
 
@@ -33,6 +35,8 @@ class WantedAnswer:
         The middle of it, in ordinary coordinates.
     precision : Fraction
         Relative.
+    of : str
+        Of the answer "extremes": one of ``EXTREMES``.
     """
 
     kind: str
@@ -41,6 +45,7 @@ class WantedAnswer:
     shape: str = "cube"
     about: tuple[Fraction, ...] = ()
     precision: Fraction = Fraction(1, 100)
+    of: str = ""
 
 
 @dataclass(frozen=True)
@@ -56,6 +61,8 @@ class RegionQuestion:
     answer : WantedAnswer
     enlarged : bool
         Whether the region is a little larger than asked, as its numbers are not rational in the model.
+    any_axis : Fraction or None
+        All turns about any axis, of which the square of the tangent of half the angle is at most so much.
     """
 
     chart: Chart
@@ -63,3 +70,4 @@ class RegionQuestion:
     conditions: Conditions
     answer: WantedAnswer
     enlarged: bool = field(default=False)
+    any_axis: Fraction | None = None

@@ -6,6 +6,7 @@ asked, by less than 2^-40 of its size: what is proved of it is proved of the one
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
@@ -13,6 +14,8 @@ from typing import Final
 
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.limits import Pair
+from pkm_exact.regions.chart import Polynomial, PosePolynomials
+from pkm_exact.regions.formula import Atom
 
 _BITS: Final = 64
 
@@ -101,3 +104,27 @@ def polygon_shape(corners: tuple[Pair, ...], metric: Metric) -> tuple[tuple[Quad
     more = room * 2
     sides = tuple((min(p[k] for p in points) - more, max(p[k] for p in points) + more) for k in range(2))
     return tuple(edges), sides
+
+
+def ball_of(shape: Sequence[Quadratic], metric: Metric) -> tuple[tuple[Fraction, ...], Fraction] | None:
+    """Centre, in coordinates of the model, and squared radius if the shape is a ball; None if it is another.
+
+    Examples
+    --------
+    >>> ball, _ = round_shape((Fraction(1), Fraction(0), Fraction(2)), Fraction(3), (1, 1, 1))
+    >>> center, square = ball_of([ball], (1, 1, 1)) or ((), 0)
+    >>> [str(x) for x in center], str(square)
+    (['1', '0', '2'], '9')
+    """
+    if len(shape) != 1 or shape[0].weights != tuple(map(Fraction, metric)):
+        return None
+    center = tuple(slope / (2 * g) for slope, g in zip(shape[0].linear, metric, strict=True))
+    return center, shape[0].constant + sum((g * c * c for g, c in zip(metric, center, strict=True)), Fraction(0))
+
+
+def inside_atom(quadratic: Quadratic, pose: PosePolynomials) -> Atom:
+    """That a position is inside: N^2 times the quadratic is not negative."""
+    total: Polynomial = pose.constant(quadratic.constant) * pose.norm * pose.norm
+    for c, slope, weight in zip(pose.position, quadratic.linear, quadratic.weights, strict=True):
+        total += pose.constant(slope) * c * pose.norm - pose.constant(weight) * c * c
+    return Atom("in the region", total)

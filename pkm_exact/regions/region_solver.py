@@ -9,7 +9,7 @@ from functools import cached_property
 from itertools import product
 from typing import Any, Final, Protocol
 
-from pkm_exact.regions.chart import POSITIONS, Polynomial
+from pkm_exact.regions.chart import POSITIONS
 from pkm_exact.regions.compiled_formula import CompiledFormula, compiled_formula
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some, atoms_of
 from pkm_exact.regions.paving import (
@@ -28,7 +28,7 @@ from pkm_exact.regions.region_conditions import Asked, asked_of
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_points import Counterexample, CounterexampleSearch, Point, PointJudge
 from pkm_exact.regions.region_question import RegionQuestion
-from pkm_exact.regions.region_shapes import Quadratic
+from pkm_exact.regions.region_shapes import inside_atom
 
 HEAD_STEPS: Final = 8
 """Halvings before the parts become jobs of their own: at most 2^8 of them."""
@@ -139,31 +139,29 @@ def prepared(machine: RegionMachine, question: RegionQuestion) -> PreparedQuesti
     """
     chart = question.chart
     asked = asked_of(machine, chart, question.conditions)
-    shape = tuple(_inside(part, asked) for part in question.shape)
+    shape = tuple(inside_atom(part, asked.pose) for part in question.shape)
     region: Formula = All(shape)
     if question.answer.kind == "map":
         formula: Formula = All((*shape, asked.formula))
     else:
         beyond = tuple(Atom("beyond the region", -atom.polynomial, Sign.POSITIVE) for atom in shape)
         formula = Some((*beyond, asked.formula)) if beyond else asked.formula
-    size = max([abs(x) for leg in machine.legs for x in leg.platform] + [Fraction(0)]) or Fraction(1)
-    weights = []
-    for name, (low, high) in zip(chart.variables, chart.box, strict=True):
-        scale = machine.metric[POSITIONS.index(name)] if name in POSITIONS else size * size
-        weights.append((high - low) ** 2 * scale)
-    axes = halving_axes(weights, question.answer.steps)
+    axes = axes_of(machine, chart.variables, chart.box, question.answer.steps)
     atoms = {id(atom): atom for atom in atoms_of(formula)}
     ready = compiled_formula(formula, list(atoms.values()), asked.roots, chart.box)
     return PreparedQuestion(asked, region, ready, axes, question)
 
 
-def _inside(quadratic: Quadratic, asked: Asked) -> Atom:
-    """N^2 times a quadratic of the position."""
-    pose = asked.pose
-    total: Polynomial = pose.constant(quadratic.constant) * pose.norm * pose.norm
-    for c, slope, weight in zip(pose.position, quadratic.linear, quadratic.weights, strict=True):
-        total += pose.constant(slope) * c * pose.norm - pose.constant(weight) * c * c
-    return Atom("in the region", total)
+def axes_of(
+    machine: RegionMachine, names: Sequence[str], box: Sequence[tuple[Fraction, Fraction]], steps: int
+) -> tuple[int, ...]:
+    """Along which variable each halving is: of those of a chart, or others, which are turns."""
+    size = max([abs(x) for leg in machine.legs for x in leg.platform] + [Fraction(0)]) or Fraction(1)
+    weights = []
+    for name, (low, high) in zip(names, box, strict=True):
+        scale = machine.metric[POSITIONS.index(name)] if name in POSITIONS else size * size
+        weights.append((high - low) ** 2 * scale)
+    return halving_axes(weights, steps) if weights else ()
 
 
 def points_of(box: Sequence[tuple[Fraction, Fraction]], axes: Sequence[int], part: Part) -> list[Point]:

@@ -1,0 +1,68 @@
+"""Least and greatest values over regions, as text and as JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from pkm_exact.cli.region_report import rounded_down, rounded_up
+from pkm_exact.regions.joint_ranges import common_range
+from pkm_exact.roots.interval import Interval
+
+if TYPE_CHECKING:
+    from pkm_exact.regions.joint_ranges import JointRange
+    from pkm_exact.regions.region_legs import RegionMachine
+    from pkm_exact.regions.region_question import RegionQuestion
+
+
+def between(value: Interval) -> str:
+    """Nine digits of each end, rounded outward."""
+    return f"between {rounded_down(value.lo)} and {rounded_up(value.hi)}"
+
+
+def ranges_text(machine: RegionMachine, asked: RegionQuestion, ranges: Sequence[JointRange]) -> str:
+    """A few lines."""
+    lines = [f"{machine.name}: joint values of the good poses of the region"]
+    for found in ranges:
+        lines.append(f"{found.name}: least {between(found.least)} {found.unit}".rstrip())
+        lines.append(f"{' ' * len(found.name)}  greatest {between(found.greatest)}")
+        lines.append(f"{' ' * len(found.name)}  stroke {between(found.stroke)}")
+    if (common := common_range(ranges)) is not None:
+        lines.append(f"one range for all: as long as {between(common.stroke)} {common.unit}".rstrip())
+    if not all(found.is_precise for found in ranges):
+        lines.append("undecided: not as precise as asked for with the work allowed; raise answer.steps or answer.boxes")
+    if asked.enlarged:
+        lines.append(
+            "note: the region is enlarged by less than 2^-40 of its size, to be rational in the model's metric"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def ranges_json(machine: RegionMachine, asked: RegionQuestion, ranges: Sequence[JointRange]) -> str:
+    """The same as a JSON object; bounds are exact rationals as strings."""
+    common = common_range(ranges)
+    content = {
+        "robot": machine.name,
+        "answer": "extremes",
+        "of": asked.answer.of,
+        "joint_values": [_object(found) for found in ranges],
+        "common": None if common is None else _object(common),
+        "precise": all(found.is_precise for found in ranges),
+        "enlarged": asked.enlarged,
+    }
+    return json.dumps(content, indent=1) + "\n"
+
+
+def _object(found: JointRange) -> dict[str, Any]:
+    return {
+        "name": found.name,
+        "unit": found.unit,
+        "least": _ends(found.least),
+        "greatest": _ends(found.greatest),
+        "stroke": _ends(found.stroke),
+    }
+
+
+def _ends(value: Interval) -> list[str]:
+    return [str(value.lo), str(value.hi)]

@@ -1,0 +1,213 @@
+"""Which joint values a region of poses needs: of each leg the least and the greatest, enclosed.
+
+A ball of positions is not gone through. Let r be its radius, v the platform joint for its centre, L the rod, and s(q)
+its lower end on the slide. In the working mode "-" (the rod points along the slide) the joint values of all poses of
+the ball lie between those at which
+
+    |v - s(q)| = L + r  (least),    |v - s(q)| = L - r  (greatest)
+
+and are these where the sphere about s(q) touches the ball, from outside or around it; in the mode "+" the other way
+round. That holds if all of the ball is reached. A leg of own length has |v - A| - r and |v - A| + r.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any, TypeAlias
+
+from pkm_exact.errors import InputError
+from pkm_exact.geometry.limits import Pair
+from pkm_exact.regions.compiled_formula import compiled_formula
+from pkm_exact.regions.extremes import greatest
+from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some, atoms_of
+from pkm_exact.regions.joint_quotients import JointQuotient, joint_quotient, rational_root
+from pkm_exact.regions.paving import INSIDE, SPLIT, Part, pave
+from pkm_exact.regions.region_conditions import asked_of, placed_legs
+from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, OwnLength, RegionLeg, RegionMachine
+from pkm_exact.regions.region_question import RegionQuestion
+from pkm_exact.regions.region_shapes import ball_of, inside_atom
+from pkm_exact.regions.region_solver import axes_of
+from pkm_exact.regions.turned_legs import TurnedLeg, turned_leg
+from pkm_exact.roots.interval import Interval
+
+_Found: TypeAlias = tuple[Interval, bool]
+"""A value, and whether it is as precise as asked for."""
+
+
+@dataclass(frozen=True)
+class JointRange:
+    """What a leg needs.
+
+    Attributes
+    ----------
+    name : str
+    unit : str
+        "deg" of a crank; otherwise that of the robot.
+    least, greatest : Interval
+        They enclose the least and the greatest value.
+    is_precise : bool
+        Whether both are enclosed to the precision asked for.
+    """
+
+    name: str
+    unit: str
+    least: Interval
+    greatest: Interval
+    is_precise: bool
+
+    @property
+    def stroke(self) -> Interval:
+        """The greatest value less the least."""
+        return Interval(max(self.greatest.lo - self.least.hi, Fraction(0)), self.greatest.hi - self.least.lo)
+
+
+def common_range(ranges: Sequence[JointRange]) -> JointRange | None:
+    """The range that serves all legs alike; None if their values have different units.
+
+    Examples
+    --------
+    >>> ends = [Interval(Fraction(k), Fraction(k)) for k in (1, 2, 3, 5)]
+    >>> ranges = [JointRange("a", "m", ends[0], ends[2], True), JointRange("b", "m", ends[1], ends[3], True)]
+    >>> print(common_range(ranges).stroke)
+    4
+    """
+    if len({found.unit for found in ranges}) != 1:
+        return None
+    least, greatest = (
+        Interval(choose(x.lo for x in ends), choose(x.hi for x in ends))
+        for ends, choose in (([x.least for x in ranges], min), ([x.greatest for x in ranges], max))
+    )
+    return JointRange("all", ranges[0].unit, least, greatest, all(found.is_precise for found in ranges))
+
+
+def joint_ranges(
+    machine: RegionMachine, question: RegionQuestion, *, progress: Callable[[str], None] | None = None
+) -> tuple[JointRange, ...]:
+    """Least and greatest joint value of each leg over the good poses of a region.
+
+    Raises
+    ------
+    InputError
+        If it is not known for such a robot or region, or no pose is shown to be good.
+    """
+    found = []
+    for k, leg in enumerate(machine.legs):
+        if isinstance(leg.actuator, OnHinge):
+            raise InputError(f"answer.of: joint values of driven hinges ({leg.name}) are not known here")
+        if not isinstance(leg.actuator, OwnLength) and not question.conditions.modes[k]:
+            raise InputError(
+                f"conditions.working_modes: {leg.name} has two working modes; give one sign for each leg, such as "
+                '["+", "+", "-"]'
+            )
+        if progress is not None:
+            progress(f"joint values of {leg.name}")
+        found.append(_range(machine, question, k))
+    return tuple(found)
+
+
+def _range(machine: RegionMachine, question: RegionQuestion, k: int) -> JointRange:
+    leg = machine.legs[k]
+    ball = ball_of(question.shape, machine.metric)
+    alone = question.conditions.asked == ("reachable",) and not isinstance(leg.actuator, OnCrank)
+    ends = []
+    for way in (-1, 1):
+        if ball is not None and alone:
+            ends.append(_about_ball(machine, question, k, ball, way))
+        elif question.any_axis is not None:
+            ends.append(_at_turns(machine, question, k, way))
+        else:
+            ends.append(_in_chart(machine, question, k, way))
+    (least, first), (most, second) = ends
+    return JointRange(
+        leg.name, "deg" if isinstance(leg.actuator, OnCrank) else machine.unit, least, most, first and second
+    )
+
+
+def _in_chart(machine: RegionMachine, question: RegionQuestion, k: int, way: int) -> _Found:
+    """By the variables of the region, under all its conditions."""
+    chart = question.chart
+    asked = asked_of(machine, chart, question.conditions)
+    _, placed = placed_legs(machine, chart, question.conditions)
+    formula: Formula = All((*(inside_atom(part, asked.pose) for part in question.shape), asked.formula))
+    wanted = joint_quotient(placed[k], asked.roots, _middle(chart.box))
+    return _extreme(wanted, formula, asked.roots, machine, question, chart.variables, chart.box, way)
+
+
+def _middle(box: Sequence[Pair]) -> list[Fraction]:
+    return [(low + high) / 2 for low, high in box]
+
+
+def _extreme(
+    wanted: JointQuotient,
+    formula: Formula,
+    roots: Sequence[Any],
+    machine: RegionMachine,
+    question: RegionQuestion,
+    names: Sequence[str],
+    box: Sequence[Pair],
+    way: int,
+) -> _Found:
+    atoms = list({id(atom): atom for atom in atoms_of(formula)}.values())
+    ready = compiled_formula(formula, atoms, roots, box)
+    axes = axes_of(machine, names, box, question.answer.steps)
+    precision, boxes = question.answer.precision, question.answer.boxes
+    found = greatest(wanted.quotient, ready, box, axes, precision=precision, boxes=boxes, sign=way)
+    if found is None:
+        raise InputError(f"answer.of: {wanted.leg.name} has no joint value that is bounded with the work allowed")
+    return wanted.value(found.value), found.is_precise
+
+
+def _about_ball(
+    machine: RegionMachine, question: RegionQuestion, k: int, ball: tuple[tuple[Fraction, ...], Fraction], way: int
+) -> _Found:
+    """For a ball of positions: that of its centre with another rod, or more or less by the radius."""
+    leg, (center, square) = machine.legs[k], ball
+    radius, slide = rational_root(square, 1), leg.actuator
+    if not isinstance(slide, OnSlide):
+        value, is_precise = _at_center(machine, question, k, leg, center, way)
+        moved = (max(end + way * radius, Fraction(0)) for end in (value.lo, value.hi))
+        return Interval(*moved), is_precise
+    outward = way * question.conditions.modes[k]
+    # A little farther from L than r: the ball is so much larger.
+    length = rational_root(slide.rod_squared, outward) + outward * radius
+    shorter = rational_root(slide.rod_squared, -1) - radius
+    if min(length, shorter) <= 0:
+        raise InputError(f"region.ball: {leg.name} does not reach all of it; give a smaller one")
+    _require_reached(machine, question, k, replace(leg, actuator=replace(slide, rod_squared=shorter**2)), center)
+    other = replace(leg, actuator=replace(slide, rod_squared=length**2))
+    return _at_center(machine, question, k, other, center, way)
+
+
+def _at_center(
+    machine: RegionMachine, question: RegionQuestion, k: int, leg: RegionLeg, center: tuple[Fraction, ...], way: int
+) -> _Found:
+    return _best(turned_leg(machine, question, k, leg, center), machine, question, way)
+
+
+def _at_turns(machine: RegionMachine, question: RegionQuestion, k: int, way: int) -> _Found:
+    if question.conditions.asked != ("reachable",):
+        raise InputError("region.any_axis_degrees: goes with the condition reachable alone")
+    return _best(turned_leg(machine, question, k, machine.legs[k], None), machine, question, way)
+
+
+def _best(turned: TurnedLeg, machine: RegionMachine, question: RegionQuestion, way: int) -> _Found:
+    formula = All((*turned.shape, *turned.reaches))
+    wanted = joint_quotient(turned.placed, turned.roots, _middle(turned.box))
+    return _extreme(wanted, formula, turned.roots, machine, question, turned.names, turned.box, way)
+
+
+def _require_reached(
+    machine: RegionMachine, question: RegionQuestion, k: int, leg: RegionLeg, center: tuple[Fraction, ...]
+) -> None:
+    """Refuse a ball of which a leg does not reach all: joint values of another follow from those of its centre."""
+    turned = turned_leg(machine, question, k, leg, center)
+    beyond = tuple(Atom("beyond the region", -atom.polynomial, Sign.POSITIVE) for atom in turned.shape)
+    formula = Some((*beyond, All(turned.reaches)))
+    ready = compiled_formula(formula, atoms_of(formula), turned.roots, turned.box)
+    axes = axes_of(machine, turned.names, turned.box, question.answer.steps)
+    start = Part(0, (0,) * len(turned.box))
+    word = pave(ready, axes, start, len(axes), most=question.answer.boxes, stop_outside=True).word
+    if set(word) - {INSIDE, SPLIT}:
+        raise InputError(f"region.ball: that {leg.name} reaches all of it is not proved; give a smaller one")
