@@ -63,6 +63,11 @@ golden: $(VENV)/.installed
 	@for model in models/*.toml; do \
 		$(BIN)/certify-poses solve $$model -o certs/$$(basename $$model .toml).json >/dev/null || test $$? -eq 3 || exit 1; \
 	done
+	@mkdir -p certs/links
+	@for model in models/links/*.toml; do \
+		case $$model in */5-*) method=krawczyk ;; *) method=exact ;; esac; \
+		$(BIN)/certify-poses solve $$model --method $$method -o certs/links/$$(basename $$model .toml).json >/dev/null || test $$? -eq 3 || exit 1; \
+	done
 
 # An error says that a limit was not kept.
 bench: $(VENV)/.installed-test

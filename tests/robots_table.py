@@ -11,7 +11,7 @@ from typing import Final
 
 from pkm_exact.geometry.machines.machine_kind import MachineKind
 from pkm_exact.geometry.machines.machine_kinds import MACHINES
-from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.reader import read_links, read_robot
 
 ROOT: Final = Path(__file__).parent.parent
 _HEAD: Final = "| file in `models/` | robot | kind | complex solutions | real poses |\n|---|---|---|---|---|\n"
@@ -30,9 +30,19 @@ def row(path: Path) -> str:
     return f"| `{path.name}` | {robot.name} | {robot.kind} | {found[0]} | {found[1]} |\n"
 
 
+def links_row(path: Path) -> str:
+    """The same of a mechanism with passive bodies; of some one pose is proved."""
+    links = read_links(path)
+    system = json.loads((ROOT / "certs" / "links" / f"{path.stem}.json").read_bytes())["system"]
+    counts = ("not known", "1 proved") if system is None else (system["complex_solutions"], system["real_solutions"])
+    return f"| `links/{path.name}` | {links.name} | {links.kind} | {counts[0]} | {counts[1]} |\n"
+
+
 def table() -> str:
     """All rows, by name."""
-    return _HEAD + "".join(map(row, sorted((ROOT / "models").glob("*.toml"))))
+    models = ROOT / "models"
+    rows = [*map(row, sorted(models.glob("*.toml"))), *map(links_row, sorted((models / "links").glob("*.toml")))]
+    return _HEAD + "".join(rows)
 
 
 def replaced(text: str) -> str:

@@ -16,6 +16,7 @@ from mutations import FREE
 from pkm_exact.certify import (
     build,
     build_constraints,
+    links_build,
     mobility_build,
     pure,
     region_build,
@@ -33,6 +34,7 @@ MOBILITY = "mobility-certificate-1.schema.json"
 SYSTEMS = "system-certificate-1.schema.json"
 REGIONS = "region-certificate-1.schema.json"
 STATICS = "statics-certificate-1.schema.json"
+LINKS = "links-certificate-1.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
 
@@ -50,7 +52,7 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(_schema(name))
 
 
-@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, REGIONS, STATICS])
+@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, REGIONS, STATICS, LINKS])
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
 
@@ -201,6 +203,12 @@ def test_the_page_of_statics_defines_every_key_in_its_order() -> None:
     assert _tables("Format", "### Claims", "certificates-statics.md") == [_keys(root)]
 
 
+def test_the_page_of_links_defines_every_key_in_its_order() -> None:
+    root = _schema(LINKS)
+    parts = [root, *(root["$defs"][key] for key in ("mechanism", "body", "joined", "box"))]
+    assert _tables("Format", "## Unknowns and polynomials", "certificates-links.md") == [_keys(part) for part in parts]
+
+
 def test_words_and_limits_are_the_same_everywhere() -> None:
     root = _schema(POSES)["properties"]
     for words, key in ((document.METHODS, "method"), (document.CLAIMS, "claim")):
@@ -217,6 +225,7 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
     writers = (build, build_constraints, tolerance_build, system_build, mobility_build, region_build, statics_build)
+    writers = (*writers, links_build)
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

@@ -5,7 +5,8 @@
 It prints what ``certify-poses check`` prints, and takes longer: one line per claim that was proved, then accepted,
 rejected, malformed or too-large. Exit code: 0 if all are accepted, 1 if one is rejected, otherwise 2. Certificates of
 version 2 need the file ``pure_mechanism.py`` beside this one, those of polynomial systems ``pure_system.py``, of
-mobility ``pure_mobility.py``, of regions ``pure_region.py``, of statics ``pure_statics.py``.
+mobility ``pure_mobility.py``, of regions ``pure_region.py``, of statics ``pure_statics.py``,
+of mechanisms with passive bodies ``pure_links.py``.
 
 Written from the definition of the format and its proofs, ``docs/certificates.md``; the sections below have its order
 and its notation. It shares no line with the other checker and needs no library, so an error of one of them, or of
@@ -3490,6 +3491,8 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
         return checks_beside("pure_region", "a region certificate")(body)
     if next(iter(body.items()), None) == ("format", STATICS_FORMAT):
         return checks_beside("pure_statics", "a statics certificate")(body)
+    if next(iter(body.items()), None) == ("format", LINKS_FORMAT):
+        return checks_beside("pure_links", "a links certificate")(body)
     if body.get("version") == 2 and type(body["version"]) is int:
         return checks_beside("pure_mechanism", "version 2")(body)
     return checks(read(body))
@@ -3498,6 +3501,7 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
 SYSTEM_FORMAT: Final = "pkm_exact system certificate"
 MOBILITY_FORMAT: Final = "pkm_exact mobility certificate"
 STATICS_FORMAT: Final = "pkm_exact statics certificate"
+LINKS_FORMAT: Final = "pkm_exact links certificate"
 
 
 def checks_beside(module: str, kind: str) -> Callable[[dict[str, Any]], Iterator[str]]:

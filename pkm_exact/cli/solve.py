@@ -40,8 +40,8 @@ from pkm_exact.formulations.registry import formulation_codes
     "--start",
     callback=arguments.start,
     metavar="X,Y,Z,Q0,..,Q3",
-    help="For newton: position and quaternion to start from. X,Y,DEGREES if planar.  [default: a home pose, the "
-    "platform over the base]",
+    help="For newton, and for krawczyk of a mechanism with passive bodies: position and quaternion to start from. "
+    "X,Y,DEGREES if planar.  [default: a home pose, the platform over the base]",
 )
 @arguments.width_option
 @click.option(

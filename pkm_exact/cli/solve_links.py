@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
+from math import cos, radians, sin
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Final
 
 import click
 from click.core import ParameterSource
@@ -16,8 +17,12 @@ from pkm_exact.cli.main import ExitCode
 from pkm_exact.errors import InputError
 
 if TYPE_CHECKING:
+    from pkm_exact.constraints.form import Vector
+    from pkm_exact.geometry.inverse import Matrix
     from pkm_exact.geometry.links import Links
     from pkm_exact.geometry.mechanism import LockedValues
+    from pkm_exact.interactive.progress import Progress
+    from pkm_exact.links.link_solution import LinkSolution
 
 _NOT_FOR_LINKS: Final = (
     ("lengths", "--lengths: belongs to robots with legs; give --joints, or name a configuration"),
@@ -52,26 +57,54 @@ def solve_links_model(links: Links, asked: Request) -> ExitCode:
         arguments.require_other_file(Path(asked.output), asked.model, "-o")
         arguments.require_writable(Path(asked.output), "-o")
     from pkm_exact.cli.links_report import report_links
-    from pkm_exact.interactive.limited_solve import solve_within_limits
     from pkm_exact.interactive.progress import Progress
-    from pkm_exact.links.link_engine import solve_links
 
-    options: dict[str, Any] = {"width": asked.width}
-    if asked.time_limit is not None:
-        options["solver"] = partial(solve_within_limits, seconds=asked.time_limit, megabytes=None)
     with Progress(verbose=asked.verbose) as progress:
         try:
-            solution = solve_links(links, chosen, progress=progress, **options)
+            solution = _solved(links, chosen, asked, progress)
         except InputError as error:
             raise InputError(f"{asked.model}: {error}") from None
-    if asked.output is not None and solution.system is not None:
-        from pkm_exact.certify.system_build import system_certificate_bytes
+    if asked.output is not None:
+        from pkm_exact.certify.links_build import links_certificate_bytes
 
-        title = f"{links.name}, configuration {chosen.name}"
-        arguments.write_output(asked.output, system_certificate_bytes(solution.system, title))
-        click.echo(f"note: {asked.output}: the certificate is about the polynomial system of all bodies", err=True)
+        arguments.write_output(asked.output, links_certificate_bytes(solution))
     report_links(solution, asked.layout, verbose=asked.verbose)
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM
+
+
+def _solved(links: Links, chosen: LockedValues, asked: Request, progress: Progress) -> LinkSolution:
+    """All poses, or the one near the start."""
+    if asked.method == "krawczyk":
+        from pkm_exact.links.start_box import solve_from_start
+
+        if asked.start is not None:
+            links = links.with_start(_start_pose(links, asked.start))
+        return solve_from_start(links, chosen, width=asked.width, progress=progress)
+    from pkm_exact.links.link_engine import solve_links
+
+    if asked.time_limit is None:
+        return solve_links(links, chosen, width=asked.width, progress=progress)
+    from pkm_exact.interactive.limited_solve import solve_within_limits
+
+    solver = partial(solve_within_limits, seconds=asked.time_limit, megabytes=None)
+    return solve_links(links, chosen, width=asked.width, progress=progress, solver=solver)
+
+
+def _start_pose(links: Links, numbers: tuple[float, ...]) -> tuple[Vector, Matrix]:
+    """Where the platform starts, as --start says: rational numbers near what is written."""
+    from pkm_exact.geometry.inverse import UNIT_METRIC, rotation_of
+
+    wanted = 3 if links.is_planar else 7
+    if len(numbers) != wanted:
+        what = "planar; give X,Y,DEGREES" if links.is_planar else "not planar; give X,Y,Z,Q0,Q1,Q2,Q3"
+        raise InputError(f"--start: {len(numbers)} numbers, but the mechanism is {what}")
+    if links.is_planar:
+        half = radians(numbers[2] % 360) / 2
+        numbers = (*numbers[:2], 0.0, cos(half), 0.0, 0.0, sin(half))
+    x, y, z, q0, q1, q2, q3 = map(Fraction, numbers)
+    if not any((q0, q1, q2, q3)):
+        raise InputError("--start: all four numbers of the quaternion are 0; give one that is not")
+    return (x, y, z), rotation_of((q0, q1, q2, q3), UNIT_METRIC)
 
 
 def _require_fitting(asked: Request) -> None:
@@ -84,10 +117,14 @@ def _require_fitting(asked: Request) -> None:
         raise InputError(
             f"{asked.model}: --format {asked.layout}: has no place for several bodies; choose table or json"
         )
-    if asked.method != "exact":
-        raise InputError(
-            f"{asked.model}: --method {asked.method}: is not for mechanisms with passive bodies; leave it out"
-        )
+    newton = "--method newton: is not for mechanisms with passive bodies; choose exact or krawczyk"
+    for is_wrong, what in (
+        (asked.method == "newton", newton),
+        (asked.method == "exact" and asked.start is not None, "--start: belongs to the method krawczyk; leave it out"),
+        (asked.method == "krawczyk" and asked.time_limit is not None, "--time-limit: belongs to the method exact"),
+    ):
+        if is_wrong:
+            raise InputError(f"{asked.model}: {what}")
 
 
 def _chosen(links: Links, asked: Request) -> tuple[Links, LockedValues]:

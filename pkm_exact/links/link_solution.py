@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING, Final
 
 from pkm_exact.claim import Claim
+from pkm_exact.roots.interval import Interval
 from pkm_exact.systems.system_claims import SystemRoute, meaning_of
 from pkm_exact.wording import counted
 
@@ -36,6 +38,29 @@ class Assembly:
     multiplicity: int | None
 
 
+@dataclass(frozen=True)
+class StartBox:
+    """A box of all unknowns, on a grid of spacing 2^-exponent: within ``radius`` units of its centre.
+
+    Attributes
+    ----------
+    exponent : int
+    centre : tuple of int
+        One for each unknown, in units of the grid.
+    radius : int
+    """
+
+    exponent: int
+    centre: tuple[int, ...]
+    radius: int
+
+    @property
+    def intervals(self) -> tuple[Interval, ...]:
+        """The bounds of all unknowns."""
+        unit = Fraction(1, 1 << self.exponent)
+        return tuple(Interval((m - self.radius) * unit, (m + self.radius) * unit) for m in self.centre)
+
+
 @dataclass(frozen=True, repr=False)
 class LinkSolution:
     """The real solutions of a mechanism, its actuators locked.
@@ -53,6 +78,8 @@ class LinkSolution:
     assemblies : tuple of Assembly
         In the order of their boxes.
     notes : tuple of str
+    box : StartBox or None
+        Of all unknowns, of the method krawczyk.
     """
 
     links: Links
@@ -61,6 +88,7 @@ class LinkSolution:
     system: SystemSolution | None
     assemblies: tuple[Assembly, ...]
     notes: tuple[str, ...] = ()
+    box: StartBox | None = None
 
     @property
     def claim(self) -> Claim:

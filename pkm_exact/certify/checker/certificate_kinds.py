@@ -9,6 +9,9 @@ from typing import Any, Final
 from pkm_exact.certify.checker.claims import check_claims
 from pkm_exact.certify.checker.document import Document, read_document
 from pkm_exact.certify.checker.krawczyk import Equations, check_isolated
+from pkm_exact.certify.checker.links_checks import check_links
+from pkm_exact.certify.checker.links_document import FORMAT as LINKS
+from pkm_exact.certify.checker.links_document import read_links
 from pkm_exact.certify.checker.mechanism_boxes import MechanismEquations
 from pkm_exact.certify.checker.mechanism_claims import check_mechanism_claims
 from pkm_exact.certify.checker.mechanism_document import MechanismDocument, read_mechanism_document
@@ -99,5 +102,6 @@ KINDS: Final = (
     CertificateKind(SYSTEMS, 1, lambda body: check_system(read_system_document(body))),
     CertificateKind(MOBILITY, 1, lambda body: check_mobility(read_mobility(body))),
     CertificateKind(REGIONS, 1, lambda body: check_region(read_region(body))),
+    CertificateKind(LINKS, 1, lambda body: check_links(read_links(body))),
     CertificateKind(STATICS, 1, lambda body: check_statics(read_statics(body))),
 )

@@ -168,7 +168,7 @@ def _robot(value: Any) -> Mechanism:
     exact = read_metric(metric)
     if isinstance(constraints, list) and not 1 <= len(constraints) <= MOST_CONSTRAINTS:
         raise malformed(f"robot.constraints: not 1 to {MOST_CONSTRAINTS}")
-    read = items(constraints, "robot.constraints", None, lambda entry, where: _constraint(entry, where, exact))
+    read = items(constraints, "robot.constraints", None, lambda entry, where: read_constraint(entry, where, exact))
     return Mechanism(group, exact, read)
 
 
@@ -207,7 +207,7 @@ _TYPES: Final[Mapping[str, tuple[_Fields, Callable[..., Constraint]]]] = Mapping
 """The data of each type in their order, and the constraint that they make."""
 
 
-def _constraint(value: Any, where: str, metric: Metric) -> Constraint:
+def read_constraint(value: Any, where: str, metric: Metric) -> Constraint:
     kind = value.get("type") if isinstance(value, dict) else None
     fields, made = _TYPES[choice(kind, f"{where}.type", tuple(_TYPES))]
     name, _, *data, spelled = entries(value, where, ("name", "type", *fields, "forms"))

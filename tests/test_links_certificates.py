@@ -1,0 +1,258 @@
+"""Certificates of mechanisms with passive bodies: honest ones are accepted by both checkers, forged ones by neither."""
+
+import json
+from collections.abc import Callable
+from copy import deepcopy
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from certificate_tools import Path_, both, both_resealed, last_line, leaves, neighbours, with_entry
+
+from pkm_exact.certify import pure
+from pkm_exact.certify.build import canonical_bytes, sealed
+from pkm_exact.certify.check import check_bytes
+from pkm_exact.certify.links_build import links_certificate_bytes
+from pkm_exact.cli.main import main
+from pkm_exact.geometry.reader import read_links
+from pkm_exact.links.link_engine import solve_links
+from pkm_exact.links.start_box import solve_from_start
+
+Content = dict[str, Any]
+ROOT = Path(__file__).parent.parent
+MODELS, CERTS = ROOT / "models" / "links", ROOT / "certs" / "links"
+NAMES = sorted(path.stem for path in MODELS.glob("*.toml"))
+SLOW = ("watt", "stephenson", "micabo-h-links")
+SCHEMA = json.loads(Path(pure.__file__).with_name("links-certificate-1.schema.json").read_text())
+
+
+def _each(names: list[str]) -> list[Any]:
+    return [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in names]
+
+
+@cache
+def _box_bytes(name: str) -> bytes:
+    return links_certificate_bytes(solve_from_start(read_links(MODELS / f"{name}.toml")))
+
+
+def _exact(name: str = "four-bar") -> Content:
+    found: Content = json.loads((CERTS / f"{name}.json").read_bytes())
+    return found
+
+
+def _box(name: str = "four-bar") -> Content:
+    found: Content = json.loads(_box_bytes(name))
+    return found
+
+
+def test_every_model_has_a_certificate() -> None:
+    assert sorted(path.stem for path in CERTS.glob("*.json")) == NAMES
+
+
+@pytest.mark.parametrize("name", _each(NAMES))
+def test_golden_certificates_are_made_again(name: str) -> None:
+    links = read_links(MODELS / f"{name}.toml")
+    found = solve_from_start(links) if name.startswith("5-") else solve_links(links)
+    assert links_certificate_bytes(found) == (CERTS / f"{name}.json").read_bytes()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_golden_certificates_are_accepted_by_both(name: str) -> None:
+    data = (CERTS / f"{name}.json").read_bytes()
+    assert both(data)
+    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(data))
+
+
+def test_a_spatial_box_is_accepted_by_both() -> None:
+    verdict = both(_box_bytes("micabo-h-links"))
+    assert last_line(verdict) == "not proven complete: one pose is proved, others are not excluded"
+
+
+# Forgeries: each is consistent in all else
+
+
+def _with(content: Content, *path: Any, value: Any) -> Content:
+    return with_entry(content, path, value)
+
+
+def _without_last(content: Content) -> Content:
+    return _with(content, "mechanism", "joined", value=content["mechanism"]["joined"][:-1])
+
+
+def _exchanged(content: Content) -> Content:
+    """Two polynomials in another order: the same system, and none of the mechanism's in its place."""
+    polynomials = list(content["system"]["polynomials"])
+    polynomials[0], polynomials[1] = polynomials[1], polynomials[0]
+    return _with(content, "system", "polynomials", value=polynomials)
+
+
+def _renamed(content: Content) -> Content:
+    """All variables of the system called by other names."""
+    text = json.dumps(content["system"])
+    for name in content["system"]["variables"]:
+        text = text.replace(f'"{name}"', f'"v{name}"')
+        for sign in ("-", "*", '"'):
+            text = text.replace(f"{sign}{name}*", f"{sign}v{name}*").replace(f"{sign}{name}^", f"{sign}v{name}^")
+            text = text.replace(f'{sign}{name}"', f'{sign}v{name}"')
+    return {**content, "system": json.loads(text)}
+
+
+def _moved(content: Content) -> Content:
+    """A pin elsewhere, its forms with it."""
+    constraint = deepcopy(content["mechanism"]["joined"][0]["constraint"])
+    constraint["point"][0] = "2"
+    constraint["forms"][0][16] = "-2"
+    return _with(content, "mechanism", "joined", 0, "constraint", value=constraint)
+
+
+def _other_bodies(content: Content) -> Content:
+    """The pin of coupler and rocker belongs to the ground and the rocker."""
+    return _with(content, "mechanism", "joined", 1, "bodies", value=[0, 2])
+
+
+def _translated(content: Content) -> Content:
+    return _with(content, "mechanism", "bodies", 1, "motion", value="translation")
+
+
+def _shifted(units: int) -> Callable[[Content], Content]:
+    def change(content: Content) -> Content:
+        centre = content["box"]["centre"]
+        return _with(content, "box", "centre", 2, value=hex(int(centre[2], 16) + units))
+
+    return change
+
+
+def _wide(content: Content) -> Content:
+    """All of a wide box, on a grid so coarse that both poses are in it."""
+    box = {"exponent": 0, "radius": 20, "centre": ["0x0"] * len(content["box"]["centre"])}
+    return {**content, "box": box}
+
+
+def _mirrored(content: Content) -> Content:
+    """R less its third column, C and the rest alike: joints in the plane z = 0 of the platform do not see it."""
+    centre = list(content["box"]["centre"])
+    for place in (-7, -4, -1):
+        centre[place] = hex(-int(centre[place], 16))
+    return {**content, "box": {**content["box"], "centre": centre}}
+
+
+FORGERIES: dict[str, tuple[Callable[[], Content], str]] = {
+    "a pin moved": (lambda: _moved(_exact()), "system: its polynomials are not those of the mechanism"),
+    "a pin left out": (lambda: _without_last(_exact()), "system: its polynomials are not those of the mechanism"),
+    "other bodies": (lambda: _other_bodies(_exact()), "system: its polynomials are not those of the mechanism"),
+    "polynomials exchanged": (lambda: _exchanged(_exact()), "system: its polynomials are not those of the mechanism"),
+    "variables renamed": (lambda: _renamed(_exact()), "system: its variables are not the unknowns of the bodies"),
+    "another motion": (lambda: _translated(_exact()), "system: its variables are not the unknowns of the bodies"),
+    "forms of another pin": (
+        lambda: _with(_exact(), "mechanism", "joined", 0, "constraint", "forms", 0, 16, value="-2"),
+        "its forms are not those of its data",
+    ),
+    "a system that claims too much": (
+        lambda: _with(_exact(), "system", "complex_solutions", value=3),
+        "complex solutions: ",
+    ),
+    "a box with a pin moved": (lambda: _moved(_box()), "box: that it holds exactly one pose is not proved"),
+    "a box with a pin left out": (lambda: _without_last(_box()), "box: 6 polynomials in 8 unknowns, not as many"),
+    "a box beside the pose": (lambda: _shifted(1 << 16)(_box()), "box: that it holds exactly one pose is not proved"),
+    "a box with both poses": (lambda: _wide(_box()), "box: that it holds exactly one pose is not proved"),
+    "a body mirrored": (
+        lambda: _mirrored(_box("micabo-h-links")),
+        "box: that body 7 is turned and not mirrored is not proved",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FORGERIES)
+def test_forged_certificates_are_rejected_for_their_one_fault(name: str) -> None:
+    make, reason = FORGERIES[name]
+    verdict = both_resealed(make())
+    assert verdict.status == "rejected"
+    assert reason in last_line(verdict)
+
+
+MALFORMED: dict[str, tuple[Path_, Any]] = {
+    "version": (("version",), 2),
+    "method": (("method",), "krawczyk"),
+    "no system": (("system",), None),
+    "a box too many": (("box",), {"exponent": 1, "radius": 1, "centre": ["0x0"] * 8}),
+    "the format of the system": (("system", "format"), "pkm_exact certificate"),
+    "the version of the system": (("system", "version"), 2),
+    "no body": (("mechanism", "bodies"), []),
+    "no constraint": (("mechanism", "joined"), []),
+    "a motion out of the plane": (("mechanism", "bodies", 0, "motion"), "spatial"),
+    "a platform that there is not": (("mechanism", "platform"), 3),
+    "the ground as the second": (("mechanism", "joined", 0, "bodies"), [1, 0]),
+    "a body twice": (("mechanism", "joined", 0, "bodies"), [1, 1]),
+    "a body that there is not": (("mechanism", "joined", 0, "bodies"), [0, 3]),
+    "neither true nor false": (("mechanism", "planar"), 1),
+    "a note that is none": (("notes",), [1]),
+    "a configuration that is none": (("configuration",), None),
+}
+
+
+@pytest.mark.parametrize("name", MALFORMED)
+def test_what_is_no_certificate_is_malformed(name: str) -> None:
+    path, value = MALFORMED[name]
+    assert both_resealed(with_entry(_exact(), path, value)).status == "malformed"
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "status"),
+    [
+        (("box", "radius"), 0, "malformed"),
+        (("box", "radius"), 10**9 + 1, "malformed"),
+        (("box", "exponent"), -1, "malformed"),
+        (("box", "exponent"), 8193, "too-large"),
+        (("box", "centre"), ["0x0"] * 7, "malformed"),
+        (("box", "centre", 0), "0x00", "malformed"),
+    ],
+)
+def test_boxes_have_one_shape(path: Path_, value: Any, status: str) -> None:
+    assert both_resealed(with_entry(_box(), path, value)).status == status
+
+
+def test_too_many_unknowns_are_too_large() -> None:
+    content = _exact()
+    bodies = [{"name": "b", "motion": "spatial"}] * 6
+    changed = {**content, "mechanism": {**content["mechanism"], "planar": False, "bodies": bodies}}
+    assert both_resealed(changed).status == "too-large"
+
+
+DESCRIBES = ("name", "unit", "source", "configuration")
+"""Entries that another digest may cover; of a box all: one that is a little different holds the same pose."""
+
+
+def _is_free(path: Path_) -> bool:
+    return path[0] in ("box", "notes") or path[-1] in DESCRIBES or path[1:] in (("title",), ("platform",))
+
+
+@pytest.mark.parametrize(("make", "every"), [(_exact, 9), (_box, 4)])
+def test_what_is_changed_is_refused_with_a_new_digest_too(make: Callable[[], Content], every: int) -> None:
+    content = make()
+    tried = 0
+    for number, (path, value) in enumerate(leaves({k: v for k, v in content.items() if k != "digest"})):
+        if number % every or _is_free(path) or isinstance(value, bool):
+            continue
+        for other in neighbours(value)[:1]:
+            tried += 1
+            assert both_resealed(with_entry(content, path, other)).status != "accepted", (path, other)
+    assert tried > 15
+
+
+def test_a_change_without_a_new_digest_is_seen() -> None:
+    content = with_entry(_exact(), ("configuration",), "another")
+    data = canonical_bytes(content)
+    assert (check_bytes(data).status, pure.check_bytes(data).status) == ("rejected", "rejected")
+    assert both(canonical_bytes(sealed(content)))
+
+
+def test_the_command_writes_certificates_of_one_pose(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "one.json"
+    words = ["solve", str(MODELS / "four-bar.toml"), "--method", "krawczyk", "--start", "1,2,30", "-o", str(path)]
+    assert main([*words, "--format", "json"]) == 3
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["method"], printed["claim"], printed["real_poses"]) == ("krawczyk", "not-proven-complete", 1)
+    assert main(["check", str(path)]) == main(["check", "--pure", str(path)]) == 0
+    assert "others are not excluded" in capsys.readouterr().out
