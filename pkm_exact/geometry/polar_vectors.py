@@ -26,6 +26,8 @@ _PLANE: Final = ("degrees", "length", "exact")
 _SPACE: Final = ("degrees", "elevation", "length", "z", "exact")
 _NOT_GEOMETRY: Final = ("configurations", "nominal")
 """Tables with angles that are no vectors."""
+_NO_VECTOR: Final = frozenset({"name", "kind", "position"})
+"""Keys of tables with angles that are bodies or poses."""
 _DEPTH: Final = 5
 """How deep the vectors of a model file can stand."""
 
@@ -130,7 +132,7 @@ def with_polar_vectors(
     found: list[PolarVector] = []
 
     def walked(value: Any, where: str, depth: int) -> Any:
-        if isinstance(value, dict) and value.keys() & {"degrees", "elevation"} and not value.keys() & {"name", "kind"}:
+        if isinstance(value, dict) and value.keys() & {"degrees", "elevation"} and not value.keys() & _NO_VECTOR:
             found.append(PolarVector(value, where, metric, exact=exact))
             return found[-1]
         if depth == _DEPTH:
