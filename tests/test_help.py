@@ -62,6 +62,7 @@ def test_every_example_of_a_help_works(
         shutil.copytree(ROOT / folder, tmp_path / folder)
     for file in ("path.csv", "lengths.csv"):
         (tmp_path / file).write_text(PATH)
+    (tmp_path / "plan.csv").write_text("x,y,half_tangent\n5,4,0\n6,3,1/3\n2,9,-1/2\n7,7,2\n")
     (tmp_path / "cube.toml").write_text(CUBE)
     monkeypatch.chdir(tmp_path)
     for example in _examples(HELPS[name]):

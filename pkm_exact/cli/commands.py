@@ -16,6 +16,7 @@ COMMANDS: Final = {
     "legs": ("legs", "Leg lengths and joint values at a given pose."),
     "statics": ("statics_command", "Jacobians, wrenches and singularities at a pose."),
     "mobility": ("mobility_command", "Freedoms of a mechanism, exactly, and which actuators hold it."),
+    "identify": ("identify", "Which geometric parameters a plan of measurements tells apart."),
     "compare": ("compare_commands", "Numeric methods held against the certified poses."),
     "track": ("track", "Follow one assembly mode along a joint path."),
     "sweep": ("sweep", "All poses at each of many length vectors."),
