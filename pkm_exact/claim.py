@@ -11,6 +11,11 @@ class Claim(StrEnum):
     ``COMPLETE`` is a theorem about the very input; every other member promises less. In particular
     ``NOT_PROVEN_COMPLETE`` does not mean that a pose is missing, and ``POSITIVE_DIMENSIONAL_DETECTED`` is
     evidence from several primes, not a proof.
+
+    Examples
+    --------
+    >>> Claim("complete") is Claim.COMPLETE, str(Claim.NOT_PROVEN_COMPLETE)
+    (True, 'not-proven-complete')
     """
 
     COMPLETE = "complete"
@@ -51,6 +56,12 @@ class CompletenessRoute(StrEnum):
     ``EXACT_ELIMINATION``: an elimination over Q shows that the ideal of the poses contains polynomials whose leading
     monomials leave only as many others as there are distinct solutions listed (or as many, counted with the
     multiplicities that the trace form over Q shows); there cannot be more.
+
+    Examples
+    --------
+    >>> from pkm_exact import Robot
+    >>> str(Robot.load("models/3-rpr-merlet-p.toml").solve().completeness_route)
+    'exact-elimination'
     """
 
     REFINED_BEZOUT = "refined-bezout"

@@ -6,11 +6,27 @@ from typing import Any
 
 
 class PkmExactError(Exception):
-    """Base class of every error that pkm_exact raises on purpose."""
+    """Base class of every error that pkm_exact raises on purpose.
+
+    Examples
+    --------
+    >>> issubclass(InputError, PkmExactError)
+    True
+    """
 
 
 class InputError(PkmExactError):
-    """Input that cannot be used: names the file, the field, the value and the remedy."""
+    """Input that cannot be used: names the file, the field, the value and the remedy.
+
+    Examples
+    --------
+    >>> from pkm_exact import read_robot
+    >>> try:
+    ...     read_robot("nowhere.toml")
+    ... except InputError as error:
+    ...     print(error)
+    nowhere.toml: no such file; give the path of a model file
+    """
 
 
 class ReconstructionError(PkmExactError):

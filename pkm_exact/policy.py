@@ -37,6 +37,12 @@ class Policy:
     short_proofs : bool
         Whether short ways to completeness are tried on hexapods before an elimination, and slices where the poses of
         robots with legs only seem to be infinitely many. Their certificates are of version 2.
+
+    Examples
+    --------
+    >>> from pkm_exact import Robot
+    >>> len(Robot.load("models/3-rpr-merlet-p.toml").solve(policy=Policy(seed=7)))
+    2
     """
 
     prime_bits: int = 62

@@ -3,6 +3,7 @@
 import json
 import re
 from fractions import Fraction
+from itertools import pairwise
 from math import dist, isclose
 from pathlib import Path
 
@@ -19,8 +20,9 @@ from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.on_line import OnLine
 from pkm_exact.constraints.point_in_plane import Carries, InPlane
 from pkm_exact.geometry.mechanism import Mechanism
+from pkm_exact.geometry.reader import read_robot, robot_from_toml
 from pkm_exact.pictures.drawn_robot import Scene
-from pkm_exact.pictures.mechanism_scene import shape_of
+from pkm_exact.pictures.mechanism_scene import drive_shapes, legs_on_chains, shape_of
 from pkm_exact.pictures.scene import scene_of
 from pkm_exact.pictures.shapes import Point
 
@@ -84,9 +86,13 @@ def test_every_constraint_that_holds_a_point_has_a_shape(
     assert len(shape.lines((0.0, 0.0, 1.0), UNTURNED, 10.0)) == lines
 
 
-def test_legs_and_angles_have_none() -> None:
+def test_legs_have_none_and_angles_are_two_axes() -> None:
     assert shape_of(1, Distance(X, Y, ONE), ROOTS, (1, 1, 1)) is None
-    assert shape_of(1, Angle(X, Y, ZERO), ROOTS, (1, 1, 1)) is None
+    shape = shape_of(1, Angle(X, Y, ZERO), ROOTS, (1, 1, 1))
+    assert shape is not None
+    first, second = shape.lines((0.0, 0.0, 1.0), UNTURNED, 10.0)
+    assert [round(b - a, 9) for a, b in zip(*first, strict=True)] == [3.2, 0, 0]
+    assert [round(b - a, 9) for a, b in zip(*second, strict=True)] == [0, 3.2, 0]
 
 
 def test_a_picture_has_planes_and_legs(certificate: Path, tmp_path: Path) -> None:
@@ -116,13 +122,91 @@ def test_the_machine_of_a_certificate_is_a_mechanism(certificate: Path) -> None:
 
 @pytest.mark.parametrize(("name", "sort"), [("delta", "crank"), ("triglide", "slide"), ("3-prrr", "")])
 def test_cranks_and_slides_of_a_known_machine_are_drawn(name: str, sort: str) -> None:
-    """Of the 3-PRRR no rod is a leg, so that nothing stands on its cranks."""
+    """Of the 3-PRRR no rod is a leg: its cranks are arms below the axes of the limbs."""
     robot, document = model(name), golden(name)
     scene = scene_of(document, robot)
-    assert scene.chain == sort
-    assert scene_of(document, None).chain == ""
+    assert scene.sorts == ((sort,) if sort else ())
+    assert scene_of(document, None).sorts == ()
+    arms = [shape for shape in scene.shapes if shape.kind == "arm"]
+    assert len(arms) == (0 if sort else 3)
+    for arm in arms:
+        (line,) = arm.lines((0.0, 0.0, 0.0), UNTURNED, 1.0)
+        assert dist(*line) == pytest.approx(0.5)
+    assert not [shape for shape in scene_of(document, None).shapes if shape.kind == "arm"]
     for pose in scene.poses:
         assert len(pose.knees) == (3 if sort else 0)
     if sort == "crank":
         for knee, foot in zip(scene.poses[0].knees, scene.base, strict=True):
             assert sum((a - b) ** 2 for a, b in zip(knee, foot, strict=True)) == pytest.approx(1.73**2)
+
+
+def test_links_and_cranks_about_a_point_are_arcs_of_a_sphere() -> None:
+    robot, document = model("spherical-3-rrr"), golden("spherical-3-rrr")
+    scene = scene_of(document, robot)
+    assert [shape.kind for shape in scene.shapes] == ["arc"] * 3 + ["arm"] * 3
+    plain = scene_of(document, None)
+    assert plain.sorts == ()
+    for pose in scene.poses:
+        for k in range(3):
+            (link,) = scene.shapes[k].lines(pose.position, pose.rotation, scene.size)
+            (crank,) = scene.shapes[3 + k].lines(pose.position, pose.rotation, scene.size)
+            assert dist(link[0], plain.base[k]) < 1e-9
+            assert dist(link[-1], pose.platform[k]) < 1e-9
+            assert dist(crank[-1], link[0]) < 1e-9
+            assert dist(crank[0], scene.base[k]) < 1e-9
+            assert all(isclose(dist(point, pose.position), 1) for point in (*link, *crank))
+            # The crank's axis is that of its motor.
+            assert crank[0] == pytest.approx([float(k == i) for i in range(3)])
+
+
+def test_cranks_and_slides_may_stand_side_by_side(tmp_path: Path) -> None:
+    """The P-FUS with five freedoms: three rods on slides, two on cranks."""
+    text = (Path(__file__).parent.parent / "models" / "p-fus.toml").read_text()
+    head = text.partition("[[configurations]]")[0].replace('freedoms = "3"', 'freedoms = "5"')
+    path = tmp_path / "five.toml"
+    path.write_text(f'{head}[[configurations]]\nname = "it"\nslides = [30, 35, 27]\nhalf_tangents = ["1/2", "1/3"]\n')
+    found = read_robot(path)
+    assert isinstance(found, Mechanism)
+    problem = found.problem(found.configuration())
+    legs = [found for found in problem.constraints if isinstance(found, Distance)]
+    feet, sorts = legs_on_chains(found, legs)
+    assert sorts == ("slide",) * 3 + ("crank",) * 2
+    for foot, leg, sort in zip(feet, legs, sorts, strict=True):
+        if sort == "crank":
+            way = [b - a for a, b in zip(foot, leg.base, strict=True)]
+            assert sum(g * x * x for g, x in zip(found.metric, way, strict=True)) == 150**2
+
+
+def test_a_universal_joint_and_the_arms_of_in_branch_drives_are_drawn() -> None:
+    crossed = scene_of(golden("2-ups-u"), model("2-ups-u"))
+    assert "axes" in [shape.kind for shape in crossed.shapes]
+    robot = robot_from_toml(IN_BRANCH)
+    assert isinstance(robot, Mechanism)
+    problem = robot.problem(robot.configuration())
+    arms = list(drive_shapes(robot, problem, ROOTS))
+    assert [arm.name for arm in arms] == [f"crank {k}, link {k}" for k in (1, 2, 3)]
+    for arm in arms:
+        (line,) = arm.lines((0.0, 0.0, 0.0), UNTURNED, 1.0)
+        assert [round(dist(a, b), 9) for a, b in pairwise(line)] == [2, 3]
+
+
+IN_BRANCH = """schema = 1
+name = "both driven"
+kind = "3-RRR"
+unit = "1"
+source = "a test"
+[base]
+joints = [[0, 0], [12, 0], [6, 10]]
+[platform]
+joints = [[0, 0], [5, 0], [1, 4]]
+[cranks]
+at_0 = [[2, 0], [2, 0], [2, 0]]
+[rods]
+length = 3
+[actuators]
+driven = "RR"
+[[configurations]]
+name = "it"
+half_tangents = [0, "1/2", 1]
+link_half_tangents = [1, "1/3", 0]
+"""

@@ -99,7 +99,7 @@ def test_drawn_legs_have_their_true_lengths_and_stand_on_the_base(name: str) -> 
             ends = line(axes, f"leg-{leg + 1}")
             assert length(ends) == pytest.approx(shown.lengths[leg], rel=1e-12)
             assert ends == [list_of(axes, shown.feet(pose)[a]), list_of(axes, pose.platform[b])]
-            if shown.chain:
+            if shown.sorts:
                 assert line(axes, f"chain-{leg + 1}") == [
                     list_of(axes, shown.base[leg]),
                     list_of(axes, pose.knees[leg]),

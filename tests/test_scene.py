@@ -114,7 +114,7 @@ def test_models_add_their_chains(name: str, chain: str) -> None:
     robot, content = _model(name), golden(name)
     plain, scene = scene_of(content), scene_of(content, robot)
     axes = [math.sqrt(g) for g in robot.metric]
-    assert (scene.chain, plain.chain, scene.kind) == (chain, "", robot.kind)
+    assert (scene.sorts, plain.sorts, scene.kind) == ((chain,), (), robot.kind)
     assert plain.poses[0].knees == ()
     for drawn, joint in zip(scene.base, robot.base_joints, strict=True):
         assert drawn == pytest.approx([float(x) * axis for x, axis in zip(joint, axes, strict=True)], rel=1e-15)

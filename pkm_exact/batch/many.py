@@ -73,6 +73,13 @@ class ManySolutions:
         ``row`` from 0, then ``position`` (3), ``rotation`` (3, 3) and ``quaternion`` (4, real part first), each with
         its ``.._half_width``: the exact value lies within it of the midpoint. Then the indices: ``det_sign`` of the leg
         Jacobian, 0 at a singular pose, 2 if it was not decided; ``condition``, infinite or nan then.
+
+    Examples
+    --------
+    >>> from pkm_exact import solve_many
+    >>> found = solve_many("models/3-rpr-merlet-p.toml", [[7, 5, 5], [7.1, 5, 5]])
+    >>> [int(count) for count in found.rows["count"]], found.poses["position"].shape
+    ([2, 2], (4, 3))
     """
 
     rows: NDArray[Record]

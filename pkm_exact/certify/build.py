@@ -46,6 +46,14 @@ def certificate(robot: Machine, configuration_name: str | None, solution: Soluti
     ------
     ValueError
         If the solution answers another problem than the robot's.
+
+    Examples
+    --------
+    >>> from pkm_exact import read_robot, solve
+    >>> robot = read_robot("models/3-rpr-merlet-p.toml")
+    >>> content = certificate(robot, "home", solve(robot.problem(robot.configuration())))
+    >>> content["claim"], content["real_poses"]
+    ('complete', 2)
     """
     return sealed(_content(robot, configuration_name, solution))
 
@@ -147,5 +155,16 @@ def write_certificate(path: str | os.PathLike[str], content: dict[str, Any]) -> 
     ------
     OSError
         If the file cannot be written; what stood there before is then untouched.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> from pkm_exact import Robot, check_bytes
+    >>> content = Robot.load("models/3-rpr-merlet-p.toml").solve().certificate()
+    >>> with TemporaryDirectory() as folder:
+    ...     write_certificate(content, Path(folder) / "it.json")
+    ...     str(check_bytes((Path(folder) / "it.json").read_bytes()).status)
+    'accepted'
     """
     write_whole(path, canonical_bytes(content))

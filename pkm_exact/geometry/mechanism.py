@@ -192,7 +192,13 @@ class Mechanism(Machine):
         return tuple(found.values())
 
     def values_of(self, found: Mapping[str, Constraint]) -> tuple[JointValue, ...] | None:
-        """The values of the actuators that make the constraints others of the same names; None if there are none."""
+        """The values of the actuators that make the constraints others of the same names; None if there are none.
+
+        Where two drives move one point, only those of the configurations are known.
+        """
+        for configuration in self.configurations:
+            if {entry.name: entry for entry in self.locked(configuration.values, "values")} == dict(found):
+                return configuration.values
         own = {constraint.name: constraint for constraint in self.constraints}
         values: list[JointValue] = []
         for name in self.actuated:

@@ -117,6 +117,11 @@ def read_linkage(path: str | os.PathLike[str]) -> Linkage:
     ------
     InputError
         As ``read_robot``, and if the file is of another kind.
+
+    Examples
+    --------
+    >>> len(read_linkage("models/chains/sarrus.toml").joints)
+    6
     """
     found = read_any(path)
     if not isinstance(found, Linkage):

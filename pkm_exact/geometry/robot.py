@@ -46,6 +46,11 @@ class Configuration:
         Unit of its last decimal in the model file; None without decimals.
     stand_ins : tuple of StandIn
         Angles among the joint values that were given in degrees and are taken as others, by how much.
+
+    Examples
+    --------
+    >>> [str(square) for square in Configuration("home", (4, "9/4", 1)).lengths_squared]
+    ['4', '9/4', '1']
     """
 
     name: str

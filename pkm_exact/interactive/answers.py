@@ -122,6 +122,12 @@ class Solution(Answer, solutions.Solution):
         ------
         PkmExactError
             If matplotlib is not installed, or the solution does not know its robot.
+
+        Examples
+        --------
+        >>> from pkm_exact import Robot
+        >>> figure = Robot.load("models/3-rpr-merlet-p.toml").solve().plot()  # doctest: +SKIP
+        >>> figure.savefig("poses.png")  # doctest: +SKIP
         """
         from pkm_exact.interactive.display import solution_figure
 

@@ -91,6 +91,14 @@ def solve_krawczyk(
     ------
     PkmExactError
         As ``solve``, if that has to be called.
+
+    Examples
+    --------
+    >>> from pkm_exact import read_robot
+    >>> robot = read_robot("models/3-rpr-merlet-p.toml")
+    >>> found = solve_krawczyk(robot.problem(robot.configuration()))
+    >>> str(found.claim), len(found.poses)
+    ('complete', 2)
     """
     return Solution.of(numeric.solve_krawczyk(problem, width=width, policy=policy, progress=progress, start=start))
 

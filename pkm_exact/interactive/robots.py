@@ -327,6 +327,11 @@ def read_robot(path: str | os.PathLike[str]) -> Robot | Mechanism:
     ------
     InputError
         If the file cannot be read or does not describe a robot; the message is one sentence that starts with the path.
+
+    Examples
+    --------
+    >>> read_robot("models/3-rrr.toml").kind
+    '3-RRR'
     """
     found = reader.read_robot(path)
     data = {entry.name: getattr(found, entry.name) for entry in fields(found)}

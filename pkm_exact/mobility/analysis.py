@@ -42,6 +42,13 @@ class LinkageMobility:
         What the actuators do.
     hold_platform, hold_mechanism : ActuatorSets
         All minimal sets of freedoms that hold the platform, and the whole mechanism, when they are locked.
+
+    Examples
+    --------
+    >>> from pkm_exact import mobility_of, read_linkage
+    >>> found = mobility_of(read_linkage("models/chains/sarrus.toml"))
+    >>> found.free.total, found.finite.least, found.free.counted
+    (1, 1, 0)
     """
 
     free: Instantaneous

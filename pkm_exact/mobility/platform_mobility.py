@@ -58,6 +58,13 @@ class PlatformMobility:
         At the pose that was asked about.
     everywhere : GenericRank or None
         At every pose of the motion, all actuators locked; None if a constraint is no linear form.
+
+    Examples
+    --------
+    >>> from pkm_exact import platform_mobility, read_robot
+    >>> found = platform_mobility(read_robot("models/3-rps.toml"))
+    >>> found.structural, found.at is None
+    (('hinge 1', 'hinge 2', 'hinge 3'), True)
     """
 
     structural: tuple[str, ...]

@@ -82,6 +82,14 @@ class ToleranceResult:
         Number of complex solutions, real ones included, that are proved for every robot within tolerance.
     is_complete : bool
         Whether it is proved that no robot within tolerance has another pose. "No" does not mean that there is one.
+
+    Examples
+    --------
+    >>> from pkm_exact import Robot, Tolerances, tolerance_boxes
+    >>> nominal = Robot.load("models/3-rpr-merlet-p.toml").solve()
+    >>> found = tolerance_boxes(nominal.problem, Tolerances.uniform("1/1000"), nominal)
+    >>> len(found.boxes), found.is_complete
+    (2, True)
     """
 
     problem: ForwardProblem

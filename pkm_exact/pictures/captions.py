@@ -99,7 +99,7 @@ def axis_names(scene: Scene) -> tuple[str, ...]:
 
 def legend_rows(scene: Scene, width: float, *, key: bool = True) -> int:
     """How many rows the legend has, at most, on a figure of this width, with or without a key beside it."""
-    entries = len(scene.legs) + 3 + 2 * bool(scene.chain) + len(scene.shapes)
+    entries = len(scene.legs) + 3 + len(scene.sorts) + bool(scene.sorts) + len(scene.shapes)
     return -(-entries // _columns(scene, width, key))
 
 
@@ -123,9 +123,9 @@ def add_legend(figure: Figure, scene: Scene, *, ghosts: bool = False, key: bool 
             dashes: Any = style.SHAPE_DASHES[shape.kind]
             colour = style.leg_colour(shape.number)
             handles.append(Line2D([], [], color=colour, linestyle=dashes, label=_named(shape)))
-    if scene.chain:
-        dashes = style.DASHES[scene.chain]
-        handles.append(Line2D([], [], color=style.INK, linewidth=3.2, linestyle=dashes, label=scene.chain))
+    for sort in scene.sorts:
+        handles.append(Line2D([], [], color=style.INK, linewidth=3.2, linestyle=style.DASHES[sort], label=sort))
+    if scene.sorts:
         handles.append(Line2D([], [], color=style.INK, linewidth=0, marker="D", markersize=4, label="knee"))
     handles.append(Patch(facecolor=style.BASE_FILL, edgecolor=style.BASE_INK, label="base"))
     if ghosts:

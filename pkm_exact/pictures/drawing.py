@@ -10,7 +10,7 @@ from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
 from pkm_exact.pictures.drawn_robot import Point, PoseView, Scene
 from pkm_exact.pictures.hull import faces
-from pkm_exact.pictures.shapes import PLANE
+from pkm_exact.pictures.shapes import ARM, PLANE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -55,12 +55,15 @@ def draw_robot(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen)
 
 def draw_chains(axes: Axes, scene: Scene, pose: PoseView, pen: Pen, colour: str | None = None) -> None:
     """Cranks or slides, from base joints to knees, in the colours of their legs unless a colour is given."""
-    for leg, knee in enumerate(pose.knees):
-        options = {"linewidth": 1.9 * pen.width, "linestyle": style.DASHES[scene.chain], "zorder": _CHAINS}
+    for leg, (knee, sort) in enumerate(zip(pose.knees, scene.chains, strict=False)):
+        if not sort:
+            continue
+        options = {"linewidth": 1.9 * pen.width, "linestyle": style.DASHES[sort], "zorder": _CHAINS}
         shade = colour or style.leg_colour(leg + 1)
         _line(axes, scene, (scene.base[leg], knee), color=shade, gid=f"chain-{leg + 1}", **options)
-    if pose.knees:
-        _dots(axes, scene, pose.knees, "D", style.INK, pen)
+    knees = [knee for knee, sort in zip(pose.knees, scene.chains, strict=False) if sort]
+    if knees:
+        _dots(axes, scene, knees, "D", style.INK, pen)
 
 
 def draw_legs(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen, colour: str | None = None) -> None:
@@ -84,7 +87,8 @@ def draw_shapes(axes: Axes, scene: Scene, pose: PoseView, pen: Pen) -> None:
     for shape in scene.shapes:
         shade = style.leg_colour(shape.number)
         for number, line in enumerate(shape.lines(pose.position, pose.rotation, scene.size), 1):
-            options = {"linewidth": 0.8 * pen.width, "linestyle": style.SHAPE_DASHES[shape.kind], "zorder": _CHAINS}
+            width = (1.9 if shape.kind == ARM else 0.8) * pen.width
+            options = {"linewidth": width, "linestyle": style.SHAPE_DASHES[shape.kind], "zorder": _CHAINS}
             _line(axes, scene, line, color=shade, gid=f"{shape.kind}-{shape.number}-{number}", **options)
             if shape.kind == PLANE and not scene.motion.is_planar:
                 _face(axes, scene, line[:-1], shade, 0.12 * pen.opacity, FAR)

@@ -86,8 +86,8 @@ class Scene:
         For each leg the indices of its base and its platform joint.
     lengths : tuple of float
         Of the legs, or of the rods if there are cranks or slides.
-    chain : str
-        "crank" or "slide" if these stand between base joints and rods; otherwise empty.
+    chains : tuple of str
+        For each leg "crank" or "slide" if one stands between base joint and rod; otherwise empty.
     poses : tuple of PoseView
     shapes : tuple of Shape
         What holds joints without being a leg: planes, lines, points, axes.
@@ -104,9 +104,14 @@ class Scene:
     platform: tuple[Point, ...]
     legs: tuple[tuple[int, int], ...]
     lengths: tuple[float, ...]
-    chain: str
+    chains: tuple[str, ...]
     poses: tuple[PoseView, ...]
     shapes: tuple[Shape, ...] = ()
+
+    @property
+    def sorts(self) -> tuple[str, ...]:
+        """What stands below rods: cranks, slides, both or nothing."""
+        return tuple(dict.fromkeys(filter(None, self.chains)))
 
     @property
     def size(self) -> float:

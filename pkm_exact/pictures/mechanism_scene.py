@@ -2,29 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from math import sqrt
 from typing import Any
 
 from pkm_exact.certify.certified_machine import certified_configuration
+from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
+from pkm_exact.geometry.drives import coefficients
 from pkm_exact.geometry.machine import CONSTRAINTS_KIND, Machine
+from pkm_exact.geometry.machines.triangle import along
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.motions.motion_groups import SPHERICAL
 from pkm_exact.pictures.coordinates import listed_poses, placed_poses
 from pkm_exact.pictures.drawn_robot import Point, Scene, view_of
-from pkm_exact.pictures.shapes import AXIS, LINE, PLANE, POINT, Shape, unit
+from pkm_exact.pictures.shapes import ARC, ARM, AXES, AXIS, LINE, PLANE, POINT, Shape, arc, cross, unit
 
 _ROOTS = tuple[float, float, float]
+_ORIGIN = (0.0, 0.0, 0.0)
 
 
 def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem, machine: Machine | None = None) -> Scene:
     """The scene of an accepted certificate of a mechanism, the problem that it answers, and its model if that is known.
 
-    With the model, cranks or slides are drawn, if every rod stands on one of the same sort.
+    With the model, cranks and slides are drawn, and what else drives put between base and constraint.
     """
     robot = document["robot"]
     axes = sqrt(mechanism.metric[0]), sqrt(mechanism.metric[1]), sqrt(mechanism.metric[2])
@@ -36,14 +42,20 @@ def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem, mach
     pairs = tuple(
         (base.index(_ordinary(leg.base, axes)), platform.index(_ordinary(leg.platform, axes))) for leg in legs
     )
-    feet, chain = _feet(machine, legs)
+    feet, chains = legs_on_chains(machine, legs)
     knees: tuple[Point, ...] = ()
-    if feet:
+    if any(chains):
         knees = tuple(_ordinary(leg.base, axes) for leg in legs)
         base, platform = (
             tuple(_ordinary(point, axes) for point in points) for points in (feet, [leg.platform for leg in legs])
         )
         pairs = tuple((k, k) for k in range(len(legs)))
+    on_sphere = not legs and mechanism.motion.name == SPHERICAL.name
+    if on_sphere:
+        base, platform = _on_sphere(mechanism.constraints, axes)
+    arms = tuple(drive_shapes(machine, mechanism, axes, on_sphere=on_sphere))
+    if on_sphere and arms:
+        base = tuple(arm.place for arm in arms)
     places = placed_poses(listed_poses(document), mechanism)
     poses = zip(document["poses"], places, strict=True)
     return Scene(
@@ -58,33 +70,89 @@ def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem, mach
         platform=platform,
         legs=pairs,
         lengths=tuple(sqrt(leg.length_squared) for leg in legs),
-        chain=chain,
+        chains=chains if any(chains) else ("",) * len(legs),
         poses=tuple(view_of(number, listed, place, platform, knees) for number, (listed, place) in enumerate(poses, 1)),
-        shapes=tuple(
-            shape
-            for number, constraint in enumerate(mechanism.constraints, 1)
-            if (shape := shape_of(number, constraint, axes, mechanism.metric)) is not None
+        shapes=(
+            *_shapes(mechanism, axes, on_sphere=on_sphere),
+            *arms,
         ),
     )
 
 
-def _feet(machine: Machine | None, legs: Sequence[Distance]) -> tuple[list[Vector], str]:
-    """Where the cranks or slides of the rods stand, and which of them they are; nothing if they are not all alike."""
-    if not isinstance(machine, Mechanism):
-        return [], ""
+def _shapes(mechanism: ForwardProblem, axes: _ROOTS, *, on_sphere: bool) -> Iterator[Shape]:
+    for number, constraint in enumerate(mechanism.constraints, 1):
+        shape = shape_of(number, constraint, axes, mechanism.metric)
+        if shape is not None:
+            yield replace(shape, kind=ARC) if on_sphere and shape.kind == AXES else shape
+
+
+def _on_sphere(constraints: Sequence[Constraint], axes: _ROOTS) -> tuple[tuple[Point, ...], tuple[Point, ...]]:
+    """Where the axes of base and platform meet the sphere about the point in which all of them meet."""
+    angles = [found for found in constraints if isinstance(found, Angle)]
+    base, platform = ([unit(_ordinary(getattr(a, side), axes)) for a in angles] for side in ("base", "platform"))
+    return tuple(base) or (_ORIGIN,), tuple(platform) or (_ORIGIN,)
+
+
+def drive_shapes(
+    machine: Machine | None, mechanism: ForwardProblem, axes: _ROOTS, *, on_sphere: bool = False
+) -> Iterator[Shape]:
+    """What the drives of a model put between base and the constraints that are no legs: arms, from joint to joint."""
+    if not isinstance(machine, Mechanism) or not machine.drives:
+        return
+    locked = {constraint.name: constraint for constraint in mechanism.constraints}
+    values = machine.values_of(locked)
     own = {constraint.name: constraint for constraint in machine.constraints}
+    numbers = {constraint.name: number for number, constraint in enumerate(machine.constraints, 1)}
+    at = dict(zip(machine.actuated, values or (), strict=False))
+    for name, constraint in own.items():
+        field = _driven_point(constraint)
+        moving = [(drive, part) for drive in machine.drives for part in drive.parts if part.constraint == name]
+        paths = [(drive, part) for drive, part in moving if part.field == field and drive.name in at]
+        if field and paths:
+            points = [getattr(constraint, field)]
+            for drive, part in paths:
+                factors = coefficients(at[drive.name])
+                points.append(along((1, points[-1]), *zip(factors, part.axes, strict=True)))  # type: ignore[arg-type]
+            label = ", ".join(drive.name for drive, _ in paths)
+            path = tuple(_ordinary(point, axes) for point in points)
+            own_shape = shape_of(numbers[name], locked[name], axes, mechanism.metric)
+            shift, held = (own_shape.direction, own_shape.joint) if own_shape else (_ORIGIN, _ORIGIN)
+            yield Shape(ARM, numbers[name], label, path[0], shift, held, path=path)
+        if on_sphere and isinstance(constraint, Angle):
+            for drive, part in moving:
+                u, v = (_ordinary(axis, axes) for axis in part.axes)  # type: ignore[arg-type]
+                end = unit(_ordinary(getattr(locked[name], "base"), axes))  # noqa: B009
+                path = arc(unit(cross(u, v)), end)
+                yield Shape(ARM, numbers[name], drive.name, path[0], _ORIGIN, _ORIGIN, path=path)
+
+
+def _driven_point(constraint: Constraint) -> str:
+    """The field of the point that a drive moves, of constraints that are no legs."""
+    if isinstance(constraint, Distance):
+        return ""
+    return next((field for field, role in constraint.fields.items() if role == Role.BASE_POINT), "")
+
+
+def legs_on_chains(machine: Machine | None, legs: Sequence[Distance]) -> tuple[list[Vector], tuple[str, ...]]:
+    """Where the legs stand, on what sort of chain each of them does, if a single one moves it."""
+    own = {found.name: found for found in machine.constraints} if isinstance(machine, Mechanism) else {}
     feet: list[Vector] = []
-    sorts = set()
+    sorts: list[str] = []
     for leg in legs:
-        drives = [
-            drive for drive in machine.drives if (leg.name, "base") in ((p.constraint, p.field) for p in drive.parts)
-        ]
-        if len(drives) != 1:
-            return [], ""
-        found = own[leg.name]
-        feet += [found.base] if isinstance(found, Distance) else []
-        sorts.add("crank" if drives[0].is_crank else "slide")
-    return (feet, sorts.pop()) if len(sorts) == 1 else ([], "")
+        drives = (
+            []
+            if not isinstance(machine, Mechanism)
+            else [
+                drive
+                for drive in machine.drives
+                if (leg.name, "base") in ((p.constraint, p.field) for p in drive.parts)
+            ]
+        )
+        found = own.get(leg.name)
+        is_single = len(drives) == 1 and isinstance(found, Distance)
+        feet.append(found.base if is_single and isinstance(found, Distance) else leg.base)
+        sorts.append(("crank" if drives[0].is_crank else "slide") if is_single else "")
+    return feet, tuple(sorts)
 
 
 def _joints(constraints: Sequence[Constraint], role: Role, axes: _ROOTS) -> tuple[Point, ...]:
@@ -99,12 +167,15 @@ def _joints(constraints: Sequence[Constraint], role: Role, axes: _ROOTS) -> tupl
 
 
 def shape_of(number: int, constraint: Constraint, axes: _ROOTS, metric: tuple[int, int, int]) -> Shape | None:
-    """What a constraint looks like beside its joints; None for a leg, an angle or any other form."""
+    """What a constraint looks like beside its joints; None for a leg or any other form."""
     roles = constraint.fields
     moves = Role.PLATFORM_DIRECTION in roles.values()
     directions = [field for field, role in roles.items() if role in (Role.BASE_DIRECTION, Role.PLATFORM_DIRECTION)]
     points = {role: getattr(constraint, field) for field, role in roles.items() if role in _POINTS}
-    if len(directions) == 2 or not points or isinstance(constraint, Distance):
+    if isinstance(constraint, Angle):
+        n, m = (unit(_ordinary(direction, axes)) for direction in (constraint.base, constraint.platform))
+        return Shape(AXES, number, constraint.name, _ORIGIN, n, m)
+    if not points or isinstance(constraint, Distance):
         return None
     held = _ordinary(points[Role.BASE_POINT if moves else Role.PLATFORM_POINT], axes)
     if not directions:

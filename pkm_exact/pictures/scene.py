@@ -140,7 +140,7 @@ def _scene(document: Mapping[str, Any], machine: Machine | None) -> Scene:
         platform=platform,
         legs=tuple((i, i) for i in range(len(legs))),
         lengths=tuple(sqrt(leg.length_squared) for leg in legs),
-        chain=_chain(robot),
+        chains=(_chain(robot),) * len(legs),
         poses=tuple(
             view_of(number, listed, place, platform, knees)
             for number, (listed, place) in enumerate(zip(document["poses"], places, strict=True), 1)

@@ -12,7 +12,7 @@ from pkm_exact.wording import printable
 
 LEG_COLOURS: Final = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """One per leg. M. Okabe, K. Ito, Color Universal Design (2008): told apart by colour-blind readers too."""
-SHAPE_DASHES: Final = {"plane": "-", "line": "--", "axis": "-.", "point": ":"}
+SHAPE_DASHES: Final = {"plane": "-", "line": "--", "axis": "-.", "point": ":", "arm": "-", "arc": "-", "axes": "-."}
 """Lines of constraints that are no legs, by what they are."""
 PLATFORM_FILL: Final = "#F0E442"
 BASE_FILL: Final = "#B8B8B8"

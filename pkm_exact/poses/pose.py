@@ -85,6 +85,13 @@ class Pose:
         ------
         PkmExactError
             If a coordinate is too large for floating point.
+
+        Examples
+        --------
+        >>> from pkm_exact import Robot
+        >>> pose = Robot.load("models/3-rpr-merlet-p.toml").solve().poses[0]
+        >>> pose.to_numpy().rotation.shape
+        (3, 3)
         """
         from pkm_exact.poses.arrays import arrays_of_pose
 
@@ -97,6 +104,13 @@ class Pose:
         ------
         PkmExactError
             If scipy is not installed; the message says how to get it.
+
+        Examples
+        --------
+        >>> from pkm_exact import Robot
+        >>> pose = Robot.load("models/3-rpr-merlet-p.toml").solve().poses[0]
+        >>> pose.to_scipy().as_quat().shape  # doctest: +SKIP
+        (4,)
         """
         from pkm_exact.poses.arrays import rotations_of
 

@@ -90,7 +90,7 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
         "explorer": _explorer(scene, poses, tolerances=tolerances) if poses.rows else Markup(),
         "robot": mechanism_section(mechanism, scene.configuration)
         if mechanism is not None
-        else robot_section(shown_robot, {**extra, **_actuators(document, scene, robot)}, has_knees=bool(scene.chain)),
+        else robot_section(shown_robot, {**extra, **_actuators(document, scene, robot)}, has_knees=bool(scene.sorts)),
         "proof": proof_section(facts, document),
     }
     return _assembled(scene, meaning, poses, sections)
@@ -144,10 +144,10 @@ def _tolerance_facts(document: Mapping[str, Any]) -> dict[str, str]:
 
 def _actuators(document: Mapping[str, Any], scene: Scene, robot: Machine | None) -> dict[str, str]:
     locked = configuration_of(document, robot) if isinstance(robot, Robot) else None
-    if robot is None or locked is None or not scene.chain:
+    if robot is None or locked is None or not scene.sorts:
         return {}
     texts = (f"({', '.join(map(str, v))})" if isinstance(v, tuple) else str(v) for v in locked.joint_values)
-    stands = f"the certificate has it as {len(scene.legs)} legs that stand on its {scene.chain}s"
+    stands = f"the certificate has it as {len(scene.legs)} legs that stand on its {scene.sorts[0]}s"
     return {"model": f"{robot.kind}: {KINDS[robot.kind].description}; {stands}", "joint values": ", ".join(texts)}
 
 

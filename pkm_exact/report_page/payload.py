@@ -22,6 +22,7 @@ def payload(scene: Scene, poses: PoseRows) -> dict[str, Any]:
         "planar": scene.motion.is_planar,
         "base": _points(scene.base),
         "legs": [list(pair) for pair in scene.legs],
+        "chains": list(scene.chains),
         "columns": poses.plain,
         "exact_first": poses.first,
         "poses": [_pose(row, view, scene) for row, view in zip(poses.rows, scene.poses, strict=True)],

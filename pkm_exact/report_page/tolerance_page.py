@@ -91,7 +91,7 @@ def tolerance_scene(document: Mapping[str, Any]) -> Scene:
         platform=platform,
         legs=tuple((i, i) for i in range(len(base))),
         lengths=tuple(sqrt(Fraction(square)) for square in configuration["lengths_squared"]),
-        chain="",
+        chains=(),
         poses=tuple(_view(entry, platform) for entry in document["boxes"]),
     )
 

@@ -48,7 +48,9 @@ function roundLength(value) {
 
 /** Centre and radius of a ball around the robot in all its poses. */
 function surroundings(scene) {
-  const points = scene.base.concat(...scene.poses.map((pose) => [...pose.platform, ...pose.knees]));
+  const points = scene.base.concat(...scene.poses.map((pose) => [
+    ...pose.platform, ...pose.knees, ...pose.shapes.flatMap((shape) => shape.points),
+  ]));
   const ends = [0, 1, 2].map((k) => [Math.min(...points.map((p) => p[k])), Math.max(...points.map((p) => p[k]))]);
   const centre = ends.map(([low, high]) => low + (high - low) / 2);
   return { points, centre, ends, radius: Math.max(...points.map((p) => distance(p, centre))) || 1 };
@@ -207,7 +209,8 @@ class View {
     body("platform", pose.platform);
     this.scene.legs.forEach(([a, b], i) => {
       const [joint, foot, end] = [this.scene.base[a], feet[a], pose.platform[b]];
-      if (pose.knees.length && !isGhost) add(this.line(at, "leg crank", joint, foot), joint, foot);
+      const chain = this.scene.chains[i];
+      if (pose.knees.length && chain && !isGhost) add(this.line(at, `leg ${chain}`, joint, foot), joint, foot);
       add(this.line(at, `leg leg-${(i % 6) + 1}`, foot, end), foot, end);
     });
     if (!isGhost) {
@@ -223,7 +226,7 @@ class View {
         add(shape("circle", { class: `joint ${style}`, cx: x.toFixed(2), cy: y.toFixed(2), r: 4 }), p);
       };
       this.scene.base.forEach((p) => joint("base", p));
-      pose.knees.forEach((p) => joint("knee", p));
+      pose.knees.filter((_, i) => this.scene.chains[i]).forEach((p) => joint("knee", p));
       pose.platform.forEach((p) => joint("platform", p));
     }
     return items.sort((one, other) => one[1] - other[1]).map(([node]) => node);

@@ -83,6 +83,11 @@ class Screw:
         ------
         InputError
             If the direction is 0 or a number is not exact.
+
+        Examples
+        --------
+        >>> [str(x) for x in Screw.line((0, 1, 0), (1, 0, 0)).coordinates]
+        ['1', '0', '0', '0', '0', '-1']
         """
         place, along = parse_vector(list(point), "point"), parse_vector(list(direction), "direction")
         if not any(along):
@@ -93,7 +98,13 @@ class Screw:
 
     @classmethod
     def couple(cls, direction: Sequence[object]) -> Screw:
-        """A translation along a direction, or a couple about it."""
+        """A translation along a direction, or a couple about it.
+
+        Examples
+        --------
+        >>> [str(x) for x in Screw.couple((0, 0, 1)).coordinates]
+        ['0', '0', '0', '0', '0', '1']
+        """
         along = parse_vector(list(direction), "direction")
         if not any(along):
             raise InputError("direction: is 0; give one that is not")
@@ -101,7 +112,13 @@ class Screw:
 
     @classmethod
     def from_coordinates(cls, values: Sequence[Fraction]) -> Screw:
-        """The screw with the six coordinates (s; s0)."""
+        """The screw with the six coordinates (s; s0).
+
+        Examples
+        --------
+        >>> Screw.from_coordinates([Fraction(x) for x in (1, 0, 0, 2, 0, 0)]) == Screw.line((0, 0, 0), (1, 0, 0), 2)
+        True
+        """
         a, b, c, x, y, z = values
         return cls((a, b, c), (x, y, z))
 
@@ -126,7 +143,13 @@ class Screw:
         return x / square, y / square, z / square
 
     def is_reciprocal(self, other: Screw) -> bool:
-        """Whether a wrench on the one does no work on a twist about the other."""
+        """Whether a wrench on the one does no work on a twist about the other.
+
+        Examples
+        --------
+        >>> Screw.line((0, 0, 0), (1, 0, 0)).is_reciprocal(Screw.line((0, 0, 0), (0, 1, 0)))
+        True
+        """
         return dot(self.direction, other.moment) + dot(self.moment, other.direction) == 0
 
     def bracket(self, other: Screw) -> Screw:

@@ -35,17 +35,36 @@ class ScrewSystem:
 
     @classmethod
     def span(cls, screws: Iterable[Screw]) -> ScrewSystem:
-        """All linear combinations of screws."""
+        """All linear combinations of screws.
+
+        Examples
+        --------
+        >>> from pkm_exact import Screw
+        >>> ScrewSystem.span([Screw.line((0, 0, 0), (1, 0, 0)), Screw.line((0, 0, 0), (2, 0, 0))]).rank
+        1
+        """
         return cls.of_rows([screw.coordinates for screw in screws])
 
     @classmethod
     def of_rows(cls, rows: Sequence[Sequence[Fraction | int]]) -> ScrewSystem:
-        """All linear combinations of rows of six coordinates."""
+        """All linear combinations of rows of six coordinates.
+
+        Examples
+        --------
+        >>> ScrewSystem.of_rows([(1, 0, 0, 0, 0, 0), (0, 0, 0, 1, 0, 0)]).rank
+        2
+        """
         return cls(echelon(rows, 6)[0])
 
     @classmethod
     def all(cls) -> ScrewSystem:
-        """All screws."""
+        """All screws.
+
+        Examples
+        --------
+        >>> ScrewSystem.all().rank
+        6
+        """
         return cls.of_rows([[int(i == j) for j in range(6)] for i in range(6)])
 
     @property
@@ -54,7 +73,13 @@ class ScrewSystem:
         return len(self.basis)
 
     def screws(self) -> tuple[Screw, ...]:
-        """The basis as screws."""
+        """The basis as screws.
+
+        Examples
+        --------
+        >>> len(ScrewSystem.all().screws())
+        6
+        """
         return tuple(Screw.from_coordinates(row) for row in self.basis)
 
     def reciprocal(self) -> ScrewSystem:
@@ -102,11 +127,23 @@ class ScrewSystem:
             found = larger
 
     def free_motions(self) -> FreeMotions:
-        """Number, type and direction of the motions, if it is a system of twists."""
+        """Number, type and direction of the motions, if it is a system of twists.
+
+        Examples
+        --------
+        >>> print(ScrewSystem.of_rows([(0, 0, 0, 0, 0, 1), (0, 0, 1, 0, 0, 0)]).free_motions())
+        1 translation along (0, 0, 1), 1 rotation about an axis along (0, 0, 1) through (0, 0, 0)
+        """
         return free_motions(self.basis, TWISTS)
 
     def constraints(self) -> FreeMotions:
-        """Number, type and direction of forces and couples, if it is a system of wrenches."""
+        """Number, type and direction of forces and couples, if it is a system of wrenches.
+
+        Examples
+        --------
+        >>> print(ScrewSystem.of_rows([(0, 0, 0, 1, 0, 0)]).constraints())
+        1 couple along (1, 0, 0)
+        """
         return free_motions(self.basis, WRENCHES)
 
     def __repr__(self) -> str:

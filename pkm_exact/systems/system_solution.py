@@ -126,6 +126,13 @@ class SystemSolution:
         The proof, if the claim is that the solutions are infinitely many.
     seconds : dict of str to float
         Time of each stage.
+
+    Examples
+    --------
+    >>> from pkm_exact import solve_system
+    >>> found = solve_system(["x^2 + y^2 = 5", "x*y = 2"])
+    >>> str(found.claim), len(found)
+    ('complete', 4)
     """
 
     system: PolynomialSystem
