@@ -110,6 +110,80 @@ def test_both_halves_of_a_bipod_are_two_pieces_and_corners_are_cut() -> None:
     assert answer.measures[0] < _arcs(60, cut).area.lo <= _arcs(60, cut).area.hi < answer.measures[1]
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("base", "area"), [(60, 4863.87799035), (62, 4693.32601787)])
+def test_the_area_of_a_bipod_by_paving_to_one_in_a_thousand(base: int, area: float) -> None:
+    answer = asked(
+        bipod(base),
+        "position = [[-64, 128], [0, 128], 0]",
+        "limits = true",
+        "kind = 'map'\nsteps = 30\nboxes = 10000000",
+    )
+    assert answer.measures is not None
+    low, high = map(float, answer.measures)
+    assert low < area < high < 1.001 * low
+
+
+@pytest.mark.parametrize(
+    ("base", "low", "high", "pieces"),
+    [(60, 80, 130, 2), (60, 80, 100, 2), (60, 50, 130, 1), (200, 80, 130, 1), (200, 110, 130, 2)],
+)
+def test_how_many_pieces_a_bipod_has(base: int, low: int, high: int, pieces: int) -> None:
+    """Chapter 14: two mirror images in cases I (first) and II (last), one piece in IV; 50, 130, 60 is connected."""
+    text = FILES["bipod"].read_text().replace("[60, 0]", f"[{base}, 0]")
+    table = f"[limits]\nlengths = [{low}, {high}]\n[[configurations]]"
+    machine = region_machine(robot_from_toml(text.replace("[[configurations]]", table, 1)))
+    region = "[region]\nposition = [[-301, 401], [-301, 302], 0]\n[conditions]\nlimits = true\n"
+    found = arc_area(machine, question_from_toml(f"{region}[answer]\nkind = 'map'\n", machine))
+    assert found is not None
+    assert found.pieces == pieces
+
+
+@pytest.mark.parametrize(
+    ("modes", "slides", "box"),
+    [
+        ("--", "[0, 3]", None),
+        ("++", "[0, 3]", None),
+        ("--", "[0, 8]", "[-0.7, 0.6], [3.7, 7]"),
+        ("+-", "[-3, 6.7]", None),
+    ],
+)
+def test_the_area_of_a_biglide_both_ways(modes: str, slides: str, box: str | None) -> None:
+    """Chapter 14, with its L1 stated: 4, and rods of 5; by arcs and by paving, which agree."""
+    text = (
+        FILES["biglide"]
+        .read_text()
+        .replace("[[configurations]]", f"[limits]\nslides = {slides}\n[[configurations]]", 1)
+    )
+    machine = region_machine(robot_from_toml(text))
+    region = f"position = [{box or '[-10, 10], [-20, 20]'}, 0]"
+    answer = asked(machine, region, f"limits = true\nworking_modes = {list(modes)}", "kind = 'map'\nsteps = 16")
+    arcs = arc_area(machine, answer.question)
+    assert arcs is not None
+    assert answer.measures is not None
+    assert answer.measures[0] < arcs.area.lo <= arcs.area.hi < answer.measures[1]
+    assert arcs.area.width < Fraction(1, 10**9)
+    assert arcs.pieces == 1
+
+
+def test_the_area_of_a_biglide_is_that_of_an_integral() -> None:
+    """Both slides from 0 to 3: for each x the y between the upper of two half circles and 3 below the lower."""
+    text = (
+        FILES["biglide"].read_text().replace("[[configurations]]", "[limits]\nslides = [0, 3]\n[[configurations]]", 1)
+    )
+    machine = region_machine(robot_from_toml(text))
+    lines = "[region]\nposition = [[-10, 10], [-20, 20], 0]\n[conditions]\nlimits = true\nworking_modes = ['-', '-']\n"
+    found = arc_area(machine, question_from_toml(f"{lines}[answer]\nkind = 'map'\n", machine))
+    assert found is not None
+    count = 20000
+    total = 0.0
+    for k in range(count):
+        x = -1 + 2 * (k + 0.5) / count
+        heights = [(25 - (x - a) ** 2) ** 0.5 for a in (4, -4)]
+        total += max(0.0, 3 + min(heights) - max(heights)) * 2 / count
+    assert abs(total - float(found.area)) < 1e-4
+
+
 def _arcs(base: int, box: str) -> ArcArea:
     machine = bipod(base)
     text = f"[region]\nposition = [{box}, 0]\n[conditions]\nlimits = true\n[answer]\nkind = 'map'\n"
