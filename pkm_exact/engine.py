@@ -18,7 +18,7 @@ from pkm_exact.completeness.completeness_proof import (
     prove_complete,
     prove_inconsistent,
 )
-from pkm_exact.completeness.slices import MorePoses, more_poses
+from pkm_exact.completeness.pose_slices import MorePoses
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.failures.contradiction import attached
@@ -113,6 +113,8 @@ class _Run:
         """A proof that the poses are infinitely many over Q, where they are modulo two primes, or None."""
         if has_as_many_legs_as_freedoms(self.problem) and not self.policy.short_proofs:
             return None
+        from pkm_exact.completeness.slices import more_poses
+
         self.stages.enter("slices")
         return more_poses(self.problem, self.policy, self.stages.amount)
 

@@ -17,12 +17,11 @@ from flint import fmpq, fmpz_poly, nmod_mat, nmod_poly
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.claim import Claim, CompletenessRoute, RealMotion
 from pkm_exact.completeness.completeness_proof import CompletenessProof
-from pkm_exact.completeness.slices import MorePoses
+from pkm_exact.completeness.pose_slices import MorePoses
 from pkm_exact.digests import digest
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import evaluate, linear_quadrics, motion_quadrics, pose_quadrics, pose_quartics
-from pkm_exact.numeric.box_consistency import require_sound_boxes
 from pkm_exact.poses.pose_consistency import (
     has_degree_zero,
     require_apart,
@@ -53,6 +52,8 @@ def consistent(solution: Solution) -> Solution:
     for representation in _representations(solution):
         _require_representation(representation, solution.problem)
     if solution.isolated is not None:
+        from pkm_exact.numeric.box_consistency import require_sound_boxes
+
         counts = {"poses": len(solution.poses), "distinct": solution.distinct_solutions}
         require(solution.isolated.count == counts["distinct"], "the boxes are not as many as the solutions", **counts)
         require(len(solution.isolated.real) == counts["poses"], "real boxes are not as many as the poses", **counts)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pkm_exact.claim_wording import INCONSISTENT_NOTE, PARALLEL, REAL_MOTION, Subject, subject
-from pkm_exact.completeness.slices import MorePoses
+from pkm_exact.completeness.pose_slices import MorePoses
 from pkm_exact.formulations.turned import Turn
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.poses.self_motion import Cause, SelfMotion, TranslationalMotion

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
     from pkm_exact.completeness.completeness_proof import CompletenessProof
-    from pkm_exact.completeness.slices import MorePoses
+    from pkm_exact.completeness.pose_slices import MorePoses
     from pkm_exact.poses.arrays import PoseArrays
     from pkm_exact.poses.isolated_solutions import IsolatedSolutions
     from pkm_exact.poses.pose_representation import PoseRepresentation

@@ -182,7 +182,7 @@ EXACT: dict[str, Fault] = {
     ),
     "the trace form has too small a rank": (
         T,
-        "pkm_exact.completeness.completeness_proof",
+        "pkm_exact.algebra.exact_quotient",
         "exact_quotient",
         lambda quotient: replace(quotient, unknowns=tuple(matrix * 0 for matrix in quotient.unknowns)),
     ),
@@ -446,7 +446,7 @@ COMMANDS = {
     "pkm_exact.certify.build.certificate_bytes": ["solve", str(MODEL), "-o", "never.json"],
     "pkm_exact.certify.check.check_bytes": ["check", str(ROOT / "certs" / "3-rrr.json")],
     "pkm_exact.certify.pure.check_bytes": ["check", "--pure", str(ROOT / "certs" / "3-rrr.json")],
-    "pkm_exact.geometry.reader.read_robot": ["solve", str(MODEL)],
+    "pkm_exact.geometry.reader.read_any": ["solve", str(MODEL)],
     "pkm_exact.cli.report.report": ["solve", str(MODEL)],
 }
 
@@ -466,7 +466,7 @@ def test_any_failure_ends_with_a_report(
     report = _ends_with_a_report(COMMANDS[place], folder, capsys)
     assert report["kind"] == "unexpected"
     assert report["sentence"].startswith(type(error).__name__)
-    is_about_a_robot = COMMANDS[place][0] == "solve" and not place.endswith("read_robot")
+    is_about_a_robot = COMMANDS[place][0] == "solve" and not place.endswith("read_any")
     assert (report["problem"] is not None) == is_about_a_robot
 
 

@@ -16,6 +16,9 @@ from pkm_exact.cli.commands import COMMANDS
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "pkm_exact"
 HEAVY = ("sympy", "matplotlib", "flint", "numpy", "mpmath", "rich")
+PLANAR = ROOT / "models" / "3-rpr-merlet-p.toml"
+MOST_OWN = 140
+"""Modules of the package that are loaded to solve a planar robot, at most."""
 
 
 def _loaded(code: str) -> set[str]:
@@ -39,6 +42,23 @@ def test_the_versions_load_nothing_but_flint() -> None:
 
 def test_reading_a_model_loads_nothing_heavy() -> None:
     assert _loaded("import pkm_exact; pkm_exact.read_robot('models/rolland-6-6.toml')") == set()
+
+
+def test_solving_a_planar_robot_loads_flint_and_what_it_needs() -> None:
+    """Counted, as seconds depend on the machine: each module of the package costs about half a millisecond."""
+    script = (
+        "import sys; from pkm_exact.cli.main import main; code = main(['solve', sys.argv[1]]); "
+        "print(code, *sorted(sys.modules))"
+    )
+    done = subprocess.run([sys.executable, "-c", script, str(PLANAR)], capture_output=True, text=True, check=True)
+    code, *loaded = done.stdout.splitlines()[-1].split()
+    assert code == "0"
+    assert [name for name in HEAVY if name in loaded] == ["flint"]
+    own = [name for name in loaded if name.split(".")[0] == "pkm_exact"]
+    assert len(own) <= MOST_OWN, own
+    parts = {".".join(name.split(".")[:2]) for name in own}
+    unneeded = ("numeric", "certify", "systems", "regions", "pictures", "statics", "mobility")
+    assert not parts & {f"pkm_exact.{part}" for part in unneeded}
 
 
 def test_help_takes_little_processor_time() -> None:

@@ -15,7 +15,8 @@ from pkm_exact.certify.check import check_bytes
 from pkm_exact.claim import Claim, RealMotion
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.pose_bound import pose_bound
-from pkm_exact.completeness.slices import MorePoses, more_poses
+from pkm_exact.completeness.pose_slices import MorePoses
+from pkm_exact.completeness.slices import more_poses
 from pkm_exact.engine import solve
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.final_checks import consistent

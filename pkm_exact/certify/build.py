@@ -90,7 +90,7 @@ def _content(machine: Machine, configuration_name: str | None, solution: Solutio
 
 def is_of_version_1(solution: Solution) -> bool:
     """Whether version 1 has the words for what is proved of a robot with as many legs as freedoms."""
-    from pkm_exact.completeness.slices import MorePoses
+    from pkm_exact.completeness.pose_slices import MorePoses
 
     return solution.completeness_route in _ROUTES and not isinstance(solution.self_motion, MorePoses)
 

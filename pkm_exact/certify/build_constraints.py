@@ -19,7 +19,7 @@ from pkm_exact.certify.certificate_entries import (
 
 if TYPE_CHECKING:
     from pkm_exact.completeness.infinity import PointsAtInfinity
-    from pkm_exact.completeness.slices import MorePoses
+    from pkm_exact.completeness.pose_slices import MorePoses
     from pkm_exact.constraints.constraint import Constraint
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.problem import ForwardProblem
@@ -89,7 +89,7 @@ def infinity_entry(found: PointsAtInfinity) -> dict[str, Any]:
 def _self_motion(solution: Solution) -> dict[str, Any] | None:
     """Why the poses form a set of positive dimension, and whether the certificate proves a real motion."""
     from pkm_exact.claim import RealMotion
-    from pkm_exact.completeness.slices import MorePoses
+    from pkm_exact.completeness.pose_slices import MorePoses
     from pkm_exact.poses.self_motion import Cause, SelfMotion
 
     dependent = (Cause.DEPENDENT_LEGS, Cause.FEW, Cause.SIMILAR_ON_CONIC)

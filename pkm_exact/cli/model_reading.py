@@ -31,20 +31,28 @@ def announced_model(path: str) -> Robot | Mechanism:
 
 def announced_any(path: str) -> Robot | Mechanism | Linkage:
     """The same, or the mechanism of bodies and joints of a file of that kind (``geometry.reader.read_any``)."""
-    from pkm_exact.geometry.linkage import Linkage
+    from pkm_exact.geometry.kind_names import is_linkage, is_links
     from pkm_exact.geometry.reader import read_any
 
     found = read_any(path)
-    return found if isinstance(found, Linkage) else announced_model(path)
+    if is_links(found):
+        return announced_model(path)  # which refuses it
+    if not is_linkage(found):
+        _announce(found, path)
+    return found
 
 
 def announced_solvable(path: str) -> Robot | Mechanism | Links:
     """The robot that a model file describes, or the mechanism with passive bodies of a file of that kind."""
-    from pkm_exact.geometry.links import Links
+    from pkm_exact.geometry.kind_names import is_linkage, is_links
     from pkm_exact.geometry.reader import read_any
 
     found = read_any(path)
-    return found if isinstance(found, Links) else announced_model(path)
+    if is_linkage(found):
+        return announced_model(path)  # which refuses it
+    if not is_links(found):
+        _announce(found, path)
+    return found
 
 
 def announced_robot(path: str | PathLike[str], question: str) -> Robot:

@@ -11,7 +11,6 @@ import click
 from pkm_exact.cli import arguments, tolerance_report
 from pkm_exact.cli.main import ExitCode
 from pkm_exact.cli.methods import METHODS, report_uncertified, require_fitting, solved
-from pkm_exact.cli.solve_links import Request, solve_links_model
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
 
@@ -103,10 +102,12 @@ def solve(
     """
     _require_one([("--configuration", configuration), ("--lengths", lengths), ("--joints", joints)])
     from pkm_exact.cli.model_reading import announced_solvable
-    from pkm_exact.geometry.links import Links
+    from pkm_exact.geometry.kind_names import is_links
 
     robot = announced_solvable(model)
-    if isinstance(robot, Links):
+    if is_links(robot):
+        from pkm_exact.cli.solve_links import Request, solve_links_model
+
         asked = Request(model, configuration, joints, method, start, width, time_limit, output, layout, verbose)
         return solve_links_model(robot, asked)
     require_fitting(click.get_current_context(), method)
@@ -135,14 +136,14 @@ def solve(
         arguments.require_writable(Path(output), "-o")
 
     from pkm_exact.interactive.progress import Progress
-    from pkm_exact.numeric.uncertified import UncertifiedSolution
+    from pkm_exact.solution import Solution
 
     with Progress(verbose=verbose) as progress:
         try:
             solution = solved(problem, method, formulation, start, width, time_limit, progress)
         except InputError as error:
             raise InputError(f"{model}: {error}") from None
-    if isinstance(solution, UncertifiedSolution):
+    if not isinstance(solution, Solution):
         return report_uncertified(robot, name, solution, layout, output, verbose=verbose)
     if tolerances is not None:
         with Progress(verbose=verbose) as progress:

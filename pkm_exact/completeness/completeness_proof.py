@@ -23,19 +23,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from pkm_exact.algebra.elimination_trace import Trace
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
-from pkm_exact.algebra.exact_quotient import exact_quotient
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.quotient import standard_monomials
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.claim import CompletenessRoute
-from pkm_exact.completeness.closed_section import ClosedSection, closed_section
-from pkm_exact.completeness.conditions import Conditions
-from pkm_exact.completeness.infinity import PointsAtInfinity
-from pkm_exact.completeness.short_proof import short_proof
 from pkm_exact.failures.contradiction import require
 from pkm_exact.formulations.motion_variety import SE3
 from pkm_exact.geometry.problem import ForwardProblem
@@ -45,6 +41,11 @@ from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.self_motion import is_of_legs
 from pkm_exact.poses.singularity import are_isolated
 from pkm_exact.stages import Watch
+
+if TYPE_CHECKING:
+    from pkm_exact.completeness.closed_section import ClosedSection
+    from pkm_exact.completeness.conditions import Conditions
+    from pkm_exact.completeness.infinity import PointsAtInfinity
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,18 @@ def elimination_system(problem: ForwardProblem, section: ClosedSection | None = 
     """The system that is eliminated over Q; the closed section is found unless it is given."""
     if has_as_many_legs_as_freedoms(problem):
         return SE3().formulate(problem).system
-    return (section or closed_section(Conditions.of(problem))).system
+    if section is None:
+        _, section = _closed(problem)
+    return section.system
+
+
+def _closed(problem: ForwardProblem) -> tuple[Conditions, ClosedSection]:
+    """What the robot asks, and its closed section; planar robots with three legs need not load either."""
+    from pkm_exact.completeness.closed_section import closed_section
+    from pkm_exact.completeness.conditions import Conditions
+
+    conditions = Conditions.of(problem)
+    return conditions, closed_section(conditions)
 
 
 def prove_complete(
@@ -114,8 +126,7 @@ def prove_complete(
         return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)
     section = None
     if goes_shortly(problem, policy):
-        conditions = Conditions.of(problem)
-        section = closed_section(conditions)
+        conditions, section = _closed(problem)
         proof = _shortly(representation, problem, policy, conditions, section)
         if proof is not None:
             return proof
@@ -139,6 +150,8 @@ def _shortly(
     section: ClosedSection,
 ) -> CompletenessProof | None:
     """A proof without an elimination, in which multiple poses count twice."""
+    from pkm_exact.completeness.short_proof import short_proof
+
     degree = representation.univariate.degree
     found: Multiplicities = ()
     if not are_isolated(representation, problem, policy):
@@ -161,6 +174,8 @@ def _by_elimination(
         return _elimination_proof(basis, bound)
     found = least_multiplicities(representation, problem, policy)
     if total_of(found) < bound:
+        from pkm_exact.algebra.exact_quotient import exact_quotient
+
         quotient = exact_quotient(basis, policy.dimension_limit)
         if quotient is None:
             return None
@@ -177,8 +192,12 @@ def _by_elimination(
 
 def prove_inconsistent(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> CompletenessProof | None:
     """A proof that no complex pose exists, a short one or by an elimination over Q that ends in a constant, or None."""
+    section = None
     if goes_shortly(problem, policy):
-        proof = short_proof(Conditions.of(problem), 0, 0, policy)
+        from pkm_exact.completeness.short_proof import short_proof
+
+        conditions, section = _closed(problem)
+        proof = short_proof(conditions, 0, 0, policy, section)
         if proof is not None:
             return CompletenessProof(proof.route, 0, infinity=proof.infinity)
     found = (

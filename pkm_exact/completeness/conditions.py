@@ -8,12 +8,12 @@ from math import lcm
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from pkm_exact.completeness.rigid_motions import Quadric
 from pkm_exact.constraints.constraint import SquareForm
 from pkm_exact.constraints.form import SIZE, integral
 from pkm_exact.digests import digest
 
 if TYPE_CHECKING:
+    from pkm_exact.completeness.rigid_motions import Quadric
     from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.motions.motion import Motion
 

@@ -16,13 +16,12 @@ from random import Random
 from typing import TYPE_CHECKING, Final
 
 from pkm_exact.algebra.groebner import OutOfReachError
-from pkm_exact.claim import RealMotion
 from pkm_exact.completeness.closed_section import rank_of
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.pose_bound import pose_bound
+from pkm_exact.completeness.pose_slices import MorePoses, Slice, shifted, with_forms
 from pkm_exact.constraints.constraint import Role
 from pkm_exact.constraints.form import SIZE, Form
-from pkm_exact.constraints.linear import LinearForm
 from pkm_exact.errors import ReconstructionError
 from pkm_exact.formulations.base import rational
 from pkm_exact.formulations.registry import formulation_codes
@@ -34,7 +33,6 @@ from pkm_exact.stages import Amount, Stages
 
 if TYPE_CHECKING:
     from pkm_exact.policy import Policy
-    from pkm_exact.poses.pose_representation import PoseRepresentation
     from pkm_exact.stages import Watch
 
 LIFTING_BITS: Final = 1 << 15
@@ -51,63 +49,6 @@ ROOT_BITS: Final = 64
 _POSITION, _ROTATION = (6, 4, 5), tuple(range(7, 16))
 
 
-@dataclass(frozen=True)
-class Slice:
-    """The poses at which the last further form has a value.
-
-    Attributes
-    ----------
-    constant : Fraction
-        That value.
-    representation : PoseRepresentation
-        Complex poses, verified.
-    real : int
-        Number of real ones; 0 if not all are proved to be simple.
-    """
-
-    constant: Fraction
-    representation: PoseRepresentation
-    real: int
-
-    @property
-    def count(self) -> int:
-        """Number of distinct complex poses."""
-        return self.representation.univariate.degree
-
-
-@dataclass(frozen=True)
-class MorePoses:
-    """A proof that the poses form a set of positive dimension.
-
-    Attributes
-    ----------
-    forms : tuple of Form
-        Further linear forms that are 0; the last one has the constants of the slices as values.
-    slices : tuple of Slice
-        By increasing constant.
-    bound : int
-        The most isolated poses of the robot with all further forms but the last.
-    """
-
-    forms: tuple[Form, ...]
-    slices: tuple[Slice, ...]
-    bound: int
-
-    @property
-    def count(self) -> int:
-        """Number of distinct poses."""
-        return sum(found.count for found in self.slices)
-
-    @property
-    def real(self) -> RealMotion:
-        """Proved if there are more real poses, simple in their slices, than the bound."""
-        return RealMotion.PROVED if sum(found.real for found in self.slices) > self.bound else RealMotion.OPEN
-
-    def problem_of(self, problem: ForwardProblem, found: Slice) -> ForwardProblem:
-        """The robot with the forms of a slice as further constraints."""
-        return _with_forms(problem, (*self.forms[:-1], _shifted(self.forms[-1], found.constant)))
-
-
 def more_poses(problem: ForwardProblem, policy: Policy, watch: Watch | None = None) -> MorePoses | None:
     """More poses than can be isolated, or None if none of the forms tried shows them.
 
@@ -122,7 +63,7 @@ def more_poses(problem: ForwardProblem, policy: Policy, watch: Watch | None = No
     random = Random(policy.seed_for(problem.digest, "slices"))
     fixed: tuple[Form, ...] = ()
     for _ in range(problem.motion.dimension):
-        extended = _with_forms(problem, fixed)
+        extended = with_forms(problem, fixed)
         bound = pose_bound(Conditions.of(extended)).least
         for form in _candidates(random, extended):
             finite, slices = _Cut(extended, form, bound, policy, watch).slices()
@@ -132,7 +73,7 @@ def more_poses(problem: ForwardProblem, policy: Policy, watch: Watch | None = No
                 break
         else:
             return None
-        fixed = (*fixed, _shifted(form, _step(problem) * random.randint(1, 3)))
+        fixed = (*fixed, shifted(form, _step(problem) * random.randint(1, 3)))
     return None
 
 
@@ -198,7 +139,7 @@ class _Cut:
 
     def _at(self, constant: Fraction) -> list[Slice] | None:
         """The slice in a list, which is empty if it has no poses; None if it has infinitely many."""
-        problem = _with_forms(self.problem, (_shifted(self.form, constant),))
+        problem = with_forms(self.problem, (shifted(self.form, constant),))
         try:
             policy = replace(self.policy, lifting_bits=min(self.policy.lifting_bits, LIFTING_BITS))
             start, representation = PoseSearch(problem, formulation_codes()[0], policy, Stages()).found()
@@ -251,12 +192,3 @@ def _step(problem: ForwardProblem) -> Fraction:
 
 def _form(entries: dict[int, int]) -> Form:
     return tuple(Fraction(entries.get(place, 0)) for place in range(SIZE))
-
-
-def _shifted(form: Form, constant: Fraction) -> Form:
-    """The form less a constant."""
-    return (*form[:-1], form[-1] - constant)
-
-
-def _with_forms(problem: ForwardProblem, forms: Sequence[Form]) -> ForwardProblem:
-    return replace(problem, constraints=(*problem.constraints, *map(LinearForm, forms)))

@@ -8,9 +8,9 @@ from typing import Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.joint_types import JOINT_TYPES, JointGeometry, SixCoordinates
+from pkm_exact.geometry.kind_names import CHAINS_KIND
 from pkm_exact.wording import shown
 
-CHAINS_KIND: Final = "chains"
 MOST_BODIES: Final = 64
 MOST_FREEDOMS: Final = 128
 """Bounds what a model file asks for."""

@@ -14,11 +14,11 @@ from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Matrix
+from pkm_exact.geometry.kind_names import LINKS_KIND
 from pkm_exact.geometry.mechanism import LockedValues, Mechanism
 from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import shown
 
-LINKS_KIND: Final = "links"
 GROUND: Final = "base"
 """What constraints call the body that stands still."""
 MOST_BODIES: Final = 32

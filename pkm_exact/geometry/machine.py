@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
+from pkm_exact.geometry.kind_names import CONSTRAINTS_KIND
 from pkm_exact.geometry.limits import Limits
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion import Motion
@@ -18,8 +19,6 @@ from pkm_exact.wording import printable, shown
 if TYPE_CHECKING:
     from pkm_exact.geometry.nominal_pose import NominalPose
 
-CONSTRAINTS_KIND: Final = "constraints"
-"""The kind of mechanisms that are declared by their constraints."""
 LISTED: Final = 20
 """Configurations named in a message; of more there is said that there are more."""
 

@@ -18,8 +18,9 @@ from pkm_exact.geometry.angle_degrees import StandIn
 from pkm_exact.geometry.chains import JointValue
 from pkm_exact.geometry.drives import Drive
 from pkm_exact.geometry.inverse import UNIT_METRIC, Matrix, Metric
+from pkm_exact.geometry.kind_names import CONSTRAINTS_KIND
 from pkm_exact.geometry.limits import Limits
-from pkm_exact.geometry.machine import CONSTRAINTS_KIND, Machine
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rational import MAX_COMPUTED_DIGITS, bounded, parse_rational
 from pkm_exact.motions.motion import Motion

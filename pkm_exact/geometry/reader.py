@@ -12,7 +12,7 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chain_reader import CHAIN_TABLES, exact_cranks, read_chains, read_joints
@@ -20,17 +20,9 @@ from pkm_exact.geometry.configurations import read_configuration
 from pkm_exact.geometry.fields import known_keys, label, required
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.joints import parse_metric
+from pkm_exact.geometry.kind_names import CHAINS_KIND, CONSTRAINTS_KIND, LINKS_KIND, is_linkage, is_links
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
-from pkm_exact.geometry.linkage import CHAINS_KIND, Linkage
-from pkm_exact.geometry.linkage_reader import read_linkage_tables
-from pkm_exact.geometry.links import LINKS_KIND, Links
-from pkm_exact.geometry.links_reader import read_links_tables
-from pkm_exact.geometry.machine import CONSTRAINTS_KIND
-from pkm_exact.geometry.machines.machine_kinds import MACHINES, machine_kind
-from pkm_exact.geometry.machines.machine_reader import read_machine
-from pkm_exact.geometry.mechanism import Mechanism
-from pkm_exact.geometry.mechanism_reader import read_mechanism
 from pkm_exact.geometry.nominal_pose import read_nominal
 from pkm_exact.geometry.polar_vectors import PolarVector, with_polar_vectors
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational
@@ -39,6 +31,12 @@ from pkm_exact.geometry.tolerances import read_tolerances
 from pkm_exact.geometry.written_digits import finest_digit
 from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.wording import printable, shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.linkage import Linkage
+    from pkm_exact.geometry.links import Links
+    from pkm_exact.geometry.machines.machine_kind import MachineKind
+    from pkm_exact.geometry.mechanism import Mechanism
 
 __all__ = ["parse_rational", "read_robot", "robot_from_toml"]
 
@@ -49,6 +47,7 @@ MAX_BYTES: Final = 1 << 16
 _MAX_RUN: Final = 640  # digits in a row; below every limit that Python can be set to
 _MAX_DOTS: Final = 200  # dots in a line; the parser's time grows steeply with the parts of a dotted key
 _MAX_TEXT: Final = 2000
+_DECLARED: Final = (CONSTRAINTS_KIND, LINKS_KIND, CHAINS_KIND)
 _TOP: Final = (
     "schema",
     "name",
@@ -124,7 +123,7 @@ def read_linkage(path: str | os.PathLike[str]) -> Linkage:
     6
     """
     found = read_any(path)
-    if not isinstance(found, Linkage):
+    if not is_linkage(found):
         raise InputError(
             f"{printable(os.fspath(path))}: kind: {found.kind} is not a mechanism of bodies and joints; give a file of "
             f"kind {CHAINS_KIND}"
@@ -141,7 +140,7 @@ def read_links(path: str | os.PathLike[str]) -> Links:
         As ``read_robot``, and if the file is of another kind.
     """
     found = read_any(path)
-    if not isinstance(found, Links):
+    if not is_links(found):
         raise InputError(
             f"{printable(os.fspath(path))}: kind: {found.kind} has no passive bodies; give a file of kind {LINKS_KIND}"
         )
@@ -151,12 +150,12 @@ def read_links(path: str | os.PathLike[str]) -> Links:
 def robot_from_toml(text: str) -> Robot | Mechanism:
     """The robot that the text of a model file describes."""
     found = any_from_toml(text)
-    if isinstance(found, Links):
+    if is_links(found):
         raise InputError(
             f"kind: {LINKS_KIND} is a mechanism with passive bodies, and only certify-poses solve takes those; give a "
             "robot with one moving body"
         )
-    if isinstance(found, Linkage):
+    if is_linkage(found):
         raise InputError(
             f"kind: {CHAINS_KIND} is a mechanism of bodies and joints in one configuration, which has no forward "
             "kinematics here; ask certify-poses mobility about its freedoms"
@@ -173,7 +172,7 @@ def any_from_toml(text: str) -> Robot | Mechanism | Linkage | Links:
     found = _noted(_described(table), polar)
     if nominal is None:
         return found
-    if isinstance(found, Linkage | Links):
+    if is_linkage(found) or is_links(found):
         raise InputError(f"nominal: a file of kind {found.kind} has no pose to choose; take the table out")
     return replace(found, nominal=read_nominal(nominal, found.motion, found.metric))
 
@@ -181,7 +180,7 @@ def any_from_toml(text: str) -> Robot | Mechanism | Linkage | Links:
 def _metric(table: dict[str, Any]) -> Metric:
     """That of the coordinates in a file; whatever is wrong with it is said by those who read it."""
     kind = table.get("kind")
-    machine = machine_kind(kind) if isinstance(kind, str) and kind not in KINDS else None
+    machine = _machine(kind) if isinstance(kind, str) and kind not in KINDS else None
     try:
         return parse_metric(table["metric"], PLANAR)
     except (KeyError, InputError):
@@ -193,7 +192,7 @@ def _noted(
 ) -> Robot | Mechanism | Linkage | Links:
     """The same with what stands in for angles of its geometry."""
     stand_ins = tuple(stand_in for vector in polar for stand_in in vector.stand_ins.values())
-    if not stand_ins or isinstance(found, Linkage | Links):
+    if not stand_ins or (is_linkage(found) or is_links(found)):
         return found
     if isinstance(found, Robot):
         return replace(found, stand_ins=(*found.stand_ins, *stand_ins))
@@ -206,23 +205,52 @@ def _described(table: dict[str, Any]) -> Robot | Mechanism | Linkage | Links:
     if isinstance(schema, bool) or schema != SCHEMA:
         raise InputError(f"schema: {shown(schema)} is unknown; write schema = {SCHEMA}")
     kind_name = label(table, "kind", "")
-    machine = None if kind_name in KINDS and "actuators" not in table else machine_kind(kind_name)
-    known = (*KINDS, *MACHINES, CONSTRAINTS_KIND, LINKS_KIND, CHAINS_KIND)
-    if machine is None and kind_name not in known:
+    machine = None if kind_name in KINDS and "actuators" not in table else _machine(kind_name)
+    if machine is None and kind_name not in (*KINDS, *_DECLARED):
+        from pkm_exact.geometry.machines.machine_kinds import MACHINES
+
+        known = (*KINDS, *MACHINES, *_DECLARED)
         raise InputError(f"kind: {shown(kind_name)} is unknown; use one of: {', '.join(known)}")
     head = {
         "name": label(table, "name", ""),
         "unit": label(table, "unit", ""),
         "source": label(table, "source", "", limit=_MAX_TEXT),
     }
+    if kind_name in _DECLARED:
+        return _declared(table, head, kind_name)
+    if machine is not None:
+        from pkm_exact.geometry.machines.machine_reader import read_machine
+
+        return read_machine(table, head, machine)
+    return _robot(table, head, kind_name)
+
+
+def _machine(name: str) -> MachineKind | None:
+    """The machine of a name; the machines are loaded for it."""
+    if name in _DECLARED:
+        return None
+    from pkm_exact.geometry.machines.machine_kinds import machine_kind
+
+    return machine_kind(name)
+
+
+def _declared(table: dict[str, Any], head: dict[str, str], kind_name: str) -> Mechanism | Linkage | Links:
+    """A mechanism that the file declares part by part."""
     if kind_name == CHAINS_KIND:
+        from pkm_exact.geometry.linkage_reader import read_linkage_tables
+
         return read_linkage_tables(table, head)
     if kind_name == LINKS_KIND:
+        from pkm_exact.geometry.links_reader import read_links_tables
+
         return read_links_tables(table, head)
-    if kind_name == CONSTRAINTS_KIND:
-        return read_mechanism(table, head)
-    if machine is not None:
-        return read_machine(table, head, machine)
+    from pkm_exact.geometry.mechanism_reader import read_mechanism
+
+    return read_mechanism(table, head)
+
+
+def _robot(table: dict[str, Any], head: dict[str, str], kind_name: str) -> Robot:
+    """A robot with legs between joints."""
     known_keys(table, _TOP, "")
     kind = KINDS[kind_name]
     metric = parse_metric(table["metric"], kind.motion) if "metric" in table else UNIT_METRIC

@@ -11,9 +11,7 @@ from typing import TYPE_CHECKING
 
 from pkm_exact.claim_wording import DIGITS, NEARBY, NEARBY_MOVES, NEARBY_SINGULAR
 from pkm_exact.geometry.angle_degrees import stand_in_sentences
-from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.rational import finite_decimal
-from pkm_exact.geometry.robot import Robot
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
@@ -59,10 +57,10 @@ def nominal_notes(robot: Machine | None, poses: Sequence[Pose]) -> tuple[str, ..
 
 def stand_in_notes(robot: Machine | None, configuration: str | None) -> tuple[str, ...]:
     """What stands in for angles that were given in degrees, in the geometry and the configuration."""
-    if not isinstance(robot, Robot | Mechanism):
+    if robot is None:
         return ()
     chosen = [entry for entry in robot.configurations if entry.name == configuration]
-    found = (*robot.stand_ins, *(stand_in for entry in chosen for stand_in in entry.stand_ins))
+    found = [stand_in for part in (robot, *chosen) for stand_in in getattr(part, "stand_ins", ())]
     return stand_in_sentences(found)
 
 

@@ -9,14 +9,12 @@ from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from html import escape
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Final
 
 from pkm_exact.claim import Claim
 from pkm_exact.claim_wording import meaning, subject
 from pkm_exact.geometry.machine import Machine, locked_at
-from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.indices.index import Output
@@ -156,6 +154,8 @@ def _joint_rows(robot: Robot, axes: str) -> tuple[tuple[str, ...], list[tuple[st
 
 def _constraint_rows(robot: Machine) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """The constraints of a mechanism, each with what it asks."""
+    from pkm_exact.geometry.mechanism import Mechanism
+
     if not isinstance(robot, Mechanism):
         return ("constraint", "type", "actuated"), []
     drives = {part.constraint: f"by {drive.name}" for drive in robot.drives for part in drive.parts}
@@ -212,6 +212,8 @@ def _number(value: Fraction) -> str:
 
 
 def _text(value: str) -> str:
+    from html import escape
+
     return escape(printable(value))
 
 

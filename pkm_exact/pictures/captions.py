@@ -6,7 +6,8 @@ from math import floor, log10
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.claim_wording import INCONSISTENT_NOTE, subject
-from pkm_exact.geometry.machine import CONSTRAINTS_KIND, locked_at
+from pkm_exact.geometry.kind_names import CONSTRAINTS_KIND
+from pkm_exact.geometry.machine import locked_at
 from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
 from pkm_exact.pictures.drawn_robot import PoseView, Scene

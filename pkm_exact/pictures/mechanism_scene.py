@@ -14,7 +14,8 @@ from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.drives import coefficients
-from pkm_exact.geometry.machine import CONSTRAINTS_KIND, Machine
+from pkm_exact.geometry.kind_names import CONSTRAINTS_KIND
+from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.machines.triangle import along
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem

@@ -13,9 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
-from math import isqrt
+from math import isfinite, isqrt
 
-import numpy as np
 from flint import arb, arb_mat
 
 from pkm_exact.balls import unit_matrix
@@ -24,6 +23,7 @@ from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem, points
 from pkm_exact.poses.boxes import Enclosures
+from pkm_exact.poses.singular_vectors import singular_vectors
 from pkm_exact.poses.wrenches import BallRows
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
@@ -164,11 +164,11 @@ def largest_singular_value(matrix: arb_mat) -> arb | None:
     """
     width, exponent = matrix.ncols(), _exponent(matrix)
     matrix = matrix * arb(2) ** -exponent
-    middle = np.array([float(entry.mid()) for entry in matrix.entries()]).reshape(matrix.nrows(), width)
-    if not np.isfinite(middle).all():
+    middle = [float(entry.mid()) for entry in matrix.entries()]
+    if not all(map(isfinite, middle)):
         return None
-    left, _, right = np.linalg.svd(middle)
-    u, v = arb_mat(left.tolist()), arb_mat(right.T.tolist())
+    left, right = singular_vectors([middle[start : start + width] for start in range(0, len(middle), width)])
+    u, v = arb_mat(left), arb_mat(right)
     entries = (u.transpose() * matrix * v).entries()
     diagonal = range(0, min(len(entries), width * width), width + 1)
     largest = reduce(arb.max, [abs(entries[place]) for place in diagonal])

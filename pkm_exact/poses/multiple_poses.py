@@ -19,11 +19,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations, islice
 from random import Random
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpz_poly, nmod_mat, nmod_poly
 
-from pkm_exact.algebra.exact_quotient import ExactQuotient
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.formulations.motion_variety import MOTION_COORDINATES
@@ -33,6 +32,9 @@ from pkm_exact.policy import Policy
 from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.poses.singularity import are_isolated, singularity
 from pkm_exact.poses.wrenches import least_multiplicity
+
+if TYPE_CHECKING:
+    from pkm_exact.algebra.exact_quotient import ExactQuotient
 
 Multiplicities: TypeAlias = tuple[tuple[fmpz_poly, int], ...]
 """Irreducible factors of the eliminant, with the multiplicity of the poses at their roots."""

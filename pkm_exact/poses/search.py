@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final
 
-from pkm_exact.algebra.equations import SystemEquations
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.lifting import Acceptance, lift_by_newton, lift_by_primes
 from pkm_exact.algebra.newton import Equations
@@ -24,7 +23,6 @@ from pkm_exact.errors import InternalContradictionError, ReconstructionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import pose_quartics
 from pkm_exact.policy import Policy
-from pkm_exact.poses.chart_system import chart_system
 from pkm_exact.poses.expected_size import expected_bits
 from pkm_exact.poses.modular_start import Start, StartSearch
 from pkm_exact.poses.parameters import Parameters, choose_parameters
@@ -122,6 +120,9 @@ class PoseSearch:
         seed = self.policy.seed_for(self.problem.digest, prime)
         equations: Equations = StudyEquations(self.problem, chosen.chart, seed)
         if pose_quartics(self.problem):
+            from pkm_exact.algebra.equations import SystemEquations
+            from pkm_exact.poses.chart_system import chart_system
+
             equations = SystemEquations(chart_system(self.problem, chosen.chart), seed)
         form = [chosen.form[k] for k in free_coordinates(chosen.chart, self.problem)]
         bits = self.policy.lifting_bits
