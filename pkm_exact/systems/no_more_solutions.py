@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pkm_exact.algebra.elimination_trace import Trace
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
-from pkm_exact.algebra.groebner import OutOfReachError, UnluckyPrimeError
+from pkm_exact.algebra.groebner import GroebnerBasis, OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.quotient import standard_monomials
 from pkm_exact.algebra.representation import UnivariateRepresentation
@@ -23,9 +23,9 @@ from pkm_exact.policy import Policy
 from pkm_exact.stages import Watch
 from pkm_exact.systems.algebra_multiplicities import algebra_multiplicities
 from pkm_exact.systems.bezout import groups_with, product_of_degrees, total_degrees
-from pkm_exact.systems.falling_degrees import with_falls_only
 from pkm_exact.systems.points_at_infinity import filling_points
 from pkm_exact.systems.regularity import Weights, derivatives, has_full_rank, total_weight, weights_at
+from pkm_exact.systems.shortened_elimination import with_basis_only, with_falls_only
 from pkm_exact.systems.system_claims import SystemRoute
 from pkm_exact.systems.system_solution import ListProof, Steps
 from pkm_exact.systems.top_forms import elements_of, is_empty_in_space, number_of, room_for
@@ -101,7 +101,7 @@ def prove_by_search(
     points = filling_points(system, found.weight, policy)
     if points is not None:
         return ListProof(SystemRoute.COUNTING_AT_INFINITY, found.weight, found.weights, infinity=points)
-    proofs = (_by_elimination(trace, found, system, policy, watch) for trace in _traces(system, policy))
+    proofs = (_by_elimination(basis, found, system, policy, watch) for basis in _eliminations(system, policy))
     return next((proof for proof in proofs if proof is not None), None)
 
 
@@ -109,15 +109,16 @@ def prove_inconsistent(system: PolynomialSystem, policy: Policy, watch: Watch | 
     """A proof that there is no complex solution, or None."""
     if is_empty_in_space(system, policy):
         return ListProof(SystemRoute.MODULAR_RANK, 0)
-    for trace in _traces(system, policy):
+    for modular in _eliminations(system, policy):
+        trace = with_falls_only(modular)
         with suppress(UnluckyPrimeError):
-            basis = exact_basis(system, with_falls_only(trace, system.monomials), watch)
+            basis = exact_basis(system, trace, watch)
             if 0 in basis.leading_monomials:
                 return ListProof(SystemRoute.EXACT_ELIMINATION, 0, elimination=_steps(basis))
     return None
 
 
-def _traces(system: PolynomialSystem, policy: Policy) -> Iterator[Trace]:
+def _eliminations(system: PolynomialSystem, policy: Policy) -> Iterator[GroebnerBasis]:
     """Eliminations modulo primes at which the solutions are finitely many, each that differs from those before once."""
     elimination = Elimination(system, policy)
     traces: list[Trace | None] = []
@@ -128,21 +129,21 @@ def _traces(system: PolynomialSystem, policy: Policy) -> Iterator[Trace]:
             return
         traces.append(trace)
         if trace is not None:
-            yield trace
+            yield image.basis
 
 
 def _by_elimination(
-    trace: Trace, found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None
+    modular: GroebnerBasis, found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None
 ) -> ListProof | None:
     """The proof by polynomials over Q that follow: where degrees fall, or else by the whole algebra."""
     size, weight = len(system.unknowns), found.weight
     try:
-        basis = exact_basis(system, with_falls_only(trace, system.monomials), watch)
+        basis = exact_basis(system, with_falls_only(modular), watch)
         room = number_of(size, elements_of(basis), policy.dimension_limit, policy, system.digest)
         require(room is None or room >= weight, "there is room for fewer solutions than were verified", room=room or 0)
         if room == weight:
             return ListProof(SystemRoute.EXACT_ELIMINATION, weight, found.weights, elimination=_steps(basis))
-        return _by_algebra(exact_basis(system, trace, watch), found, policy)
+        return _by_algebra(exact_basis(system, with_basis_only(modular), watch), found, policy)
     except (UnluckyPrimeError, OutOfReachError) as error:
         if isinstance(error, MoreSolutionsError):
             raise
