@@ -1,11 +1,13 @@
 """p-adic lifting keeps three promises at every precision: the equations hold, and the form keeps the value T."""
 
 from itertools import pairwise
+from random import Random
 
 import pytest
+from flint import Ordering, fmpz_mpoly_ctx
 from samples import images, katsura, random_quadrics, system
 
-from pkm_exact.algebra.equations import SystemEquations
+from pkm_exact.algebra.equations import PointProducts, SystemEquations
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.newton import is_regular, lift, precision_schedule
 from pkm_exact.algebra.residue_ring import ResidueRing, coefficients, combination
@@ -88,3 +90,23 @@ def test_a_multiple_solution_is_not_lifted() -> None:
 def test_simple_solutions_are_regular() -> None:
     modular = _modular(katsura(3), (1, 2, -3, 4))
     assert is_regular(SystemEquations(katsura(3), seed=4), modular.eliminant, modular.shape())
+
+
+def test_reductions_by_products_are_remainders() -> None:
+    """Long numbers, every length up to three times the degree."""
+    random = Random(5)
+    for degree, bits in ((12, 12000), (13, 11000), (44, 3100)):
+        modulus = random.getrandbits(bits) | 1 << bits - 1 | 1
+        ring = ResidueRing(modulus, (*(random.randrange(modulus) for _ in range(degree)), 1))
+        for length in (degree - 1, degree, degree + 1, 2 * degree - 2, 2 * degree - 1, 2 * degree, 3 * degree):
+            value = ring.convert([*(random.choice((0, random.randrange(modulus))) for _ in range(length)), 1])
+            assert ring.reduce(value) == value % ring.relation
+
+
+def test_values_summed_over_the_integers_are_values() -> None:
+    x, y = fmpz_mpoly_ctx.get(("x", "y"), Ordering.degrevlex).gens()
+    ring = ResidueRing((2**61 - 1) ** 2, (3, 0, 7, 1))
+    point = [ring.convert([1, 2, 3]), ring.convert([5, 0, 1])]
+    for polynomial in (x**5 * y**2 - 3 * x * y + 7, x - y, x**0 * 4, x - x):
+        products = PointProducts(ring, point)
+        assert products.value(polynomial) == ring.reduce(products.evaluate(polynomial))

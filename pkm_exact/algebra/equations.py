@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from random import Random
 
-from flint import fmpz_mod_poly, fmpz_mpoly
+from flint import fmpz_mod_poly, fmpz_mpoly, fmpz_poly
 
-from pkm_exact.algebra.residue_ring import ResidueRing
+from pkm_exact.algebra.residue_ring import ResidueRing, integer_polynomial
 from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring
 
 
@@ -70,6 +70,34 @@ class PointProducts:
         self.ring = ring
         self.point = point
         self.known: dict[tuple[int, ...], fmpz_mod_poly] = {(0,) * len(point): ring.one}
+        self.integral: dict[tuple[int, ...], fmpz_poly] = {}
+        self.products: dict[tuple[int, ...], fmpz_poly] = {}
+
+    def value(self, polynomial: fmpz_mpoly) -> fmpz_mod_poly:
+        """A polynomial with small coefficients at the point, summed over Z and reduced once."""
+        total = fmpz_poly()
+        for exponents, coefficient in polynomial.to_dict().items():
+            total += self.product(tuple(map(int, exponents))) * int(coefficient)
+        return self.ring.reduce(self.ring.polynomials(total))
+
+    def product(self, exponents: tuple[int, ...]) -> fmpz_poly:
+        """A monomial at the point, as the product over Z of its two halves."""
+        if exponents not in self.products:
+            first, left = [0] * len(exponents), sum(exponents) // 2
+            for index, exponent in enumerate(exponents):
+                first[index] = min(exponent, left)
+                left -= first[index]
+            rest = tuple(a - b for a, b in zip(exponents, first, strict=True))
+            self.products[exponents] = self.half(rest) * self.half(tuple(first)) if any(first) else self.half(rest)
+        return self.products[exponents]
+
+    def half(self, exponents: tuple[int, ...]) -> fmpz_poly:
+        """A monomial at the point, reduced, as a polynomial over Z."""
+        if exponents not in self.integral:
+            if sum(exponents) > 1:
+                self.known[exponents] = self.ring.reduce(self.ring.polynomials(self.product(exponents)))
+            self.integral[exponents] = integer_polynomial(self.monomial(exponents))
+        return self.integral[exponents]
 
     def evaluate(self, polynomial: fmpz_mpoly) -> fmpz_mod_poly:
         """A polynomial at the point."""

@@ -5,8 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Final
 
 from flint import fmpz_mod_ctx, fmpz_mod_poly, fmpz_mod_poly_ctx, fmpz_poly
+
+_LEAST_DEGREE: Final = 12
+_LEAST_SIZE: Final = 1 << 17
+"""Bits of an element from which a reduction by products is quicker."""
 
 
 @lru_cache(maxsize=8)
@@ -44,13 +49,32 @@ class ResidueRing:
         """The polynomial with the given coefficients, lowest degree first."""
         return self.polynomials([int(value) for value in coefficients])
 
+    @cached_property
+    def _inverse(self) -> tuple[fmpz_poly, fmpz_poly]:
+        """The power series 1 / (q reversed), and q without its leading term."""
+        size = len(self.relation_coefficients) - 1
+        series = self.relation.reverse().inverse_series_trunc(size - 1)
+        return integer_polynomial(series), fmpz_poly(list(self.relation_coefficients[:size]))
+
     def reduce(self, value: fmpz_mod_poly) -> fmpz_mod_poly:
-        """The remainder modulo q."""
-        return value % self.relation
+        """The remainder modulo q.
+
+        The quotient by q reversed is that of power series: for long numbers two products are less than a division.
+        """
+        size = len(self.relation_coefficients) - 1
+        excess = int(value.degree()) - size
+        if excess < 0:
+            return value
+        if size < _LEAST_DEGREE or excess > size - 2 or size * self.modulus.bit_length() < _LEAST_SIZE:
+            return value % self.relation
+        inverse, low = self._inverse
+        high = integer_polynomial(value.right_shift(size).reverse(degree=size - 2))
+        quotient = self.polynomials(high.mul_low(inverse, size - 1)).reverse(degree=size - 2)
+        return value.truncate(size) - self.polynomials(integer_polynomial(quotient).mul_low(low, size))
 
     def multiply(self, left: fmpz_mod_poly, right: fmpz_mod_poly) -> fmpz_mod_poly:
         """The reduced product."""
-        return left * right % self.relation
+        return self.reduce(left * right)
 
 
 def coefficients(value: fmpz_mod_poly) -> list[int]:

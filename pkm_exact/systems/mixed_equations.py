@@ -49,7 +49,7 @@ class MixedEquations:
     def values(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
         """The left-hand sides at a point."""
         products = PointProducts(ring, point)
-        values = [products.evaluate(polynomial) for polynomial in self.system.polynomials]
+        values = [products.value(polynomial) for polynomial in self.system.polynomials]
         return [combination(row, values) for row in self.weights]
 
     def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
