@@ -14,7 +14,7 @@ from doc_samples import blocks, commands
 
 import pkm_exact
 from pkm_exact.cli.commands import COMMANDS, certify_poses, command
-from pkm_exact.cli.main import COMPLETION, PROGRAM, ExitCode, main
+from pkm_exact.cli.main import COMPLETIONS, PROGRAM, ROOTS, ExitCode, main
 
 ROOT = Path(__file__).parent.parent
 REFERENCE = ROOT / "docs" / "cli.md"
@@ -114,10 +114,11 @@ def test_one_version_everywhere() -> None:
 
 def _completions(words: str, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> list[str]:
     """What the program answers when bash asks how the last of the words goes on."""
-    monkeypatch.setenv(COMPLETION, "bash_complete")
+    program = words.split(" ")[0]
+    monkeypatch.setenv(COMPLETIONS[program], "bash_complete")
     monkeypatch.setenv("COMP_WORDS", words)
     monkeypatch.setenv("COMP_CWORD", str(len(words.split(" ")) - 1))
-    assert main([]) == 0
+    assert main([], program) == 0
     return capsys.readouterr().out.split()
 
 
@@ -134,6 +135,10 @@ def _completions(words: str, monkeypatch: pytest.MonkeyPatch, capsys: Capture) -
         ("certify-poses solve missing.toml --configuration ", []),
         ("certify-poses solve --configuration ", []),
         ("certify-poses completion ", ["plain,bash", "plain,zsh", "plain,fish"]),
+        ("certify-roots che", ["plain,check", "file,che"]),
+        ("certify-roots circle.ms --or", ["plain,--oracle"]),
+        ("certify-roots solve circle.ms --oracle m", ["plain,msolve"]),
+        ("certify-roots check cert", ["file,cert"]),
     ],
 )
 def test_completion(words: str, expected: list[str], monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
@@ -141,7 +146,7 @@ def test_completion(words: str, expected: list[str], monkeypatch: pytest.MonkeyP
 
 
 def test_a_foreign_question_is_no_question(monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
-    monkeypatch.setenv(COMPLETION, "powershell_complete")
+    monkeypatch.setenv(COMPLETIONS[PROGRAM], "powershell_complete")
     assert main(["--version"]) == 0
     assert capsys.readouterr().out.startswith("certify-poses")
 
@@ -165,12 +170,13 @@ def test_completion_in_bash(tmp_path: Path) -> None:
     assert "_certify_poses_completion" in lines[1]
 
 
+@pytest.mark.parametrize("program", [PROGRAM, ROOTS])
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
-def test_completion_scripts_are_valid(shell: str, tmp_path: Path, capsys: Capture) -> None:
-    assert main(["completion", shell]) == 0
+def test_completion_scripts_are_valid(shell: str, program: str, tmp_path: Path, capsys: Capture) -> None:
+    assert main(["completion", shell], program) == 0
     script = capsys.readouterr().out
-    assert f"{COMPLETION}={shell}_complete" in script
-    assert PROGRAM in script
+    assert f"{COMPLETIONS[program]}={shell}_complete" in script
+    assert program in script
     if shutil.which(shell):
         path = tmp_path / "script"
         path.write_text(script)

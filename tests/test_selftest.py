@@ -22,7 +22,7 @@ def test_everything_passes_here(capsys: Capture) -> None:
     assert main(["selftest"]) == 0
     out, err = capsys.readouterr()
     assert err == ""
-    assert out.count(" ok: ") == len(_outcomes()) == 7
+    assert out.count(" ok: ") == len(_outcomes()) == 8
     assert "FAILED" not in out
     assert out.endswith("everything works\n")
 

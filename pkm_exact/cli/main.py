@@ -23,8 +23,8 @@ from pkm_exact.wording import printable
 PROGRAM = "certify-poses"
 ROOTS = "certify-roots"
 """The program for polynomial systems."""
-COMPLETION = "_CERTIFY_POSES_COMPLETE"
-"""The environment variable by which a shell's completion script asks."""
+COMPLETIONS = {PROGRAM: "_CERTIFY_POSES_COMPLETE", ROOTS: "_CERTIFY_ROOTS_COMPLETE"}
+"""The environment variables by which a shell's completion script asks."""
 PROBLEM = "pkm_exact.problem"
 """Where a command leaves in its context which problem it is about, for the report of a failure."""
 
@@ -83,7 +83,8 @@ def main(arguments: Sequence[str] | None = None, program: str = PROGRAM) -> int:
     return code
 
 
-def _commands(program: str) -> click.Group:
+def commands_of(program: str) -> click.Group:
+    """The commands of a program."""
     if program == ROOTS:
         from pkm_exact.cli.roots_commands import certify_roots
 
@@ -94,9 +95,9 @@ def _commands(program: str) -> click.Group:
 
 
 def _run(words: list[str], program: str) -> int:
-    group = _commands(program)
+    group = commands_of(program)
     complain = partial(_complain, program=program)
-    if COMPLETION in os.environ and _answered():
+    if COMPLETIONS[program] in os.environ and _answered(program):
         return ExitCode.DONE
     try:
         # click's own main() would turn a broken pipe into exit code 1, which here means a rejected certificate.
@@ -122,10 +123,10 @@ def _run(words: list[str], program: str) -> int:
         return complain("no answer: the memory is exhausted", ExitCode.NO_ANSWER)
 
 
-def _answered() -> bool:
+def _answered(program: str) -> bool:
     from pkm_exact.cli.shell_completion import answered
 
-    return answered()
+    return answered(program)
 
 
 def _invoked(command: click.Command, context: click.Context) -> int:

@@ -5,12 +5,17 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from pkm_exact.cli import arguments
 from pkm_exact.cli.check_command import check_all, files_in
 from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.shell_completion import roots_completion
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 _OPTIONS_OF_THE_PROGRAM = ("-h", "--help", "--version")
 
@@ -23,6 +28,12 @@ class _SolvingUnlessTold(click.Group):
         if args and args[0] not in self.commands and args[0] not in _OPTIONS_OF_THE_PROGRAM:
             args = ["solve", *args]
         return super().parse_args(context, args)
+
+    def shell_complete(self, context: click.Context, incomplete: str) -> list[CompletionItem]:
+        """The commands, and files: the first word may be the system's."""
+        from click.shell_completion import CompletionItem
+
+        return [*super().shell_complete(context, incomplete), CompletionItem(incomplete, type="file")]
 
 
 def _show_version(context: click.Context, _option: click.Parameter, wanted: bool) -> None:
@@ -145,3 +156,6 @@ def check(paths: tuple[str, ...], pure: bool) -> int:
       certify-roots check --pure circle.json
     """
     return check_all(list(files_in(paths)), pure=pure)
+
+
+certify_roots.add_command(roots_completion)

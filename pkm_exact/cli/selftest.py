@@ -14,7 +14,8 @@ _COLUMN: Final = 24
 
 @click.command()
 def selftest() -> int:
-    """Check that this installation works: solve two small robots, certify them, and refuse forged certificates.
+    """Check that this installation works: solve two small robots and a polynomial system, certify them, and
+    refuse forged certificates.
 
     Takes a few seconds and needs no files. Prints the versions, one line per check, and which optional packages are
     there.

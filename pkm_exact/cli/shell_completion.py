@@ -1,4 +1,4 @@
-"""The command ``completion``, and what a shell asks for when the tabulator is pressed."""
+"""The commands ``completion``, and what a shell asks for when the tabulator is pressed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
-from pkm_exact.cli.main import COMPLETION, PROGRAM, ExitCode
+from pkm_exact.cli.main import COMPLETIONS, PROGRAM, ROOTS, ExitCode, commands_of
 from pkm_exact.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,27 +31,41 @@ def completion(shell: str) -> int:
     bash: put the first into a file that ~/.bashrc sources. zsh: a file _certify-poses in a folder of $fpath. fish: the
     file ~/.config/fish/completions/certify-poses.fish.
     """
-    sys.stdout.write(_completer(shell).source() + "\n")
+    sys.stdout.write(_completer(shell, PROGRAM).source() + "\n")
     return ExitCode.DONE
 
 
-def answered() -> bool:
+@click.command("completion", short_help="Completion of commands and options in your shell.")
+@click.argument("shell", type=click.Choice(SHELLS))
+def roots_completion(shell: str) -> int:
+    """Print the script that makes SHELL complete commands, options and files.
+
+    \b
+    Examples:
+      certify-roots completion bash > certify-roots.bash
+      certify-roots completion zsh
+
+    Files as for certify-poses completion, with certify-roots in their names.
+    """
+    sys.stdout.write(_completer(shell, ROOTS).source() + "\n")
+    return ExitCode.DONE
+
+
+def answered(program: str) -> bool:
     """Answer the question of a completion script, if it was one that started the program."""
-    shell, _, instruction = os.environ.get(COMPLETION, "").partition("_")
+    shell, _, instruction = os.environ.get(COMPLETIONS[program], "").partition("_")
     if shell not in SHELLS or instruction not in ("source", "complete"):
         return False
-    completer = _completer(shell)
+    completer = _completer(shell, program)
     sys.stdout.write((completer.source() if instruction == "source" else completer.complete()) + "\n")
     return True
 
 
-def _completer(shell: str) -> click.shell_completion.ShellComplete:
+def _completer(shell: str, program: str) -> click.shell_completion.ShellComplete:
     from click.shell_completion import BashComplete, FishComplete, ZshComplete
 
-    from pkm_exact.cli.commands import certify_poses
-
     known = dict(zip(SHELLS, (BashComplete, ZshComplete, FishComplete), strict=True))
-    return known[shell](certify_poses, {}, PROGRAM, COMPLETION)
+    return known[shell](commands_of(program), {}, program, COMPLETIONS[program])
 
 
 def configurations(context: click.Context, _: click.Parameter, incomplete: str) -> list[CompletionItem]:

@@ -1,4 +1,4 @@
-"""Whether an installation works: two small robots solved, certified, checked, and forgeries refused.
+"""Whether an installation works: two small robots and a system solved, certified, checked, and forgeries refused.
 
 Needs nothing but the package. Every check is against what must be so by mathematics: a pose that the robot was built
 around, the degree 40 (6 in the plane) of the variety of motions, and certificates that two checkers replay.
@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
+    from pkm_exact.interactive.system_answers import SystemSolution
     from pkm_exact.solution import Solution
 
 _PLANAR: Final = """
@@ -41,6 +42,8 @@ platform = { joints = [[0, 0, 0], [1, 0, 1], [0, 1, 1], [-1, 0, 1], [0, -1, 0], 
 name = "home"
 pose = { position = [1, -1, 2], quaternion = [3, 1, -1, 2] }
 """
+_SYSTEM: Final = ("x^2 + y^2 = 4", "x*y = 1")
+"""A circle and a hyperbola: four points, all real."""
 _PRIME: Final = 2**62 - 57
 _PLANAR_HOME: Final = (Fraction(5), Fraction(4), Fraction(0))
 _SPATIAL_HOME: Final = (Fraction(1), Fraction(-1), Fraction(2))
@@ -76,6 +79,7 @@ def run_checks() -> Iterator[Check]:
         ("6-6, exact", robots.exact_is_right),
         ("6-6, krawczyk", robots.krawczyk_is_right),
         ("both methods agree", robots.methods_agree),
+        ("polynomial system", robots.system_is_right),
         ("certificates accepted", robots.certificates_are_accepted),
         ("forgeries rejected", robots.forgeries_are_rejected),
     )
@@ -112,7 +116,7 @@ def _determinant(rows: list[list[int]]) -> int:
 
 
 class _Robots:
-    """The two robots; what is computed of them is kept for the checks that follow."""
+    """The two robots and the system; what is computed of them is kept for the checks that follow."""
 
     @cached_property
     def planar_robot(self) -> Robot:
@@ -175,21 +179,49 @@ class _Robots:
                 _require(a.lo <= b.hi and b.lo <= a.hi, f"the boxes of pose {number} do not meet")
         return f"{len(exact)} poses, box by box"
 
+    @cached_property
+    def system(self) -> SystemSolution:
+        from pkm_exact.interactive.system_answers import solve_system
+
+        return solve_system(_SYSTEM)
+
+    def system_is_right(self) -> str:
+        """As many solutions as degrees admit; at each real one the first equation holds in interval arithmetic."""
+        found = self.system
+        _require(str(found.claim) == "complete", f"the claim is {found.claim}")
+        _require(found.complex_solutions == len(found) == 4, f"{found.complex_solutions} solutions, {len(found)} real")
+        for number, solution in enumerate(found, 1):
+            squares = [sorted((value.lo**2, value.hi**2)) for value in solution.values]
+            low, high = (sum(square[end] for square in squares) for end in (0, 1))
+            _require(low <= 4 <= high, f"solution {number} is not on the circle")
+        return "4 solutions, 4 real, complete"
+
     def certificates_are_accepted(self) -> str:
-        for content in self.certificates:
+        contents = [*self.certificates, self._system_content()]
+        for content in contents:
             for name, status in _verdicts(content):
-                _require(status == "accepted", f"{name} says {status} of the certificate by {content['method']}")
-        plain = sum(map(_is_for_the_plain_checker, self.certificates))
-        return f"{len(self.certificates)} by the checker, {plain} by the plain one as well"
+                of = content.get("method", "certify-roots")
+                _require(status == "accepted", f"{name} says {status} of the certificate by {of}")
+        plain = sum(map(_is_for_the_plain_checker, contents))
+        return f"{len(contents)} by the checker, {plain} by the plain one as well"
+
+    def _system_content(self) -> dict[str, Any]:
+        content: dict[str, Any] = json.loads(self.system.certificate().data)
+        return content
 
     def forgeries_are_rejected(self) -> str:
-        """A pose too few, a pose elsewhere, another robot: each with a digest that fits."""
+        """A pose too few, a pose elsewhere, another robot, another system: each with a digest that fits."""
         from pkm_exact.certify.build import sealed
 
         forgeries = 0
-        for content in self.certificates[:2]:
-            for forge in (_without_a_pose, _with_a_pose_elsewhere, _of_another_robot):
-                forged = json.loads(json.dumps(content))
+        robot = (_without_a_pose, _with_a_pose_elsewhere, _of_another_robot)
+        cases = [
+            *((content, robot) for content in self.certificates[:2]),
+            (self._system_content(), (_of_another_system,)),
+        ]
+        for content, forges in cases:
+            for forge in forges:
+                forged = {key: value for key, value in json.loads(json.dumps(content)).items() if key != "digest"}
                 forge(forged)
                 for name, status in _verdicts(sealed(forged)):
                     _require(status == "rejected", f"{name} says {status} of one: {forge.__doc__}")
@@ -220,7 +252,7 @@ def _verdicts(content: dict[str, Any]) -> Iterator[tuple[str, str]]:
 
 def _is_for_the_plain_checker(content: dict[str, Any]) -> bool:
     """It takes seconds for 40 boxes around complex solutions; a self-test is to be quick."""
-    return bool(content["method"] == "exact")
+    return content.get("method") != "krawczyk"
 
 
 def _without_a_pose(content: dict[str, Any]) -> None:
@@ -239,3 +271,8 @@ def _of_another_robot(content: dict[str, Any]) -> None:
     """A joint is moved."""
     joint = content["robot"]["platform"][0]
     joint[0] = str(Fraction(joint[0]) + 1)
+
+
+def _of_another_system(content: dict[str, Any]) -> None:
+    """A constant is changed."""
+    content["polynomials"][0][-1] = "-5"
