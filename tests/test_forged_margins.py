@@ -1,0 +1,21 @@
+"""Both checkers keep to the margins of what they compute."""
+
+import pytest
+from certificate_tools import both_resealed, last_line
+from forged_margins import MARGINS, huge
+
+from pkm_exact.certify import pure
+from pkm_exact.certify.build import canonical_bytes, sealed
+
+
+@pytest.mark.parametrize("name", MARGINS)
+def test_a_margin(name: str) -> None:
+    make, status = MARGINS[name]
+    answer = both_resealed(make())
+    assert answer.status == status, last_line(answer)
+
+
+def test_the_plain_checker_writes_no_longer_numbers_than_python_does() -> None:
+    answer = pure.check_bytes(canonical_bytes(sealed(huge())))
+    assert answer.status == "too-large"
+    assert answer.lines[-1].startswith("boxes: a coordinate of more than")
