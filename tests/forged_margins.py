@@ -10,7 +10,7 @@ from typing import Any
 
 from certificate_subjects import Content, subject
 from flint import fmpq_poly, fmpz_poly
-from forged_neighbours import _circle, _near, _turned
+from forged_neighbours import ANY, _circle, _near, _robot_1, _turned
 from forged_poses import held, single
 from forged_representations import fit_real_poses, representation_through, set_representation
 from forgeries import TRIANGLE, UNTURNED, on_circle
@@ -266,7 +266,30 @@ SINGLE: dict[str, Case] = {
     ),
 }
 
-MARGINS: dict[str, Case] = {**ROOTS, **CELLS, **BOUNDS, **POWERS, **SINGLE}
+# Legs that are one modulo a prime
+
+
+def _alike(number: int, first: int, second: int) -> Content:
+    """Legs of which two agree modulo 2^127 - 1, said to be dependent; the form of one of them begins with 0."""
+    p = (1 << 127) - 1
+    pose = Pose((1, 0, 0, 0), (0, 2, 0, 0))
+    flat = number == 3
+    base, platform = ([(x, y, 0 if flat else z) for x, y, z in side[:number]] for side in (ANY, (*ANY[1:], (3, 1, 4))))
+    base[first], platform[first] = (0, 0, 0), (-1, 3, 0 if flat else 5)
+    base[second], platform[second] = (p, 2 * p, 0), (2 * p - 1, 3 - p, 0 if flat else 5)
+    return _robot_1(pose, base, platform)
+
+
+MODULO: dict[str, Case] = {
+    f"{number} legs, {first + 1} and {second + 1} are one modulo a prime": (
+        partial(_alike, number, first, second),
+        REJECTED,
+    )
+    for number in (3, 6)
+    for first, second in ((0, number - 1), (number - 1, 0), (1, 0))
+}
+
+MARGINS: dict[str, Case] = {**ROOTS, **CELLS, **BOUNDS, **POWERS, **SINGLE, **MODULO}
 
 
 # What is larger than Python writes

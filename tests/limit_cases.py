@@ -195,7 +195,7 @@ def _eliminations() -> Iterator[tuple[str, Path_, Any, str]]:
         yield DOUBLE, ("elimination",), partial(_with_step, ["999999"] * length), status
     for row in ("0 0 0 0 0 0 0 0 0", "0 1 2 3 4 5", "1", "9"):
         yield DOUBLE, ("elimination",), partial(_with_step, [row]), "accepted"
-    for row in ("999999", "100000 0", "190909", "0 6", "0 9", "0 10", "0 15", "0 0 0 0 0 0 0 0 15"):
+    for row in ("999999", "100000 0", "190909", "0 6", "0 9", "0 10", "0 15", "0 0 6", "0 0 0 0 0 0 0 0 15"):
         yield DOUBLE, ("elimination",), partial(_with_step, [row]), "rejected"
     for row in (
         "1000000",

@@ -794,7 +794,7 @@ class Multiples:
         quotient -= quotient >> (self.length - 1) << self.length
         if quotient * self.value != value:
             return False
-        return size(digits(quotient, self.k)) * size(self.h0) < 1 << (self.k - 1)
+        return size(digits(quotient, self.k)) * size(self.h0) < 1 << (self.k - 2)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
