@@ -12,7 +12,9 @@ from forged_motions import ANY, OTHERS
 from held_mechanisms import PLACED, Content, Pose, listing, moving
 from mechanism_certificates import mechanism_content
 
+from pkm_exact.certify.build_constraints import constraint_entry
 from pkm_exact.constraints.constraint import Constraint
+from pkm_exact.constraints.distance import Distance
 
 Case = tuple[Callable[[], Content], str]
 REJECTED, ACCEPTED, MALFORMED = "rejected", "accepted", "malformed"
@@ -41,6 +43,8 @@ def _general(at: Pose, number: int, square: int = 0) -> list[Constraint]:
     return [at.linear([square, *((7 * n + k * k * (n + 2)) % 11 - 5 for k in range(15))]) for n in range(1, number + 1)]
 
 
+AXES = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+ORIGIN = (0, 0, 0)
 BOUNDS: list[tuple[str, Callable[[Pose], list[Constraint]], int]] = [
     ("spatial", lambda at: _planes(at, 1), 8),
     ("spatial", lambda at: _planes(at, 5), 8),
@@ -80,7 +84,12 @@ BOUNDS: list[tuple[str, Callable[[Pose], list[Constraint]], int]] = [
     ("translation", lambda at: _cylinders(at, 1), 2),
     ("translation", lambda at: _cylinders(at, 2), 4),
     ("schoenflies", lambda at: _cylinders(at, 1), 4),
+    *(("spatial", lambda at, n=n: [at.carries(n, ANY[0]), *_planes(at, 3)], 16) for n in AXES),  # type: ignore[misc]
+    *(("spatial", lambda at, n=n: [at.in_plane(n, ANY[0]), *_carried(at, 3)], 16) for n in AXES),  # type: ignore[misc]
+    ("spatial", lambda at: [at.distance(ANY[0], ORIGIN), *_planes(at, 3)], 16),
+    ("spatial", lambda at: [at.distance(ORIGIN, ANY[0]), *_carried(at, 3)], 16),
 ]
+"""The last ones have one column alone of u, C or |C|^2 that counts."""
 
 
 def _at_most(kind: str, make: Callable[[Pose], list[Constraint]], number: int) -> Content:
@@ -203,6 +212,24 @@ def _constraint(**entries: Any) -> Content:
     return _robot(constraints=[first | entries, *others])
 
 
+def _form_off(step: int) -> Content:
+    form = mechanism_content("H4")["robot"]["constraints"][0]["forms"][0]
+    return _constraint(forms=[[*form[:-1], str(Fraction(form[-1]) + step)]])
+
+
+def _long(digits: int) -> Content:
+    """A leg whose form has a constant with so many digits below; no pose has its length."""
+    a, b, c = 10**599 + 1, 10**598 + 3, 10**597 + 9
+    rest = digits - len(str((a * b * c) ** 2))
+    joints = (
+        (Fraction(1, a), Fraction(1, b), Fraction(1, c)),
+        (Fraction(1, 10 ** (rest // 2)), Fraction(0), Fraction(0)),
+    )
+    leg = Distance(*joints, Fraction(1, 97 if rest % 2 else 1))
+    metric = tuple(int(g) for g in mechanism_content("H4")["robot"]["metric"])
+    return _constraint(**{k: v for k, v in constraint_entry(leg, metric).items() if k != "name"})  # type: ignore[arg-type]
+
+
 def _of_lines(path: str, value: Any) -> Content:
     """Planes of the plane, with another entry of the first one."""
     content = mechanism_content("planar lines")
@@ -242,6 +269,11 @@ READ: dict[str, Case] = {
     "65 constraints": (partial(_many, 65), MALFORMED),
     "too fine a grid": (partial(_read, box_exponent=8193), "too-large"),
     "forms that are missing": (partial(_constraint, forms=[]), REJECTED),
+    **{f"a form with {step} more of 1": (partial(_form_off, step), REJECTED) for step in (1, -1)},
+    **{
+        f"a form of {digits} digits": (partial(_long, digits), status)
+        for digits, status in ((4000, REJECTED), (4001, "too-large"))
+    },
     **{
         f"real is {value!r}": (
             lambda value=value: (lambda c: c | {"self_motion": c["self_motion"] | {"real": value}})(  # type: ignore[misc]
@@ -258,10 +290,39 @@ def _boxes_of(robot: str) -> Content:
     return mechanism_content("H4, boxes") | {"robot": mechanism_content(robot)["robot"]}
 
 
+def _regular(kind: str, constraints: Callable[[Pose], list[Constraint]]) -> Content:
+    at = KINDS[kind]
+    claim = {"claim": "complete", "completeness_route": "product-bound"} if kind == "translation" else {}
+    return listing(kind, [at], constraints(at)) | claim
+
+
+REGULAR: dict[str, Case] = {
+    "a translation held by three planes": (partial(_regular, "translation", lambda at: _planes(at, 3)), ACCEPTED),
+    "a translation held by planes along the axes": (
+        partial(_regular, "translation", lambda at: [at.in_plane(n, ANY[0]) for n in AXES]),
+        ACCEPTED,
+    ),
+    **{
+        f"turns held by angles, between axes {i + 1} and {j + 1} one of them": (
+            partial(
+                _regular,
+                "spherical",
+                lambda at, i=i, j=j: [
+                    at.angle(AXES[i], AXES[j]),
+                    *(at.angle(n, m) for n, m in zip(OTHERS[:2], ANY, strict=False)),
+                ],
+            ),
+            ACCEPTED,
+        )
+        for i in range(3)
+        for j in range(3)
+    },
+}
+
 BOXES: dict[str, Case] = {
     "boxes of a robot with a leg too many": (partial(_boxes_of, "contradictory leg"), REJECTED),
     "boxes of a robot with a redundant leg": (partial(_boxes_of, "redundant leg"), ACCEPTED),
     "boxes of a robot with a leg too few": (partial(_boxes_of, "few legs"), REJECTED),
 }
 
-NUMBERS: dict[str, Case] = {**dict(_bounds()), **dict(_vanishes()), **SYMMETRIC, **READ, **BOXES}
+NUMBERS: dict[str, Case] = {**dict(_bounds()), **dict(_vanishes()), **SYMMETRIC, **READ, **REGULAR, **BOXES}

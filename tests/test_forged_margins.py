@@ -3,14 +3,15 @@
 import pytest
 from certificate_tools import both_resealed, last_line
 from forged_margins import MARGINS, huge
+from forged_tolerances import TIGHT
 
 from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 
 
-@pytest.mark.parametrize("name", MARGINS)
+@pytest.mark.parametrize("name", [*MARGINS, *TIGHT])
 def test_a_margin(name: str) -> None:
-    make, status = MARGINS[name]
+    make, status = (MARGINS | TIGHT)[name]
     answer = both_resealed(make())
     assert answer.status == status, last_line(answer)
 
