@@ -1408,23 +1408,52 @@ def is_factor(a: Polynomial, b: Polynomial) -> bool:
 def has_dependent_lines(a: Polynomial, representation: Representation, legs: Sequence[Leg], g: Metric) -> bool:
     """Whether the determinant of the leg lines is 0 at all roots of a factor a of h0, over Q.
 
-    It is a form of degree 4 in (E, F) for each leg, so a polynomial in T of degree d = 4 legs (D - 1) at most, and of
-    some size S at most; with l the leading coefficient of a, l^d times its remainder has integer coefficients below
-    S (2 size(a))^d. If they are 0 modulo a number greater than this, they are 0.
+    It is a polynomial in T of a degree d and of a size S at most; with l the leading coefficient of a, l^d times its
+    remainder has integer coefficients of a size of at most S size(a)^d. If they are 0 modulo a number greater than
+    this, they are 0.
     """
-    quantity = size_of_quantities(representation, g)
-    bound = 720
-    for leg in legs:
-        scale, *joints = cleared([Fraction(1), *leg.base, *leg.platform])
-        arm, line = 3 * size(joints[3:]) * quantity, (scale + size(joints)) * quantity
-        bound *= scale * line + 2 * arm * line
-    bound *= (2 * size(a)) ** (4 * len(legs) * (len(representation.h) - 2))
-    n = next(prime_exponents(bound.bit_length() + 1))
+    bound = determinant(leg_lines(legs, sized_motion(representation, g)))
+    n = next(prime_exponents((bound.size * size(a) ** bound.degree).bit_length() + 1))
     try:
         placed = motion_modulo(representation, g, a, (1 << n) - 1)
     except ValueError:  # the leading coefficient has no inverse
         return False
     return not determinant(leg_lines(legs, placed)).polynomial()
+
+
+@dataclass(frozen=True)
+class Sized:
+    """Bounds of the size and the degree of a polynomial, which what is computed from polynomials keeps to."""
+
+    size: int
+    degree: int
+
+    def __add__(self, other: Sized) -> Sized:
+        return Sized(self.size + other.size, max(self.degree, other.degree))
+
+    __sub__ = __add__
+
+    def __mul__(self, other: Sized) -> Sized:
+        return Sized(self.size * other.size, self.degree + other.degree)
+
+    def __rmul__(self, scalar: int) -> Sized:
+        return Sized(abs(scalar) * self.size, self.degree)
+
+    @property
+    def ring(self) -> type[Sized]:
+        """Where it is from."""
+        return Sized
+
+    @classmethod
+    def element(cls, polynomial: Polynomial) -> Sized:
+        """The bounds of a polynomial."""
+        return cls(size(polynomial), len(polynomial))
+
+
+def sized_motion(representation: Representation, g: Metric) -> Motion:
+    """Bounds of the quantities of the motion."""
+    x = [Sized.element(numerator) for numerator in representation.numerators]
+    return motion(x[:4], x[4:], g)
 
 
 def doubled(factor: Polynomial, representation: Representation) -> dict[Ends, int]:

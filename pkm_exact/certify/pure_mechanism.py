@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from itertools import chain, combinations, pairwise
-from math import factorial, gcd
+from math import gcd
 from random import Random
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
@@ -547,10 +547,6 @@ class Slope(NamedTuple):
     position: list[int]
     rotation: list[list[int]]
 
-    def size(self) -> int:
-        """The sum of all absolute values."""
-        return pure.size([self.square, *self.turned, *self.position, *(x for row in self.rotation for x in row)])
-
 
 def slope_of(form: Form, g: pure.Metric) -> Slope:
     """The integers that give the derivative."""
@@ -603,17 +599,6 @@ class Slopes:
             pairs = zip(derivative_row(f, placed, twists), derivative_row(h, placed, twists), strict=True)
             rows.append([left * x - right * y for x, y in pairs])
         return rows
-
-    def bound(self, quantity: int) -> int:
-        """A bound for the sizes of all entries, where those of the quantities of the motion have one."""
-        found = [2 * slope.size() * quantity**2 for slope in self.linear]
-        for (a, b), f, h, value in self.quadrics:
-            found.append(2 * quantity**3 * (a * f.size() + b * pure.size(value) * h.size()))
-        return max(found, default=1)
-
-    def degree(self) -> int:
-        """The degree of all entries in (E, F), at most."""
-        return 6 if self.quadrics else 4
 
 
 def mixed(rows: Sequence[Sequence[Any]], number: int, random: Random) -> list[list[Any]]:
@@ -728,29 +713,34 @@ def large_determinants(
 ) -> Iterator[pure.Polynomial]:
     """The determinant of the rows, or those of each row and the bordered ones, modulo a.
 
-    A determinant is a polynomial in T of degree d and some size S at most; l^d times its remainder, l being the leading
-    coefficient of a, has integer coefficients below S (2 size(a))^d. They are computed modulo a greater number.
+    A determinant is a polynomial in T of a degree d and of a size S at most; l^d times its remainder, l being the
+    leading coefficient of a, has integer coefficients of a size of at most S size(a)^d. They are computed modulo a
+    greater number.
     """
     m = slopes.dimension
-    entry = slopes.bound(pure.size_of_quantities(representation, slopes.robot.metric)) * RANDOM * slopes.number
-    degree = m * slopes.degree() * max(len(representation.h) - 2, 0)
-    spend_on_determinants(m, len(a), degree * pure.size(a).bit_length())
-    bound = factorial(m) * entry**m * (2 * pure.size(a)) ** degree
+    pure.spend(slopes.number * m << m)
+    bounds = determinants(slopes, pure.sized_motion(representation, slopes.robot.metric), rank)
+    bound = max(each.size * pure.size(a) ** each.degree for each in bounds)
     for n in pure.prime_exponents(bound.bit_length() + 1):
         modulus = (1 << n) - 1
         if gcd(a[-1], modulus) == 1:
             break
-    pure.spend(slopes.number * m << m)
     spend_on_determinants(m, len(a), n)
     placed = pure.motion_modulo(representation, slopes.robot.metric, a, modulus)
+    for each in determinants(slopes, placed, rank):
+        spend_on_determinants(m, len(a), n)
+        yield each.polynomial()
+
+
+def determinants(slopes: Slopes, placed: pure.Motion, rank: int | None) -> Iterator[Any]:
+    """That of the rows, or those of each row and the bordered ones."""
     rows = slopes.at(placed)
     if rank is None:
-        yield pure.determinant(rows).polynomial()
+        yield pure.determinant(rows)
         return
     border = bordered(slopes, placed, rank)
     for row in rows:
-        spend_on_determinants(m, len(a), n)
-        yield pure.determinant([*border, row]).polynomial()
+        yield pure.determinant([*border, row])
 
 
 # ---------------------------------------------------------------------------------------------------------------------
