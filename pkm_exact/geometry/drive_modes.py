@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Final
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
@@ -23,6 +24,8 @@ from pkm_exact.geometry.mechanism import Mechanism, is_square
 from pkm_exact.geometry.surds import Surd, quadratic_roots
 from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, Mode, SlideMode, half_tangent
 from pkm_exact.wording import shown
+
+_CURVED: Final = "its equation at a pose is not linear in cosine and sine; no answer"
 
 
 @dataclass(frozen=True)
@@ -82,6 +85,9 @@ def _drive_modes(mechanism: Mechanism, drive: Drive, position: Vector, rotation:
             "has values of its own at a pose; ask about a mechanism with one actuator in every leg"
         )
 
+    if drive.is_crank and drive.parts[0].field == "direction":
+        raise InputError(f"{shown(drive.name)}: {_CURVED}")
+
     def at(first: int, second: int = 0) -> Fraction:
         value = (Fraction(first), Fraction(second)) if drive.is_crank else Fraction(first)
         return residual(mechanism, drive, value, position, rotation)
@@ -90,7 +96,7 @@ def _drive_modes(mechanism: Mechanism, drive: Drive, position: Vector, rotation:
         forth, back, up, down = at(1, 0), at(-1, 0), at(0, 1), at(0, -1)
         centre, corner = at(0, 0), at(1, 1)
         if up + down - 2 * centre != drive.weight * (forth + back - 2 * centre) or corner != forth + up - centre:
-            raise InputError(f"{shown(drive.name)}: its equation at a pose is not linear in cosine and sine; no answer")
+            raise InputError(f"{shown(drive.name)}: {_CURVED}")
         return _crank(drive, (forth - back) / 2, (up - down) / 2, (forth + back) / 2)
     start, forth, back = at(0), at(1), at(-1)
     a, b = (forth + back) / 2 - start, (forth - back) / 4

@@ -238,6 +238,8 @@ class Mechanism(Machine):
         """
         values = {}
         for constraint in self.constraints:
+            if any(not any(getattr(constraint, field)) for field in _directions(constraint)):
+                continue  # a drive gives it
             forms = constraint.forms(self.metric)
             if constraint.value_field is not None and len(forms) == 1:
                 rest = value_at(forms[0], position, rotation, self.metric)
@@ -309,9 +311,14 @@ def _refuse_equal(where: str, names: Sequence[str]) -> None:
         seen.add(name)
 
 
+def _directions(constraint: Constraint) -> list[str]:
+    """The fields that are directions."""
+    directions = Role.BASE_DIRECTION, Role.PLATFORM_DIRECTION
+    return [field for field, role in constraint.fields.items() if role in directions]
+
+
 def _require_directions(constraint: Constraint, among: Iterable[str], where: str) -> None:
     """Refuse a direction that is 0, in some of the fields."""
     for field in among:
-        role = constraint.fields[field]
-        if role in (Role.BASE_DIRECTION, Role.PLATFORM_DIRECTION) and not any(getattr(constraint, field)):
+        if field in _directions(constraint) and not any(getattr(constraint, field)):
             raise InputError(f"{where}.{field}: is 0; give a direction that is not")

@@ -18,6 +18,7 @@ from pkm_exact.geometry.machines.pentapod import PENTAPOD
 from pkm_exact.geometry.machines.planar_legs import n_prr, n_rpr, n_rrr
 from pkm_exact.geometry.machines.point_slides import BIGLIDE, PMAR, V_SHAPE, X_Y
 from pkm_exact.geometry.machines.reconfigurable import P_FUS
+from pkm_exact.geometry.machines.reconfigurable_branches import CP_VS, R_TCS, R_TUS, UP_VS
 from pkm_exact.geometry.machines.space_legs import RANGES, n_ups, n_ups_s
 from pkm_exact.geometry.machines.spherical_cranks import SPHERICAL_3_RRR
 from pkm_exact.geometry.machines.three_legs import THREE_PRS, THREE_RPS
@@ -29,6 +30,7 @@ _FAMILIES: Final[Mapping[str, Callable[[int], MachineKind]]] = MappingProxyType(
 _ROWS: Final = (
     *(DELTA, LINEAR_DELTA, TRIGLIDE, CARTESIAN, H4),
     *(THREE_RPS, THREE_PRS, THREE_PSS_C, TWO_UPS_U, P_FUS, PENTAPOD, CARRIAGE),
+    *(R_TUS, UP_VS, CP_VS, R_TCS),
     *(SPHERICAL_3_RRR, n_ups_s(3), n_ups(8), n_rpr(4), n_rrr(4), n_prr(4)),
     *(RANGES, BIGLIDE, V_SHAPE, PMAR, X_Y),
 )

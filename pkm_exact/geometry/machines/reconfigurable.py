@@ -32,22 +32,30 @@ def assemble(given: Dimensions, metric: Metric) -> Assembly:  # noqa: ARG001 - t
     base, platform, rod = given["base_radius"], given["platform_radius"], given["rod"]
     detached = 6 - int(given["freedoms"])
     constraints: list[Constraint] = []
-    slides, cranks = [], []
+    slides = []
     for k, (radial, normal) in enumerate(zip(RADIAL, TANGENTIAL, strict=True), 1):
         joint = along((platform, radial))
         constraints.append(Distance(along((base, radial)), joint, rod * rod, f"rod {k}"))
         slides.append(Drive(f"slide {k}", (Part(f"rod {k}", "base", (along((-1, radial), (1, UP)),)),)))
         if k <= detached:
             constraints.append(InPlane(normal, Fraction(0), joint, f"hinge {k}"))
-    arm, link = given["arm"], given["link"]
-    for k, radial in enumerate(_BETWEEN[: 3 - detached], 4):
-        constraints.append(Distance(along((base, radial)), along((platform, radial)), link * link, f"rod {k}"))
-        circle = along((arm, radial)), along((arm, UP))
-        cranks.append(Drive(f"crank {k}", (Part(f"rod {k}", "base", circle),), weight=1))
+    rods, cranks = detachable(given)
     groups = [Group(Joint.SLIDE, tuple(x.name for x in slides))]
     if cranks:
         groups.append(Group(Joint.CRANK, tuple(x.name for x in cranks)))
-    return Assembly(tuple(constraints), tuple(groups), (*slides, *cranks))
+    return Assembly((*constraints, *rods), tuple(groups), (*slides, *cranks))
+
+
+def detachable(given: Dimensions) -> tuple[list[Constraint], list[Drive]]:
+    """Rods on cranks at 60, 180 and 300 degrees: as many as the mode has freedoms beyond three."""
+    base, platform, arm, link = (given[key] for key in ("base_radius", "platform_radius", "arm", "link"))
+    rods: list[Constraint] = []
+    cranks = []
+    for k, radial in enumerate(_BETWEEN[: int(given["freedoms"]) - 3], 4):
+        rods.append(Distance(along((base, radial)), along((platform, radial)), link * link, f"rod {k}"))
+        circle = along((arm, radial)), along((arm, UP))
+        cranks.append(Drive(f"crank {k}", (Part(f"rod {k}", "base", circle),), weight=1))
+    return rods, cranks
 
 
 P_FUS: Final = MachineKind(
