@@ -31,6 +31,8 @@ def region_certificate(answer: RegionAnswer) -> dict[str, Any]:
     """
     question, machine = answer.question, answer.machine
     _require_rational(machine)
+    if question.conditions.indices or question.conditions.load:
+        raise InputError("-o: certificates have no word for bounds of indices and forces; leave -o out")
     found = answer.counterexample
     return sealed(
         {

@@ -7,10 +7,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.region_report import rounded_down, rounded_up
+from pkm_exact.regions.chart import POSITIONS
 from pkm_exact.regions.joint_ranges import common_range
 from pkm_exact.roots.interval import Interval
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.limits import Pair
+    from pkm_exact.regions.index_extremes import IndexRange
     from pkm_exact.regions.joint_ranges import JointRange
     from pkm_exact.regions.region_legs import RegionMachine
     from pkm_exact.regions.region_question import RegionQuestion
@@ -37,6 +40,48 @@ def ranges_text(machine: RegionMachine, asked: RegionQuestion, ranges: Sequence[
             "note: the region is enlarged by less than 2^-40 of its size, to be rational in the model's metric"
         )
     return "\n".join(lines) + "\n"
+
+
+def index_text(machine: RegionMachine, asked: RegionQuestion, found: IndexRange) -> str:
+    """A few lines."""
+    lines = [f"{machine.name}: {found.name} at the good poses of the region"]
+    for word, value, box in (("least", found.least, found.least_at), ("greatest", found.greatest, found.greatest_at)):
+        lines.append(f"{word} {between(value)}")
+        lines.append(f"  where {', '.join(_places(machine, asked, box))}")
+    if not found.is_precise:
+        lines.append("undecided: not as precise as asked for with the work allowed; raise answer.steps or answer.boxes")
+    if asked.enlarged:
+        lines.append(
+            "note: the region is enlarged by less than 2^-40 of its size, to be rational in the model's metric"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def _places(machine: RegionMachine, asked: RegionQuestion, box: Sequence[Pair]) -> list[str]:
+    found = []
+    for name, (low, high) in zip(asked.chart.variables, box, strict=True):
+        metric = machine.metric[POSITIONS.index(name)] if name in POSITIONS else 1
+        label = name if name in POSITIONS else f"tan({name}/2)"
+        told = f"{label} is between {rounded_down(low)} and {rounded_up(high)}"
+        found.append(told if metric == 1 else f"{told} (in the model's metric)")
+    return found
+
+
+def index_json(machine: RegionMachine, asked: RegionQuestion, found: IndexRange) -> str:
+    """The same as a JSON object; bounds are exact rationals as strings."""
+    content = {
+        "robot": machine.name,
+        "answer": "extremes",
+        "of": found.name,
+        "variables": list(asked.chart.variables),
+        "least": _ends(found.least),
+        "least_at": [[str(low), str(high)] for low, high in found.least_at],
+        "greatest": _ends(found.greatest),
+        "greatest_at": [[str(low), str(high)] for low, high in found.greatest_at],
+        "precise": found.is_precise,
+        "enlarged": asked.enlarged,
+    }
+    return json.dumps(content, indent=1) + "\n"
 
 
 def ranges_json(machine: RegionMachine, asked: RegionQuestion, ranges: Sequence[JointRange]) -> str:

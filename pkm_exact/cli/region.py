@@ -41,7 +41,7 @@ def region(
     QUESTION.toml says which region ([region]: a box, ball, cylinder or prism of positions, with a fixed orientation or
     intervals of angles), what is asked of its poses ([conditions]: reachable, limits, no_type_1, no_type_2), and which
     answer is wanted ([answer]: all of it proved or a counterexample; a map; the largest cube or ball; the locus of
-    singular poses; extremes of joint values).
+    singular poses; extremes of joint values or indices).
 
     With -o an interrupted run leaves CERT.json.partial; the same command goes on from there, to the same bytes.
 
@@ -106,16 +106,25 @@ def _locus(machine: RegionMachine, asked: RegionQuestion, question: str, layout:
 def _extremes(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str, *, verbose: bool) -> int:
     from pkm_exact.cli import extremes_report
     from pkm_exact.interactive.progress import Progress
+    from pkm_exact.regions.index_extremes import index_range
     from pkm_exact.regions.joint_ranges import joint_ranges
 
+    is_index = asked.answer.of != "joint_values"
     try:
         with Progress(verbose=verbose) as progress:
-            ranges = joint_ranges(machine, asked, progress=progress)
+            if is_index:
+                found = index_range(machine, asked)
+            else:
+                ranges = joint_ranges(machine, asked, progress=progress)
     except InputError as error:
         raise InputError(f"{question}: {error}") from None
+    if is_index:
+        said_index = extremes_report.index_json if layout == "json" else extremes_report.index_text
+        sys.stdout.write(said_index(machine, asked, found))
+        return ExitCode.DONE if found.is_precise else ExitCode.WEAKER_CLAIM
     said = extremes_report.ranges_json if layout == "json" else extremes_report.ranges_text
     sys.stdout.write(said(machine, asked, ranges))
-    return ExitCode.DONE if all(found.is_precise for found in ranges) else ExitCode.WEAKER_CLAIM
+    return ExitCode.DONE if all(leg.is_precise for leg in ranges) else ExitCode.WEAKER_CLAIM
 
 
 def _answer(

@@ -43,7 +43,7 @@ def as_text(answer: RegionAnswer | LargestAnswer) -> str:
     """A few lines."""
     if isinstance(answer, LargestAnswer):
         return _largest_text(answer)
-    asked = ", ".join(answer.question.conditions.asked)
+    asked = ", ".join(answer.question.conditions.names)
     lines = [f"{answer.machine.name}: {asked} in a region of {', '.join(answer.question.chart.variables)}"]
     word = verdict(answer)
     counts = ", ".join(f"{number} {name}" for name, number in answer.counts.items())
@@ -81,7 +81,7 @@ def _largest_text(answer: LargestAnswer) -> str:
         return "no size is proved with the work allowed\n"
     wanted = answer.proved.question.answer
     what = "edge" if wanted.shape == "cube" else "radius"
-    lines = [f"{answer.proved.machine.name}: {', '.join(answer.proved.question.conditions.asked)}"]
+    lines = [f"{answer.proved.machine.name}: {', '.join(answer.proved.question.conditions.names)}"]
     lines.append(f"proved: all poses of the {wanted.shape} with {what} {float(answer.size):.9g} are good")
     if answer.refused is not None and answer.refused_size is not None:
         word = "refuted" if answer.refused.counterexample is not None else "not proved"
@@ -159,7 +159,7 @@ def as_object(answer: RegionAnswer) -> dict[str, Any]:
         "robot": answer.machine.name,
         "answer": answer.question.answer.kind,
         "verdict": verdict(answer),
-        "conditions": list(answer.question.conditions.asked),
+        "conditions": list(answer.question.conditions.names),
         "variables": list(chart.variables),
         "box": [[str(low), str(high)] for low, high in chart.box],
         "counterexample": None

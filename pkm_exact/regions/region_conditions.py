@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
-from pkm_exact.constraints.form import rational_wrench, value_at
+from pkm_exact.constraints.form import value_at
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.limits import Cones
 from pkm_exact.regions.chart import POSITIONS, Chart, Polynomial, PosePolynomials, moved, pose_polynomials, rational
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some
+from pkm_exact.regions.index_quotients import force_polynomials, index_square
 from pkm_exact.regions.near_angles import squared_cosines, turn_directions
 from pkm_exact.regions.placed_legs import PlacedLeg, placed_leg, product, without_squares
+from pkm_exact.regions.region_determinants import determinant, structural_rows, wrench_rows
 from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, OwnLength, RegionMachine
 
 CONDITIONS: Final = ("reachable", "limits", "no_type_1", "no_type_2")
@@ -31,10 +33,33 @@ class Conditions:
         Some of ``CONDITIONS``, in their order.
     modes : tuple of int
         For each leg the sign of its working mode; 0 where none is named.
+    indices : tuple of pairs of str and Fraction
+        Indices that are greater than a bound.
+    length : Fraction or None
+        By which turns are multiplied in them.
+    load : tuple of Fraction
+        A wrench on the platform, by the freedoms of the motion group; empty if no forces are asked for.
+    most_force : Fraction
+        What the forces of the actuators that bear it do not exceed.
     """
 
     asked: tuple[str, ...]
     modes: tuple[int, ...]
+    indices: tuple[tuple[str, Fraction], ...] = ()
+    length: Fraction | None = None
+    load: tuple[Fraction, ...] = ()
+    most_force: Fraction = Fraction(0)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All that is asked, in words."""
+        found = (*self.asked, *(f"{name} > {float(bound):g}" for name, bound in self.indices))
+        return (*found, f"forces up to {float(self.most_force):g}") if self.load else found
+
+    @property
+    def needs_modes(self) -> bool:
+        """Whether a working mode matters, whatever the limits."""
+        return "no_type_2" in self.asked or bool(self.indices or self.load)
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +91,7 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
         If the structure of the robot does not allow all poses of the chart, or working modes are needed and not named.
     """
     pose, placed = placed_legs(machine, chart, conditions)
-    _require_modes(machine, conditions)
+    require_modes(machine, conditions)
     parts: list[Formula] = []
     parts += [Atom(f"{leg.leg.name} reaches", leg.root) for leg in placed if leg.root is not None]
     if "limits" in conditions.asked:
@@ -78,8 +103,33 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
     if "no_type_2" in conditions.asked:
         determinant = constraint_determinant(machine, pose, placed)
         parts.append(Atom("the determinant of the constraints", determinant, Sign.NOT_ZERO))
+    parts += _indices(machine, pose, placed, conditions) + _forces(machine, pose, placed, conditions)
     roots = tuple(leg.root for leg in placed if leg.root is not None)
     return Asked(All(tuple(parts)), roots, determinant, pose)
+
+
+def _indices(
+    machine: RegionMachine, pose: PosePolynomials, placed: Sequence[PlacedLeg], conditions: Conditions
+) -> list[Formula]:
+    """That the square of each index is greater than that of its bound; where it has no value, it is not."""
+    found: list[Formula] = []
+    for name, bound in conditions.indices:
+        above, below = index_square(name, machine, pose, placed, structural_rows(machine, pose), conditions.length)
+        found.append(Atom(f"{name} above {float(bound):g}", above - rational(bound * bound) * below, Sign.POSITIVE))
+    return found
+
+
+def _forces(
+    machine: RegionMachine, pose: PosePolynomials, placed: Sequence[PlacedLeg], conditions: Conditions
+) -> list[Formula]:
+    if not conditions.load:
+        return []
+    whole, parts = force_polynomials(
+        conditions.load, conditions.most_force, machine, pose, placed, structural_rows(machine, pose)
+    )
+    names = [f"{leg.leg.name} bears the load" for leg in placed]
+    atoms = [Atom(name, part) for name, part in zip(names, parts, strict=True)]
+    return [Atom("the load is borne", whole, Sign.NOT_ZERO), *atoms]
 
 
 def placed_legs(
@@ -113,8 +163,8 @@ def constraint_rows(
         As ``asked_of``.
     """
     pose, placed = placed_legs(machine, chart, conditions)
-    _require_modes(machine, replace(conditions, asked=("no_type_2",)))
-    return pose, _rows(machine, pose, placed)
+    require_modes(machine, conditions, always=True)
+    return pose, wrench_rows(machine, pose, placed)
 
 
 def form_at(form: Sequence[Fraction], pose: PosePolynomials, metric: Metric) -> Polynomial:
@@ -126,11 +176,12 @@ def form_at(form: Sequence[Fraction], pose: PosePolynomials, metric: Metric) -> 
     return found
 
 
-def _require_modes(machine: RegionMachine, conditions: Conditions) -> None:
+def require_modes(machine: RegionMachine, conditions: Conditions, *, always: bool = False) -> None:
+    """Refuse a question that depends on working modes, or any with ``always``, if they are not named."""
     for k, leg in enumerate(machine.legs):
         if isinstance(leg.actuator, OwnLength | OnHinge) or conditions.modes[k]:
             continue
-        if "no_type_2" in conditions.asked or ("limits" in conditions.asked and leg.reach is not None):
+        if always or conditions.needs_modes or ("limits" in conditions.asked and leg.reach is not None):
             raise InputError(
                 f"conditions.working_modes: {leg.name} has two working modes, and what is asked depends on them; give "
                 'one sign for each leg, such as ["+", "+", "-"]'
@@ -229,60 +280,10 @@ def constraint_determinant(machine: RegionMachine, pose: PosePolynomials, placed
     InputError
         If there are not as many as freedoms.
     """
-    rows = _rows(machine, pose, placed)
+    rows = wrench_rows(machine, pose, placed)
     if len(rows) != len(machine.twist):
         raise InputError(
             f"conditions.no_type_2: {len(rows)} equations for {len(machine.twist)} freedoms; regions know "
             "this condition where there are as many"
         )
     return determinant(rows, pose.constant(0))
-
-
-def _rows(machine: RegionMachine, pose: PosePolynomials, placed: Sequence[PlacedLeg]) -> list[list[Polynomial]]:
-    g1, g2, g3 = machine.metric
-    rows = []
-    for leg in placed:
-        k, b = leg.rod, leg.arm
-        moment = [
-            g2 * g3 * (b[1] * k[2] - b[2] * k[1]),
-            g3 * g1 * (b[2] * k[0] - b[0] * k[2]),
-            g1 * g2 * (b[0] * k[1] - b[1] * k[0]),
-        ]
-        wrench = [pose.norm * g * x for g, x in zip(machine.metric, k, strict=True)] + moment
-        rows.append([wrench[j] for j in machine.twist])
-    return rows + [_structural(form, machine, pose) for form in machine.forms]
-
-
-def _structural(form: Sequence[Fraction], machine: RegionMachine, pose: PosePolynomials) -> list[Polynomial]:
-    """The wrench of a linear form: its force times N^2, its moment likewise."""
-    n, values = pose.norm, [pose.constant(value) for value in form]
-    metric: Any = [rational(g) for g in machine.metric]
-    scaled = [*values[:4], *(n * value for value in values[4:16]), values[16]]
-    found = rational_wrench(scaled, pose.position, pose.rotation, metric)
-    wrench = [*(n * x for x in found[:3]), *found[3:]]
-    return [wrench[j] for j in machine.twist]
-
-
-def determinant(rows: Sequence[Sequence[Polynomial]], zero: Polynomial) -> Polynomial:
-    """The determinant of a matrix of polynomials, by minors of its first rows: no division.
-
-    Examples
-    --------
-    >>> from flint import Ordering, fmpq, fmpq_mpoly_ctx
-    >>> ring = fmpq_mpoly_ctx.get(("x",), Ordering.lex)
-    >>> (x,) = ring.gens()
-    >>> print(determinant([[x, x + 1], [x - 1, x]], ring.constant(fmpq(0))))
-    1
-    """
-    minors: dict[int, Polynomial] = {0: zero + 1}
-    for row in rows:
-        following: dict[int, Polynomial] = {}
-        for columns, minor in minors.items():
-            for k, entry in enumerate(row):
-                if columns >> k & 1 or entry.is_zero():
-                    continue
-                term = -entry * minor if (columns >> k).bit_count() % 2 else entry * minor
-                wider = columns | 1 << k
-                following[wider] = following[wider] + term if wider in following else term
-        minors = following
-    return minors.get((1 << len(rows)) - 1, zero)

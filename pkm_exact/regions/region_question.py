@@ -7,11 +7,12 @@ from fractions import Fraction
 from typing import Final
 
 from pkm_exact.regions.chart import Chart
+from pkm_exact.regions.index_quotients import INDEX_NAMES
 from pkm_exact.regions.region_conditions import Conditions
 from pkm_exact.regions.region_shapes import Quadratic
 
 ANSWERS: Final = ("all", "map", "largest", "locus", "extremes")
-EXTREMES: Final = ("joint_values",)
+EXTREMES: Final = ("joint_values", *INDEX_NAMES)
 """Of what the least and the greatest value may be asked."""
 DEFAULT_STEPS: Final = 30
 DEFAULT_BOXES: Final = 200_000

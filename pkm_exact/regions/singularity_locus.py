@@ -16,7 +16,8 @@ from flint import fmpz_poly
 
 from pkm_exact.errors import InputError
 from pkm_exact.regions.chart import Polynomial, rational
-from pkm_exact.regions.region_conditions import constraint_rows, determinant
+from pkm_exact.regions.region_conditions import constraint_rows
+from pkm_exact.regions.region_determinants import determinant
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_question import RegionQuestion
 from pkm_exact.roots.interval import Interval
