@@ -212,7 +212,9 @@ def _tolerance_answers(
     engines: tuple[Callable[..., Solution], ...] = (solve_krawczyk, solve)
     for engine in engines:
         solution = engine(asked.problem, policy=policy, progress=progress)
-        result = tolerance_boxes(asked.problem, tolerances, solution, progress)
+        boxed = [box["pose"] for box in content["boxes"] if 1 <= box["pose"] <= len(solution.poses)]
+        chosen = boxed if content["unproved"] else None  # of the others nothing is said
+        result = tolerance_boxes(asked.problem, tolerances, solution, progress, chosen)
         require(isinstance(asked.robot, Robot), "a certificate of tolerances of a robot that has no joints")
         yield tolerance_certificate(cast("Robot", asked.robot), asked.name, result)
 

@@ -12,6 +12,7 @@ from samples import solved
 
 from pkm_exact import Robot, read_robot
 from pkm_exact.cli.main import main
+from pkm_exact.files import write_all
 from pkm_exact.following.c_files import c_files
 from pkm_exact.following.follower import Followed, next_pose
 from pkm_exact.following.following_start import joint_values
@@ -161,4 +162,17 @@ def test_a_folder_that_cannot_be_made_gives_one_sentence(tmp_path: Path, capsys:
     (tmp_path / "file").write_text("")
     words = ["codegen", str(MODELS / "3-rpr-merlet-p.toml"), "-o", str(tmp_path / "file" / "code")]
     assert main(words) == 2
-    assert "cannot be made (Not a directory); give -o the path of another folder" in capsys.readouterr().err
+    err = capsys.readouterr().err
+    assert "cannot be written (Not a directory), so nothing was; give -o the path of another folder" in err
+
+
+def test_files_are_written_all_or_none(tmp_path: Path) -> None:
+    (tmp_path / "b").mkdir()
+    (tmp_path / "a").write_bytes(b"before")
+    with pytest.raises(OSError, match="directory"):
+        write_all(tmp_path, {"a": b"1", "b": b"2", "c": b"3"})
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a", "b"]
+    assert (tmp_path / "a").read_bytes() == b"before"
+    with pytest.raises(OSError):  # noqa: PT011 - whatever the system says of a name that is too long
+        write_all(tmp_path / "new" / "folder", {"a": b"1", "x" * 300: b"2"})
+    assert not (tmp_path / "new").exists()

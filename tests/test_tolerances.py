@@ -429,6 +429,31 @@ def test_the_command_says_what_is_not_proved(capsys: Capture) -> None:
     assert "what moves the platform most is the length of leg" in text
 
 
+def test_only_the_nearest_pose_is_asked_about(tmp_path: Path, capsys: Capture) -> None:
+    path, words = tmp_path / "one.json", ["solve", str(PLANAR), "--method", "krawczyk", "--tolerance", "0.01"]
+    assert main([*words, "--near", "6.2,-3.8,-8", "--nearest", "-o", str(path)]) == 0
+    text = capsys.readouterr().out
+    assert "1 of 1 poses have a box for every robot within tolerance; 5 other poses were not asked about" in text
+    content = json.loads(path.read_text())
+    assert [box["pose"] for box in content["boxes"]] == [3]
+    assert content["unproved"] == [1, 2, 4, 5, 6]
+    assert both(path.read_bytes()).status == "accepted"
+    assert main(["check", str(path), "--recompute"]) == 0
+    capsys.readouterr()
+    assert main([*words, "--nearest"]) == 2
+    assert "--nearest: nearest to what? give --near" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("key", "numbers"), [("z", "123456"), ("y", "136542"), ("condition", "132564"), ("nearest", "3")]
+)
+def test_poses_are_sorted_and_keep_their_numbers(key: str, numbers: str, capsys: Capture) -> None:
+    words = ["solve", str(PLANAR), "--method", "krawczyk", "--format", "csv", "--near", "6.2,-3.8,-8", "--sort", key]
+    assert main(words) == 0
+    found = [line.split(",")[0] for line in capsys.readouterr().out.splitlines()[1:]]
+    assert "".join(found).startswith(numbers)
+
+
 @pytest.mark.parametrize(
     ("words", "part"),
     [

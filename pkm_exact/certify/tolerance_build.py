@@ -49,7 +49,7 @@ def tolerance_certificate(robot: Robot, configuration_name: str | None, result: 
             "frames": {"base": _texts(frames.base), "platform": _texts(frames.platform), "unit": str(frames.unit)},
             "exponent": result.exponent,
             "boxes": [_box(box.pose, box.bounds, box.proof) for box in result.boxes if box.bounds and box.proof],
-            "unproved": [box.pose for box in result.boxes if not box.is_proved],
+            "unproved": sorted([*(box.pose for box in result.boxes if not box.is_proved), *result.unasked]),
             "pairs": [_place(pair) for pair in sorted(result.pairs, key=lambda pair: (pair.chart, pair.centre))],
             "complete": result.is_complete,
         }

@@ -10,6 +10,7 @@ import click
 from pkm_exact.cli import arguments
 from pkm_exact.cli.main import ExitCode
 from pkm_exact.errors import InputError
+from pkm_exact.files import write_all
 from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
@@ -56,11 +57,12 @@ def codegen(model: str, output: str, configuration: str | None, pose: int | None
     folder = Path(output)
     _require_room(folder, list(files), force)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        write_all(folder, {file_name: text.encode("utf-8") for file_name, text in files.items()})
     except OSError as error:
-        raise InputError(f"{folder}: cannot be made ({error.strerror}); give -o the path of another folder") from None
-    for file_name, text in files.items():
-        arguments.write_output(folder / file_name, text.encode("utf-8"))
+        raise InputError(
+            f"{error.filename or folder}: cannot be written ({error.strerror}), so nothing was; give -o the path of "
+            "another folder"
+        ) from None
     shown = printable(str(folder))
     click.echo(f"{shown}: {', '.join(files)}")
     click.echo(f"next: cd {shown} && cc -std=c99 -O2 {stem}_test.c {stem}.c -lm -o {stem}_test && ./{stem}_test")

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import inf
+from typing import TYPE_CHECKING, Any, Final
+
+from pkm_exact.wording import counted
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
+    from pkm_exact.geometry.nominal_pose import NominalPose
     from pkm_exact.poses.limit_checks import LimitVerdict
     from pkm_exact.poses.pose import Pose
     from pkm_exact.solution import Solution
+
+
+SORTS: Final = ("number", "x", "y", "z", "condition", "nearest")
+"""What poses can be sorted by."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +72,25 @@ class ShownPoses:
             nearest,
         )
 
+    def only_nearest(self) -> ShownPoses:
+        """Only the pose nearest to the nominal one, or those that may be."""
+        kept = [place for place, number in enumerate(self.numbers) if number in self.nearest]
+        return replace(
+            self._at(kept), notes=(*self.notes, f"listed: the nearest of {counted(len(self.poses), 'pose')}")
+        )
+
+    def arranged(self, key: str, nominal: NominalPose | None) -> ShownPoses:
+        """In increasing order of a key of ``SORTS``; each keeps its number."""
+        return self._at(sorted(range(len(self.poses)), key=lambda place: _sort_value(self, key, place, nominal)))
+
+    def _at(self, places: Sequence[int]) -> ShownPoses:
+        return replace(
+            self,
+            poses=tuple(self.poses[place] for place in places),
+            numbers=tuple(self.numbers[place] for place in places),
+            verdicts=tuple(self.verdicts[place] for place in places),
+        )
+
     def label(self, place: int) -> str:
         """The number of a pose, marked if it is the nearest to the nominal one."""
         number = self.numbers[place]
@@ -97,12 +124,28 @@ class ShownPoses:
         return [str(together(verdicts.values())), *(str(verdicts[name]) for name in self.names)]
 
     def entry(self, place: int) -> dict[str, Any]:
-        """What JSON has of them: nothing for a robot without limits."""
+        """What JSON has of them: for a robot without limits at most the number, where it is not that of the row."""
         if not self.names:
-            return {}
+            in_order = self.numbers == tuple(range(1, len(self.numbers) + 1))
+            return {} if in_order else {"number": self.numbers[place]}
         feasible, *others = self.fields(place)
         limits = dict(zip(self.names, others, strict=True))
         return {"number": self.numbers[place], "feasible": feasible, "limits": limits}
+
+
+def _sort_value(shown: ShownPoses, key: str, place: int, nominal: NominalPose | None) -> tuple[float, int]:
+    """What a pose is sorted by; only for show, so that its middle will do."""
+    pose, number = shown.poses[place], shown.numbers[place]
+    if key == "condition":
+        found = None if pose.condition is None else float(pose.condition.hi)
+    elif key == "nearest":
+        from pkm_exact.poses.nearest_pose import nearest_pose
+
+        near = None if nominal is None else nearest_pose([pose], nominal)
+        found = None if near is None else near.distance
+    else:
+        found = float(number) if key == "number" else float(pose.position["xyz".index(key)].midpoint)
+    return (inf if found is None else found), number
 
 
 def _nearest(robot: Machine, solution: Solution) -> tuple[int, ...]:

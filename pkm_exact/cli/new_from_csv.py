@@ -12,10 +12,12 @@ import click
 from pkm_exact.cli import arguments
 from pkm_exact.cli.circle_options import numbers
 from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import distance_squared, rotation_of
 from pkm_exact.geometry.joint_arrays import describe_rounding, read_joints_csv
 from pkm_exact.geometry.model_writer import robot_text
+from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.wording import printable
 
@@ -28,6 +30,10 @@ _NOT_WITH_CSV = (
     "base_azimuth",
     "crank",
 )
+
+
+_ZERO = Fraction(0)
+_UNTURNED = (Fraction(1), _ZERO, _ZERO, _ZERO)
 
 
 def write_from_csv(path: str, output: str | None, name: str | None, given: dict[str, Any]) -> int:
@@ -60,7 +66,14 @@ def write_from_csv(path: str, output: str | None, name: str | None, given: dict[
     source = f"joints from {Path(path).name}, {describe_rounding(given['digits'])}"
     title = name or ("my robot" if output == "-" else Path(output).stem)
     robot = Robot(
-        title, kind, given["unit"] or "mm", source, base, platform, configurations=(Configuration("home", squares),)
+        title,
+        kind,
+        given["unit"] or "mm",
+        source,
+        base,
+        platform,
+        configurations=(Configuration("home", squares),),
+        nominal=None if lengths is not None else NominalPose(_level(given["height"], planar), rotation_of(_UNTURNED)),
     )
     text = robot_text(robot)
     if output == "-":
@@ -74,13 +87,16 @@ def write_from_csv(path: str, output: str | None, name: str | None, given: dict[
 
 def _squares_at(base: Any, platform: Any, height: str, planar: bool) -> tuple[Fraction, ...]:
     """Squared leg lengths with the platform level at a height, or at y = height if it is planar."""
+    position, rotation = _level(height, planar), rotation_of(_UNTURNED)
+    squares = tuple(distance_squared(a, b, position, rotation) for a, b in zip(base, platform, strict=True))
+    if 0 in squares:
+        raise InputError(f"--height: leg {squares.index(0) + 1} would have length 0; give another height")
+    return squares
+
+
+def _level(height: str, planar: bool) -> Vector:
+    """Where the platform is at home."""
     found = numbers(height, "--height")
     if len(found) != 1:
         raise click.UsageError("--height: give one number.")
-    zero = Fraction(0)
-    position = (zero, found[0], zero) if planar else (zero, zero, found[0])
-    rotation = rotation_of((Fraction(1), zero, zero, zero))
-    squares = tuple(distance_squared(a, b, position, rotation) for a, b in zip(base, platform, strict=True))
-    if 0 in squares:
-        raise InputError(f"--height: leg {squares.index(zero) + 1} would have length 0; give another height")
-    return squares
+    return (_ZERO, found[0], _ZERO) if planar else (_ZERO, _ZERO, found[0])

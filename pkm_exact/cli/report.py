@@ -34,10 +34,10 @@ def report(
     layout: str,
     *,
     verbose: bool,
-    feasible_only: bool = False,
+    shown: ShownPoses | None = None,
 ) -> None:
-    """Print a solution to stdout in one of the layouts; all of its poses, or those proved feasible."""
-    shown = ShownPoses.of(robot, configuration, solution, feasible_only=feasible_only)
+    """Print a solution to stdout in one of the layouts; all of its poses, or those that are chosen."""
+    shown = shown or ShownPoses.of(robot, configuration, solution)
     if layout == "json":
         sys.stdout.write(json.dumps(as_object(robot, configuration, solution, shown), indent=1) + "\n")
     elif layout in _ROWS:

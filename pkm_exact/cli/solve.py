@@ -5,14 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from pkm_exact.cli import arguments, tolerance_report
+from pkm_exact.cli.feasible_poses import SORTS
 from pkm_exact.cli.main import ExitCode
 from pkm_exact.cli.methods import METHODS, report_uncertified, require_fitting, solved
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.machine import Machine
 
 
 @click.command()
@@ -70,6 +75,14 @@ from pkm_exact.formulations.registry import formulation_codes
     "planar.  [default: the model's nominal pose]",
 )
 @click.option("--feasible", is_flag=True, help="List only the poses that are proved to keep all limits of the model.")
+@click.option("--nearest", is_flag=True, help="List only the pose nearest to --near, or to the model's nominal pose.")
+@click.option(
+    "--sort",
+    type=click.Choice(SORTS),
+    default=SORTS[0],
+    show_default=True,
+    help="Order of the list; every pose keeps its number.",
+)
 @click.option("-v", "--verbose", is_flag=True, help="Say more: method, box widths, stages on a terminal.")
 def solve(
     model: str,
@@ -86,6 +99,8 @@ def solve(
     layout: str,
     near: tuple[Fraction, ...] | None,
     feasible: bool,
+    nearest: bool,
+    sort: str,
     verbose: bool,
 ) -> int:
     """Find all real poses of the robot in the file MODEL for one configuration, or for given leg lengths.
@@ -117,9 +132,7 @@ def solve(
 
     if near is not None:
         robot = replace(robot, nominal=nominal_from_numbers(near, "--near", robot.motion))
-    if feasible and (robot.limits is None or tolerance is not None or method == "newton"):
-        what = "the model has no limits; add a table [limits]" if robot.limits is None else "it is for certified poses"
-        raise InputError(f"{model}: --feasible: {what}, or leave the option out")
+    _require_choosable(robot, model, method, feasible=feasible, nearest=nearest, sort=sort)
     if joints is not None:
         from pkm_exact.cli.joint_words import joint_configuration
 
@@ -145,6 +158,10 @@ def solve(
             raise InputError(f"{model}: {error}") from None
     if not isinstance(solution, Solution):
         return report_uncertified(robot, name, solution, layout, output, verbose=verbose)
+    from pkm_exact.cli.feasible_poses import ShownPoses
+
+    shown = ShownPoses.of(robot, name, solution, feasible_only=feasible)
+    shown = (shown.only_nearest() if nearest else shown).arranged(sort, robot.nominal)
     if tolerances is not None:
         with Progress(verbose=verbose) as progress:
             return tolerance_report.report_tolerances(
@@ -154,6 +171,7 @@ def solve(
                 tolerances,
                 output,
                 layout,
+                shown=shown,
                 verbose=verbose,
                 progress=progress,
             )
@@ -164,8 +182,18 @@ def solve(
 
     from pkm_exact.cli.report import report
 
-    report(robot, name, solution, layout, verbose=verbose, feasible_only=feasible)
+    report(robot, name, solution, layout, verbose=verbose, shown=shown)
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM
+
+
+def _require_choosable(robot: Machine, model: str, method: str, *, feasible: bool, nearest: bool, sort: str) -> None:
+    """Refuse a choice or an order of poses that the model, or the method, has nothing to say about."""
+    if feasible and (robot.limits is None or method == "newton"):
+        what = "the model has no limits; add a table [limits]" if robot.limits is None else "it is for certified poses"
+        raise InputError(f"{model}: --feasible: {what}, or leave the option out")
+    if (nearest or sort == "nearest") and (robot.nominal is None or method == "newton"):
+        what = "nearest to what? give --near" if robot.nominal is None else "it is for certified poses"
+        raise InputError(f"{model}: --{'nearest' if nearest else 'sort'}: {what}, or leave the option out")
 
 
 def _require_one(given: list[tuple[str, object]]) -> None:

@@ -18,6 +18,7 @@ from pkm_exact.geometry.rational import NumberText, parse_positive
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from pkm_exact.cli.feasible_poses import ShownPoses
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.geometry.tolerances import Tolerances
@@ -77,25 +78,27 @@ def report_tolerances(
     output: str | None,
     layout: str,
     *,
+    shown: ShownPoses,
     verbose: bool,
     progress: Callable[[str], None],
 ) -> ExitCode:
-    """Analyse, write the certificate and print: first the nominal poses, then the boxes for all robots."""
+    """Analyse the poses shown, write the certificate and print: first nominal poses, then boxes for all robots."""
     from pkm_exact.certify.build import canonical_bytes
     from pkm_exact.certify.tolerance_build import tolerance_certificate
     from pkm_exact.cli.report import as_object, report
     from pkm_exact.numeric.tolerance import tolerance_boxes
 
-    result = tolerance_boxes(solution.problem, tolerances, solution, progress)
+    result = tolerance_boxes(solution.problem, tolerances, solution, progress, asked=shown.numbers)
     if output is not None:
         arguments.write_output(output, canonical_bytes(tolerance_certificate(robot, name, result)))
     if layout == "json":
-        content = {**as_object(robot, name, solution), "tolerance": tolerance_object(result)}
+        content = {**as_object(robot, name, solution, shown), "tolerance": tolerance_object(result)}
         sys.stdout.write(json.dumps(content, indent=1) + "\n")
     else:
-        report(robot, name, solution, layout, verbose=verbose)
+        report(robot, name, solution, layout, verbose=verbose, shown=shown)
         _print(robot, result)
-    return ExitCode.DONE if result.is_complete else ExitCode.WEAKER_CLAIM
+    done = result.is_proved if result.unasked else result.is_complete
+    return ExitCode.DONE if done else ExitCode.WEAKER_CLAIM
 
 
 def tolerance_object(result: ToleranceResult) -> dict[str, Any]:
@@ -106,6 +109,7 @@ def tolerance_object(result: ToleranceResult) -> dict[str, Any]:
         "complete": result.is_complete,
         "proved_solutions": result.proved_solutions,
         "boxes": [_box_object(box) for box in result.boxes],
+        **({"unasked": list(result.unasked)} if result.unasked else {}),
     }
 
 

@@ -5,7 +5,7 @@ Asked of a robot, by the methods of ``Robot``, they have answers that also certi
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -104,7 +104,12 @@ def solve_krawczyk(
 
 
 def tolerance_boxes(
-    problem: ForwardProblem, tolerances: Tolerances, solution: Solution, progress: Progress | None = None
+    problem: ForwardProblem,
+    tolerances: Tolerances,
+    solution: Solution,
+    progress: Progress | None = None,
+    *,
+    asked: Sequence[int] | None = None,
 ) -> ToleranceResult:
     """For every pose of a solution the box of that pose over all robots within tolerance.
 
@@ -118,6 +123,9 @@ def tolerance_boxes(
         Of the nominal robot.
     progress : callable, optional
         Gets one line when a stage starts.
+    asked : sequence of int, optional
+        Numbers of the poses that matter, from 1; of others nothing is found out, nor whether there are more. By default
+        all.
 
     Raises
     ------
@@ -136,5 +144,5 @@ poses, one in each box
     """
     from pkm_exact.numeric.tolerance import tolerance_boxes as boxes
 
-    found = boxes(problem, tolerances, solution, progress)
+    found = boxes(problem, tolerances, solution, progress, asked)
     return ToleranceResult.of(found, solution.robot, solution.configuration)

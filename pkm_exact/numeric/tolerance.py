@@ -64,25 +64,32 @@ def tolerance_boxes(
     tolerances: Tolerances,
     solution: Solution,
     progress: Progress | None = None,
+    asked: Sequence[int] | None = None,
 ) -> ToleranceResult:
     """The answer to ``pkm_exact.tolerance_boxes``, which says what is asked and what is raised, as data only."""
     if solution.problem != problem:
         raise ValueError("the solution is not one of this problem")
     problem.gough_legs  # noqa: B018 - refuses other robots
     show = progress or (lambda _: None)
+    every = range(1, len(solution.poses) + 1)
+    chosen = sorted(every if asked is None else set(asked))
+    unasked = tuple(number for number in every if number not in chosen)
     frames = centred_frames(problem)
     exponent = _grid(tolerances, frames)
     with working_precision(exponent + exponent // 2 + GUARD_BITS):
         robot = centred_robot(problem, frames)
-        boxes, near = [], []
+        boxes: list[ToleranceBox] = []
+        near: list[Linearisation] = []
         show("tolerance boxes")
-        for number, pose in enumerate(solution.poses, 1):
-            tell(progress, Amount(number - 1, len(solution.poses), "poses"))
-            around = certified_pose(robot, pose, solution.poses, exponent)
+        for number in chosen:
+            tell(progress, Amount(len(boxes), len(chosen), "poses"))
+            around = certified_pose(robot, solution.poses[number - 1], solution.poses, exponent)
             boxes.append(_tolerance_box(around, tolerances, number, exponent))
             near += [] if around is None else [around]
-        show("solutions that are not real")
-        found = [certified_point(robot, point, exponent) for point in complex_points(robot, solution)]
+        found: list[Linearisation | None] = []
+        if not unasked:
+            show("solutions that are not real")
+            found = [certified_point(robot, point, exponent) for point in complex_points(robot, solution)]
         pairs = [] if None in found else [around for around in found if around is not None]
         proofs = []
         for count, around in enumerate(pairs):
@@ -91,7 +98,8 @@ def tolerance_boxes(
         proved = tuple(proof for proof in proofs if proof is not None)
         count = sum(box.is_proved for box in boxes) + 2 * len(proved)
         is_complete = (
-            all(box.is_proved for box in boxes)
+            not unasked
+            and all(box.is_proved for box in boxes)
             and len(proved) == len(found)
             and count == problem.solution_bound
             and are_distinct(
@@ -99,10 +107,11 @@ def tolerance_boxes(
             )
         )
     require(count <= problem.solution_bound, "more solutions than the variety of motions allows", proved=count)
-    for box, pose in zip(boxes, solution.poses, strict=True):
-        require(_may_hold(box, pose), "a box of all robots does not hold the nominal pose", pose=box.pose)
+    for box in boxes:
+        nominal = solution.poses[box.pose - 1]
+        require(_may_hold(box, nominal), "a box of all robots does not hold the nominal pose", pose=box.pose)
     shown = proved if is_complete else ()
-    return ToleranceResult(problem, tolerances, frames, exponent, tuple(boxes), shown, count, is_complete)
+    return ToleranceResult(problem, tolerances, frames, exponent, tuple(boxes), shown, count, is_complete, unasked)
 
 
 def _may_hold(box: ToleranceBox, pose: Pose) -> bool:

@@ -75,13 +75,15 @@ class ToleranceResult:
     exponent : int
         Centres and radii lie on the grid 2^-exponent.
     boxes : tuple of ToleranceBox
-        In the order of the poses.
+        In the order of the poses, of those that were asked about.
     pairs : tuple of ProvedBox
         For pairs of conjugate solutions that are not real; only if the list is complete.
     proved_solutions : int
         Number of complex solutions, real ones included, that are proved for every robot within tolerance.
     is_complete : bool
         Whether it is proved that no robot within tolerance has another pose. "No" does not mean that there is one.
+    unasked : tuple of int
+        Numbers of the poses that were not asked about; if there are any, nor was completeness.
 
     Examples
     --------
@@ -100,10 +102,11 @@ class ToleranceResult:
     pairs: tuple[ProvedBox, ...]
     proved_solutions: int
     is_complete: bool
+    unasked: tuple[int, ...] = ()
 
     @property
     def is_proved(self) -> bool:
-        """Whether every pose has a box."""
+        """Whether every pose that was asked about has a box."""
         return all(box.is_proved for box in self.boxes)
 
     def __repr__(self) -> str:
@@ -111,7 +114,10 @@ class ToleranceResult:
 
     def __str__(self) -> str:
         count, proved = len(self.boxes), sum(box.is_proved for box in self.boxes)
-        if not self.is_complete:
+        if self.unasked:
+            poses = "pose was" if len(self.unasked) == 1 else "poses were"
+            claim = f"{len(self.unasked)} other {poses} not asked about, nor whether there are more"
+        elif not self.is_complete:
             claim = (
                 "that there are no others is not proved for every robot within tolerance, as "
                 f"{self.proved_solutions} of {self.problem.solution_bound} complex solutions are proved"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import acos, degrees, dist
+from math import acos, degrees, dist, sqrt
 from typing import TYPE_CHECKING
 
 from pkm_exact.geometry.nominal_pose import NominalPose
@@ -31,11 +31,14 @@ class Nearest:
         Distance of the first one's position from the one that is meant, about.
     degrees_off : float
         The angle between both rotations, about.
+    distance : float
+        That of the first one and the one that is meant, about.
     """
 
     numbers: tuple[int, ...]
     position_off: float
     degrees_off: float
+    distance: float
 
 
 def nearest_pose(poses: Sequence[Pose], nominal: NominalPose) -> Nearest | None:
@@ -57,7 +60,8 @@ def nearest_pose(poses: Sequence[Pose], nominal: NominalPose) -> Nearest | None:
     least = min(high for _, high in bounds)
     numbers = tuple(number for number, (low, _) in enumerate(bounds, 1) if low <= least)
     first = min(numbers, key=lambda number: bounds[number - 1][1])
-    return Nearest((first, *(n for n in numbers if n != first)), *_off(poses[first - 1], nominal))
+    away = sqrt(float(bounds[first - 1][1]))
+    return Nearest((first, *(n for n in numbers if n != first)), *_off(poses[first - 1], nominal), away)
 
 
 def _square_of_distance(pose: Pose, nominal: NominalPose, size: Fraction) -> tuple[Fraction, Fraction]:

@@ -38,7 +38,15 @@ def model_text(draft: Draft, name: str, unit: str) -> str:
     >>> print(model_text(drawn(Design("6-UPS", *sides, Fraction(5))), "example", "m").split("\\n")[2])
     schema = 1                                # version of this format
     """
-    parts = (_head(draft, name, unit), _base(draft), _chains(draft), _platform(draft), _home(draft), _more(draft))
+    parts = (
+        _head(draft, name, unit),
+        _base(draft),
+        _chains(draft),
+        _platform(draft),
+        _home(draft),
+        _nominal(draft),
+        _more(draft),
+    )
     return "\n\n".join("\n".join(lines) for part in parts if (lines := list(part))) + "\n"
 
 
@@ -143,6 +151,17 @@ def _home(draft: Draft) -> Iterator[str]:
     else:
         yield f"# The lengths that the legs have when the platform is level, at the height {height}."
         yield f"pose = {{ position = [{_numbers(draft.position)}], quaternion = [1, 0, 0, 0] }}"
+
+
+def _nominal(draft: Draft) -> Iterator[str]:
+    yield "# Which of the poses is meant: the one nearest to this is marked wherever poses are listed."
+    yield "[nominal]"
+    if KINDS[draft.design.kind].motion.is_planar:
+        yield f"position = [{_numbers(draft.position[:2])}]"
+        yield _turn(draft)
+    else:
+        yield f"position = [{_numbers(draft.position)}]"
+        yield "rpy_degrees = [0, 0, 0]" if draft.metric == UNIT_METRIC else "quaternion = [1, 0, 0, 0]"
 
 
 def _more(draft: Draft) -> Iterator[str]:
