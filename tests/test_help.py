@@ -25,6 +25,13 @@ CUBE = "[region]\nposition = [[-9, 9], [-9, 9], [760, 780]]\nrpy_degrees = [0, 0
 CUBE += "[conditions]\nno_type_2 = true\n[answer]\nkind = 'all'\n"
 SLOW = ("", "check", "compare", "formulations", "plot", "sweep")
 NOT_HERE = ("tcp://",)  # needs a cluster
+POSES = """x,y,theta,l1,l2,l3
+5,5,0,7.08,5.41,5.79
+5,6,10,7.93,5.99,5.92
+6,5,-10,7.75,5.24,6.87
+4,5,5,6.38,5.79,5.02
+5,4,20,6.47,5.26,4.35
+"""
 
 
 HELPS = {"": certify_poses, **{name: command(name) for name in COMMANDS}}
@@ -64,6 +71,7 @@ def test_every_example_of_a_help_works(
         (tmp_path / file).write_text(PATH)
     (tmp_path / "plan.csv").write_text("x,y,half_tangent\n5,4,0\n6,3,1/3\n2,9,-1/2\n7,7,2\n")
     (tmp_path / "cube.toml").write_text(CUBE)
+    (tmp_path / "poses.csv").write_text(POSES)
     monkeypatch.chdir(tmp_path)
     for example in _examples(HELPS[name]):
         if any(word in example for word in NOT_HERE):

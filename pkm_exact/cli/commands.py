@@ -21,6 +21,7 @@ COMMANDS: Final = {
     "track": ("track", "Follow one assembly mode along a joint path."),
     "sweep": ("sweep", "All poses at each of many length vectors."),
     "region": ("region", "Is all of a region of poses good? Or where is it?"),
+    "calibrate": ("calibrate", "Joints and length offsets from measured poses."),
     "plot": ("plot", "Pictures of the poses in a certificate."),
     "report": ("report_command", "A web page of a certificate."),
     "codegen": ("codegen", "Forward and inverse kinematics as C code, with proved bounds."),

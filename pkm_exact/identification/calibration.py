@@ -69,23 +69,38 @@ def calibration_rows(robot: Robot, pose: Pose, *, offsets: bool) -> tuple[Row, .
     """
     if robot.chains or set(robot.metric) != {1}:
         raise InputError("robot: calibration is of robots with actuated legs in the metric (1, 1, 1); give one")
-    position, rotation = pose
     size = 2 if robot.motion.is_planar else 3
     width = 2 * size + int(offsets)
     rows = []
     for leg, (a, b) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True)):
-        arm = [
-            c + sum((r * x for r, x in zip(row, b, strict=True)), Fraction(0)) - y
-            for c, row, y in zip(position, rotation, a, strict=True)
-        ]
-        turned = [sum((rotation[i][j] * arm[i] for i in range(3)), Fraction(0)) for j in range(3)]
-        entries = [*(-2 * x for x in arm[:size]), *(2 * x for x in turned[:size])]
-        if offsets:
-            entries.append(-2 * _length(distance_squared(a, b, position, rotation), leg + 1))
+        length = _length(distance_squared(a, b, *pose), leg + 1) if offsets else None
         row = [Fraction(0)] * (width * len(robot.base_joints))
-        row[width * leg : width * (leg + 1)] = entries
+        row[width * leg : width * (leg + 1)] = leg_row(robot, pose, leg, length)
         rows.append(tuple(row))
     return tuple(rows)
+
+
+def leg_row(robot: Robot, pose: Pose, leg: int, length: Fraction | None) -> Row:
+    """The derivatives of one leg at a pose by its own parameters, the offset among them if a length is given.
+
+    Examples
+    --------
+    >>> from pkm_exact.geometry.inverse import rotation_of
+    >>> from pkm_exact.geometry.reader import read_robot
+    >>> one, zero = Fraction(1), Fraction(0)
+    >>> pose = (Fraction(5), Fraction(9, 2), zero), rotation_of((one, zero, zero, zero))
+    >>> [str(x) for x in leg_row(read_robot("models/3-rpr-merlet-p.toml"), pose, 0, Fraction(7))]
+    ['-10', '-9', '10', '9', '-14']
+    """
+    position, rotation = pose
+    a, b = robot.base_joints[leg], robot.platform_joints[leg]
+    size = 2 if robot.motion.is_planar else 3
+    arm = [
+        c + sum((r * x for r, x in zip(row, b, strict=True)), Fraction(0)) - y
+        for c, row, y in zip(position, rotation, a, strict=True)
+    ]
+    turned = [sum((rotation[i][j] * arm[i] for i in range(3)), Fraction(0)) for j in range(3)]
+    return (*(-2 * x for x in arm[:size]), *(2 * x for x in turned[:size]), *([] if length is None else [-2 * length]))
 
 
 def _length(square: Fraction, leg: int) -> Fraction:

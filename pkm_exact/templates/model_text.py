@@ -154,14 +154,15 @@ def _home(draft: Draft) -> Iterator[str]:
 
 
 def _nominal(draft: Draft) -> Iterator[str]:
-    yield "# Which of the poses is meant: the one nearest to this is marked wherever poses are listed."
     yield "[nominal]"
+    yield "# Which of the poses is meant: the nearest to this one is marked wherever poses are listed."
     if KINDS[draft.design.kind].motion.is_planar:
         yield f"position = [{_numbers(draft.position[:2])}]"
-        yield _turn(draft)
+        yield _line(_turn(draft), "tangent of half the platform's angle")
     else:
         yield f"position = [{_numbers(draft.position)}]"
-        yield "rpy_degrees = [0, 0, 0]" if draft.metric == UNIT_METRIC else "quaternion = [1, 0, 0, 0]"
+        turn = "rpy_degrees = [0, 0, 0]" if draft.metric == UNIT_METRIC else "quaternion = [1, 0, 0, 0]"
+        yield _line(turn, "not turned")
 
 
 def _more(draft: Draft) -> Iterator[str]:

@@ -1,0 +1,125 @@
+"""Calibration: joints that are known, measured with and without noise, found again."""
+
+from __future__ import annotations
+
+import tomllib
+from math import cos, hypot, radians, sin
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from pkm_exact.cli.main import main
+from pkm_exact.geometry.reader import read_robot
+from pkm_exact.geometry.robot import Robot
+from pkm_exact.identification.calibration_fit import fitted_legs
+from pkm_exact.identification.measured_poses import identifiable, measured_poses_from_csv
+
+pytest.importorskip("scipy")
+
+MODEL = Path(__file__).parent.parent / "models" / "3-rpr-merlet-p.toml"
+HEADER = "x,y,theta,l1,l2,l3"
+Capture = pytest.CaptureFixture[str]
+
+
+def _true(robot: Robot, seed: int) -> list[tuple[float, ...]]:
+    """For each leg other joints than the model's, and an offset."""
+    random = Random(seed)
+    joints = zip(robot.base_joints, robot.platform_joints, strict=True)
+    return [tuple(float(x) + random.uniform(-0.2, 0.2) for x in (*a[:2], *b[:2], 0)) for a, b in joints]
+
+
+def _table(legs: list[tuple[float, ...]], count: int, *, noise: float = 0.0, turns: bool = True) -> str:
+    random, rows = Random(7), [HEADER]
+    for _ in range(count):
+        x, y, angle = random.uniform(3, 7), random.uniform(3, 7), random.uniform(-40, 40) * turns
+        c, s = cos(radians(angle)), sin(radians(angle))
+        lengths = [
+            hypot(x + c * u - s * v - a, y + s * u + c * v - b) - offset + random.gauss(0, noise)
+            for a, b, u, v, offset in legs
+        ]
+        rows.append(",".join(f"{value:.12f}" for value in (x, y, angle, *lengths)))
+    return "\n".join(rows) + "\n"
+
+
+def test_joints_and_offsets_are_found_from_measurements_without_errors() -> None:
+    robot = read_robot(MODEL)
+    legs = _true(robot, 1)
+    measured = measured_poses_from_csv(_table(legs, 20), robot)
+    known = identifiable(robot, measured, offsets=True)
+    assert [leg.rank for leg in known] == [5, 5, 5]
+    for leg, fit in zip(legs, fitted_legs(robot, measured, known, offsets=True), strict=True):
+        assert fit.values == pytest.approx(leg, abs=1e-6)
+        assert max(map(abs, fit.after)) < 1e-8 < max(map(abs, fit.before))
+
+
+def test_what_is_not_shown_stays_and_is_said() -> None:
+    """A platform that does not turn: base joint and platform joint of a leg can move together."""
+    robot = read_robot(MODEL)
+    measured = measured_poses_from_csv(_table(_true(robot, 2), 12, turns=False), robot)
+    known = identifiable(robot, measured, offsets=True)
+    assert [leg.rank for leg in known] == [3, 3, 3]
+    assert known[1].confused()[0] == "nothing shows a change of A2x by 1, B2x by 1"
+    for leg, fit in enumerate(fitted_legs(robot, measured, known, offsets=True)):
+        model = [float(x) for x in (*robot.base_joints[leg][:2], *robot.platform_joints[leg][:2])]
+        assert fit.values[0] - model[0] == pytest.approx(model[2] - fit.values[2], abs=1e-9)
+        assert max(map(abs, fit.after)) < 1e-8
+
+
+def test_standard_deviations_are_those_of_repeated_measurements() -> None:
+    robot = read_robot(MODEL)
+    legs = _true(robot, 3)
+    measured = measured_poses_from_csv(_table(legs, 200, noise=0.001), robot)
+    fits = fitted_legs(robot, measured, identifiable(robot, measured, offsets=True), offsets=True)
+    off = [
+        (value - true) / fit.covariance[k][k] ** 0.5
+        for fit, leg in zip(fits, legs, strict=True)
+        for k, (value, true) in enumerate(zip(fit.values, leg, strict=True))
+    ]
+    assert 0.3 < (sum(x * x for x in off) / len(off)) ** 0.5 < 2
+
+
+def test_the_command_writes_model_covariance_and_picture(tmp_path: Path, capsys: Capture) -> None:
+    pytest.importorskip("matplotlib")
+    legs = _true(read_robot(MODEL), 4)
+    (tmp_path / "poses.csv").write_text(_table(legs, 15))
+    target, picture = tmp_path / "new.toml", tmp_path / "residuals.svg"
+    words = ["calibrate", str(MODEL), str(tmp_path / "poses.csv"), "-o", str(target), "--picture", str(picture)]
+    assert main(words) == 0
+    text = capsys.readouterr().out
+    assert "15 poses, 45 lengths; they determine 15 of 15 parameters" in text
+    robot, before = read_robot(target), read_robot(MODEL)
+    for leg, (joint, true) in enumerate(zip(robot.base_joints, legs, strict=True)):
+        assert [float(x) for x in joint[:2]] == pytest.approx(true[:2], abs=1e-5)
+        old, new = (r.configuration().lengths_squared[leg] for r in (before, robot))
+        assert float(new) ** 0.5 - float(old) ** 0.5 == pytest.approx(true[4], abs=1e-5)
+    content = tomllib.loads((tmp_path / "new.covariance.toml").read_text())
+    assert content["leg2"]["parameters"] == ["A2x", "A2y", "B2x", "B2y", "offset 2"]
+    assert len(content["leg3"]["covariance"]) == 5
+    assert picture.read_bytes().startswith(b"<?xml")
+    assert main(words) == 2
+    assert "exists; give -o another path" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("", "has no row of numbers"),
+        ("x,y,z,l1,l2,l3\n1,1,1,1,1,1\n", "name them x,y,theta,l1,l2,l3"),
+        (f"{HEADER}\n1,1,1,1,1\n", "line 2: 5 values; give 6"),
+        (f"{HEADER}\n1,1,1,1,1,-1\n", "line 2, l3: -1 is not a length"),
+        (f"{HEADER}\n1,1,1,1,x,1\n", "line 2, l2"),
+        (f"{HEADER}\n1,1,1,1,2,1\n", "no measurement is left to judge by; give more poses"),
+    ],
+)
+def test_bad_tables_are_refused_and_nothing_is_written(text: str, part: str, tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "poses.csv").write_text(text)
+    assert main(["calibrate", str(MODEL), str(tmp_path / "poses.csv"), "-o", str(tmp_path / "new.toml")]) == 2
+    assert part in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["poses.csv"]
+
+
+def test_robots_with_cranks_are_refused(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "poses.csv").write_text(f"{HEADER}\n1,1,1,1,2,1\n")
+    assert main(["calibrate", str(MODEL.with_name("3-rrr.toml")), str(tmp_path / "poses.csv")]) == 2
+    assert "no robot with actuated legs" in capsys.readouterr().err
