@@ -10,11 +10,12 @@ from typing import Any
 
 from certificate_subjects import Content, subject
 from flint import fmpq_poly, fmpz_poly
-from forged_neighbours import ANY, _circle, _near, _robot_1, _turned
+from forged_mechanisms import as_version_2
+from forged_neighbours import ANY, TURNED, _circle, _near, _robot_1, _turned
 from forged_poses import held, single
-from forged_representations import fit_real_poses, representation_through, set_representation
-from forgeries import TRIANGLE, UNTURNED, on_circle
-from held_mechanisms import Numbers, Pose, listing
+from forged_representations import fit_real_poses, representation_through, set_representation, sliding
+from forgeries import DETECTED, TRIANGLE, UNTURNED, on_circle
+from held_mechanisms import PLACED, Numbers, Pose, listing
 
 from pkm_exact.certify import pure
 from pkm_exact.constraints.distance import Distance
@@ -289,7 +290,45 @@ MODULO: dict[str, Case] = {
     for first, second in ((0, number - 1), (number - 1, 0), (1, 0))
 }
 
-MARGINS: dict[str, Case] = {**ROOTS, **CELLS, **BOUNDS, **POWERS, **SINGLE, **MODULO}
+# As many poses of a moving robot as there can be isolated ones, and motions that two arguments prove
+
+
+def _complete(content: Content, route: str) -> Content:
+    return _simple(content) | {"claim": "complete", "completeness_route": route}
+
+
+TRIPLES = ((3, 4, 5), (5, 12, 13), (8, 15, 17))
+POINTS = [(Fraction(x, r), Fraction(y, r)) for a, b, r in TRIPLES for x, y in ((a, b), (b, a))]
+
+
+def _on_circle(number: int) -> Content:
+    return as_version_2(on_circle(POINTS[:number], (0, 1, 0)))
+
+
+MOVING: dict[str, Case] = {
+    "forty poses on a sphere, said to be all": (lambda: _complete(sliding(40), "refined-bezout"), REJECTED),
+    **{
+        f"six poses on a circle, said to be all by {route}": (
+            lambda route=route: _complete(_on_circle(6), route),  # type: ignore[misc]
+            REJECTED,
+        )
+        for route in ("refined-bezout", "product-bound", "modular-rank")
+    },
+    "all poses in boxes, and a motion": (
+        lambda: subject("planar, boxes") | {"method": "exact", "completeness_route": None, **DETECTED},
+        REJECTED,
+    ),
+    "joints in a point, and two legs are one": (
+        lambda: _robot_1(TURNED["a general pose"], [(1, 2, 0), (1, 2, 0), (5, -3, 0)], [(3, 1, 0)] * 3),
+        ACCEPTED,
+    ),
+    "joints on a line, and two legs are one": (
+        lambda: _robot_1(PLACED, [*ANY[:5], ANY[0]], [(n, 2 * n, 3 * n) for n in (1, 2, 4, 7, 9, 1)]),
+        ACCEPTED,
+    ),
+}
+
+MARGINS: dict[str, Case] = {**ROOTS, **CELLS, **BOUNDS, **POWERS, **SINGLE, **MODULO, **MOVING}
 
 
 # What is larger than Python writes

@@ -840,7 +840,7 @@ def common_divisor(a: Polynomial, b: Polynomial, p: int) -> Polynomial:
 
 def product(a: Polynomial, b: Polynomial, p: int) -> Polynomial:
     """The product modulo p."""
-    k = 2 * p.bit_length() + len(a).bit_length() + 1
+    k = 2 * p.bit_length() + len(a).bit_length() + 2
     spend(product_cost(k * len(a), k * len(b)) + (len(a) + len(b)) * (500 + division_cost(k, k // 2)))
     return reduced(digits(at_power(a, k) * at_power(b, k), k), p)
 
@@ -1013,17 +1013,12 @@ def check_poses(representation: Representation, legs: Sequence[Leg], g: Metric) 
 
 def evaluated(representation: Representation, g: Metric, scale: int) -> tuple[Multiples, Motion]:
     """The quantities of the motion at a power of 2 that is large enough for forms in them of size ``scale``."""
-    bound = size_of_quantities(representation, g)
+    bounds = sized_motion(representation, g)
+    bound = max(each.size for each in (*bounds.quantities(), bounds.study))
     multiples = Multiples(primitive_part(representation.h), bound * max(scale, 1))
     values = [at_power(numerator, multiples.k) for numerator in representation.numerators]
     spend(80 * product_cost(most_bits(values), most_bits(values)))
     return multiples, motion(values[:4], values[4:], g)
-
-
-def size_of_quantities(representation: Representation, g: Metric) -> int:
-    """A bound for the sizes of the quantities of the motion, quadratic forms in (e, f) of size 4 max(g)^3 at most."""
-    largest: int = max(map(size, representation.numerators))
-    return 4 * max(g) ** 3 * largest**2
 
 
 def norm_modulo(representation: Representation, g: Metric, p: int) -> Polynomial:
@@ -1227,10 +1222,6 @@ class Interval:
     def meets(self, other: Interval) -> bool:
         """Whether there is a common number."""
         return self.low <= other.high and other.low <= self.high
-
-    def common(self, other: Interval) -> Interval:
-        """The common numbers, of intervals that both contain the same number."""
-        return Interval(max(self.low, other.low), min(self.high, other.high), self.p)
 
     def largest(self) -> int:
         """The largest absolute value, times 2^p."""

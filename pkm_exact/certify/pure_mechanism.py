@@ -525,12 +525,18 @@ def is_quadric_zero(
     representation: pure.Representation, g: pure.Metric, quadric: tuple[int, list[int], int, list[int]]
 ) -> bool:
     """Whether h0 divides a N F - b H^2, of degree 4 in (E, F)."""
-    a, f, b, h = quadric
-    bound = pure.size_of_quantities(representation, g) ** 2 * (a * pure.size(f) + b * pure.size(h) ** 2)
+    bound = value_of(quadric, pure.sized_motion(representation, g)).size
     multiples = pure.Multiples(pure.primitive_part(representation.h), bound, 4)
     values = [pure.at_power(numerator, multiples.k) for numerator in representation.numerators]
-    placed = quantities(pure.motion(values[:4], values[4:], g))
-    return multiples.include(a * placed[ONE] * pure.combination(f, placed) - b * pure.combination(h, placed) ** 2)
+    return multiples.include(value_of(quadric, pure.motion(values[:4], values[4:], g)))
+
+
+def value_of(quadric: tuple[int, list[int], int, list[int]], placed: pure.Motion) -> Any:
+    """a N F - b H^2."""
+    a, f, b, h = quadric
+    values = quantities(placed)
+    height = pure.combination(h, values)
+    return a * (values[ONE] * pure.combination(f, values)) - b * (height * height)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
