@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import partial
-from math import isqrt
+from math import ceil, floor, isqrt
 from typing import Any
 
 from certificate_subjects import Content, subject
@@ -15,9 +15,10 @@ from forged_neighbours import ANY, TURNED, _circle, _near, _robot_1, _turned
 from forged_poses import held, single
 from forged_representations import fit_real_poses, representation_through, set_representation, sliding
 from forgeries import DETECTED, TRIANGLE, UNTURNED, on_circle
-from held_mechanisms import PLACED, Numbers, Pose, listing
+from held_mechanisms import PLACED, Numbers, Pose, listing, moving
 
 from pkm_exact.certify import pure
+from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.linear import LinearForm
 
@@ -221,7 +222,9 @@ POWERS: dict[str, Case] = {
 # Boxes that differ in one coordinate alone
 
 
-def _boxed(poses: Sequence[Pose], chart: Sequence[int], bits: int = 24) -> Content:
+def _boxed(
+    poses: Sequence[Pose], chart: Sequence[int], bits: int = 24, to_grid: Callable[[Fraction], int] = round
+) -> Content:
     """Boxes around the poses of a planar robot with legs through both."""
     legs = [leg_through(poses, b, a) for b, a in zip(PLATFORMS, BASES, strict=True)]
     content = in_version_1(subject("nothing known") | {"robot": {"metric": ["1", "1", "1"]}}, legs)
@@ -229,7 +232,7 @@ def _boxed(poses: Sequence[Pose], chart: Sequence[int], bits: int = 24) -> Conte
     real = []
     for pose in poses:
         x = [Fraction(v) / Fraction(pose.e[scale]) for v in (*pose.e, *pose.f)]
-        real.append({"exponents": [bits, bits], "centre": [hex(round(v * (1 << bits))) for v in x]})
+        real.append({"exponents": [bits, bits], "centre": [hex(to_grid(v * (1 << bits))) for v in x]})
     content["krawczyk"] = {"chart": list(chart), "real": real, "complex": []}
     metric, base, platform = pure.a_robot(content["robot"], "robot")
     read = tuple(map(pure.Leg, base, platform, pure.a_configuration(content["configuration"], 3)))
@@ -256,7 +259,31 @@ def _pose(ends: list[Any]) -> Content:
     }
 
 
+def _off(coordinate: str, parts: Fraction, sign: int) -> Content:
+    """A centre beside the nearest grid point: the solution is 1/2 + ``parts`` 2^-20 units away from it."""
+    distance = sign * (Fraction(1, 2) + parts / (1 << 20)) / (1 << 24)
+    to_grid = floor if sign > 0 else ceil
+    if coordinate == "e0":
+        e = (1 + distance) * 2
+        return _boxed([Pose((e, 0, 0, 2), (0, 4, 6, 0)), Pose((6, 0, 0, 2), (0, 4, 6, 0))], (0, 0, 0, 1), 24, to_grid)
+    poses = [Pose((2, 0, 0, 1), (0, 1, 2 * (3 + distance), 0)), Pose((2, 0, 0, 1), (0, 1, 14, 0))]
+    return _boxed(poses, (1, 0, 0, 0), 24, to_grid)
+
+
 SINGLE: dict[str, Case] = {
+    **{
+        f"{coordinate} is {sign} (1/2 + {parts} 2^-20) units from the centre": (
+            partial(_off, coordinate, parts, sign),
+            status,
+        )
+        for coordinate in ("e0", "f2")
+        for sign in (1, -1)
+        for parts, status in (
+            (Fraction(3, 4), ACCEPTED),
+            (Fraction(3, 2), REJECTED),
+            (Fraction(1 << 18), REJECTED),
+        )
+    },
     "boxes that differ in e0 alone": (
         lambda: _boxed([Pose((1, 0, 0, 2), (0, 4, 6, 0)), Pose((3, 0, 0, 2), (0, 4, 6, 0))], (0, 0, 0, 1)),
         ACCEPTED,
@@ -328,7 +355,59 @@ MOVING: dict[str, Case] = {
     ),
 }
 
-MARGINS: dict[str, Case] = {**ROOTS, **CELLS, **BOUNDS, **POWERS, **SINGLE, **MODULO, **MOVING}
+# Poses where constraints touch, and slices of a mechanism with few of them
+
+
+def _touching(constraints: Callable[[Pose], list[Constraint]]) -> Content:
+    """One pose of a translation, at which two constraints have parallel gradients; its multiplicity is not proved."""
+    at = Pose((1, 0, 0, 0), (0, 1, 0, 5))
+    return listing("translation", [at], constraints(at), None)
+
+
+def _few_in_slices() -> Content:
+    """A planar leg lets the platform move; five poses in slices, none of them held there."""
+    poses = [Pose((1, 0, 0, 0), (0, x, y, 0)) for x, y in sorted(POINTS)]
+    legs = [poses[0].distance((0, 0, 0), (0, 0, 0))]
+    form = [0] * 17
+    form[4] = 1
+    slices = [
+        {"constant": str(pose.f[1]), "representation": listing("planar", [pose], legs, None)["representation"]}
+        for pose in poses
+    ]
+    content = moving(listing("planar", poses[:1], legs, None), "more-poses-than-bound", real=False)
+    motion = content["self_motion"] | {"forms": [[str(c) for c in form]], "slices": slices}
+    return content | {"representation": None, "self_motion": motion}
+
+
+TOUCHING: dict[str, Case] = {
+    "two spheres that touch": (
+        lambda: _touching(
+            lambda at: [
+                at.distance((2, 4, 4), (0, 1, 2)),
+                at.distance((0, -2, 10), (0, 1, 2)),
+                at.in_plane((1, 2, 5), (1, 1, 1)),
+            ]
+        ),
+        ACCEPTED,
+    ),
+    "two cylinders that touch": (
+        lambda: _touching(
+            lambda at: [
+                at.axis_distance((0, 0, 1), (0, 0, 2), (0, 0, 0)),
+                at.axis_distance((3, 0, 2), (0, 0, 1), (0, 0, 0)),
+                at.in_plane((0, 1, 0), (0, 0, 0)),
+            ]
+        ),
+        ACCEPTED,
+    ),
+    "poses in slices that are not held there": (_few_in_slices, ACCEPTED),
+    "poses in slices that are not held there, said to move": (
+        lambda: (lambda c: c | {"self_motion": c["self_motion"] | {"real": True}})(_few_in_slices()),
+        REJECTED,
+    ),
+}
+
+MARGINS: dict[str, Case] = {**ROOTS, **CELLS, **BOUNDS, **POWERS, **SINGLE, **MODULO, **MOVING, **TOUCHING}
 
 
 # What is larger than Python writes
