@@ -139,3 +139,29 @@ def test_only_the_command_line_imports_the_command_line() -> None:
 def test_no_two_modules_have_the_same_name() -> None:
     names = [module.rpartition(".")[2] for module in modules() if not module.endswith("__init__")]
     assert sorted(name for name, count in Counter(names).items() if count > 1) == []
+
+
+TOGETHER = [
+    {"polytopes.combinations_of_polytopes", "polytopes.polytope", "polytopes.slabs"},
+    {"poses.arrays", "poses.pose"},
+]
+"""Modules that know each other: of a value and its operators."""
+
+
+def test_other_modules_import_each_other_in_no_circle() -> None:
+    names = {module.partition(".")[2]: tree for module, tree in modules().items()}
+    left = {
+        module: {
+            next(known for known in (name, name.rpartition(".")[0], "") if known in names or not known)
+            for name in (found.partition(".")[2] for found in _imported(tree))
+        }
+        - {"", module}
+        for module, tree in names.items()
+    }
+    for circle in TOGETHER:
+        for module in circle:
+            left[module] -= circle
+    while free := [module for module, imported in left.items() if not imported & left.keys()]:
+        for module in free:
+            del left[module]
+    assert not left, f"in a circle, or above one: {sorted(left)}"

@@ -35,7 +35,8 @@ from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.numeric.centred import centred_frames, centred_robot
 from pkm_exact.numeric.path_forms import JointRow, has_cranks, path_forms, problem_at
-from pkm_exact.numeric.trajectory import TrackedSample, TrackingStopped, TrackPolicy, track_branch
+from pkm_exact.numeric.tracked_branch import TrackedSample, TrackingStopped, TrackPolicy
+from pkm_exact.numeric.trajectory import track_branch
 from pkm_exact.numeric.tube import FloatPath, predict, prove, station
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Pose

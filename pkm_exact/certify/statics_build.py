@@ -25,7 +25,7 @@ from pkm_exact.statics.measures import Measures, RefusedError
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.roots.interval import Interval
-    from pkm_exact.statics.at_pose import AtPose
+    from pkm_exact.statics.pose_rows import PoseRows
 
 FORMAT: Final = "pkm_exact statics certificate"
 VERSION: Final = 1
@@ -82,7 +82,7 @@ def statics_certificate_bytes(machine: Machine, measures: Measures) -> bytes:
     return canonical_bytes(statics_certificate(machine, measures))
 
 
-def _legs(machine: Machine, at: AtPose) -> list[tuple[Any, Any]]:
+def _legs(machine: Machine, at: PoseRows) -> list[tuple[Any, Any]]:
     wanted = "certificate: is for exact poses of machines of legs whose lengths are actuated, 12 at most"
     if not at.is_exact or not 1 <= len(at.held.actuators) <= MOST_LEGS or at.held.structural:
         raise InputError(wanted)
@@ -99,16 +99,16 @@ def _texts(values: Sequence[Any]) -> list[str]:
     return [str(Fraction(value)) for value in values]
 
 
-def _rows(at: AtPose) -> list[list[Fraction]]:
+def _rows(at: PoseRows) -> list[list[Fraction]]:
     """R_i: half the derivative of the squared length."""
     return [[Fraction(x) / 2 for x in row.wrench] for row in at.exact_rows or ()]
 
 
-def _squares(at: AtPose) -> list[Fraction]:
+def _squares(at: PoseRows) -> list[Fraction]:
     return [equation.rates[0].value_squared or Fraction(0) for equation in at.equations]
 
 
-def _velocity(at: AtPose, speeds: Sequence[Fraction]) -> dict[str, Any]:
+def _velocity(at: PoseRows, speeds: Sequence[Fraction]) -> dict[str, Any]:
     rows, squares = _rows(at), _squares(at)
     bounds = []
     for speed, square in zip(speeds, squares, strict=True):

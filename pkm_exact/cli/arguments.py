@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import click
 
-from pkm_exact.cli.main import PROBLEM
+from pkm_exact.cli.program import PROBLEM
 from pkm_exact.cli.shell_completion import configurations
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import checked_code, formulation_codes

@@ -10,7 +10,7 @@ from pathlib import Path
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.program import ExitCode, worst
 from pkm_exact.errors import InputError
 from pkm_exact.stages import Amount
 from pkm_exact.wording import printable
@@ -73,11 +73,6 @@ def check_all(files: Sequence[Path], *, pure: bool) -> ExitCode:
             progress.amount(Amount(done, len(files), "files"))
             codes.append(_check(path, pure=pure, before_output=progress.clear))
     return worst(codes)
-
-
-def worst(codes: Sequence[ExitCode]) -> ExitCode:
-    """One exit code for many files: a rejected one counts most."""
-    return ExitCode.REJECTED if ExitCode.REJECTED in codes else max(codes)
 
 
 def files_in(paths: Sequence[str]) -> Iterator[Path]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.program import ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.files import write_all
 from pkm_exact.wording import printable

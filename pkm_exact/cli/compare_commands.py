@@ -9,7 +9,7 @@ from pathlib import Path
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.program import ExitCode
 from pkm_exact.errors import InputError
 
 MOST_STARTS = 10_000

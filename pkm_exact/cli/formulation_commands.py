@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.program import ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.export.targets import TARGETS
 from pkm_exact.formulations.registry import formulation_codes

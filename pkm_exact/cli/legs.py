@@ -11,7 +11,7 @@ import click
 
 from pkm_exact.cli import arguments
 from pkm_exact.cli.given_pose import given_pose, pose_of, pose_options
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.program import ExitCode
 
 
 @click.command()

@@ -11,34 +11,16 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from enum import IntEnum
 from functools import partial
 from pathlib import Path
 
 import click
 
+from pkm_exact.cli.program import COMPLETIONS, PROBLEM, PROGRAM, ROOTS, ExitCode
 from pkm_exact.errors import InputError, InternalError, PkmExactError
 from pkm_exact.wording import printable
 
-PROGRAM = "certify-poses"
-ROOTS = "certify-roots"
-"""The program for polynomial systems."""
-COMPLETIONS = {PROGRAM: "_CERTIFY_POSES_COMPLETE", ROOTS: "_CERTIFY_ROOTS_COMPLETE"}
-"""The environment variables by which a shell's completion script asks."""
-PROBLEM = "pkm_exact.problem"
-"""Where a command leaves in its context which problem it is about, for the report of a failure."""
-
-
-class ExitCode(IntEnum):
-    """What the process tells its caller."""
-
-    DONE = 0
-    REJECTED = 1
-    BAD_INPUT = 2
-    WEAKER_CLAIM = 3
-    NO_ANSWER = 4
-    INTERRUPTED = 130
-    BROKEN_PIPE = 141
+__all__ = ["COMPLETIONS", "PROBLEM", "PROGRAM", "ROOTS", "ExitCode", "main", "roots_main"]
 
 
 def roots_main(arguments: Sequence[str] | None = None) -> int:
@@ -83,7 +65,7 @@ def main(arguments: Sequence[str] | None = None, program: str = PROGRAM) -> int:
     return code
 
 
-def commands_of(program: str) -> click.Group:
+def _commands(program: str) -> click.Group:
     """The commands of a program."""
     if program == ROOTS:
         from pkm_exact.cli.roots_commands import certify_roots
@@ -95,9 +77,9 @@ def commands_of(program: str) -> click.Group:
 
 
 def _run(words: list[str], program: str) -> int:
-    group = commands_of(program)
+    group = _commands(program)
     complain = partial(_complain, program=program)
-    if COMPLETIONS[program] in os.environ and _answered(program):
+    if COMPLETIONS[program] in os.environ and _answered(program, group):
         return ExitCode.DONE
     try:
         # click's own main() would turn a broken pipe into exit code 1, which here means a rejected certificate.
@@ -123,10 +105,10 @@ def _run(words: list[str], program: str) -> int:
         return complain("no answer: the memory is exhausted", ExitCode.NO_ANSWER)
 
 
-def _answered(program: str) -> bool:
+def _answered(program: str, group: click.Group) -> bool:
     from pkm_exact.cli.shell_completion import answered
 
-    return answered(program)
+    return answered(program, group)
 
 
 def _invoked(command: click.Command, context: click.Context) -> int:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 import click
 from click.core import ParameterSource
 
-from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.motions.motion import Motion
 from pkm_exact.wording import printable

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.program import ExitCode
 from pkm_exact.errors import InputError
 
 if TYPE_CHECKING:

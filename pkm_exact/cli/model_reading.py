@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from pkm_exact.cli.main import PROGRAM
+from pkm_exact.cli.program import PROGRAM
 from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def announced_model(path: str) -> Robot | Mechanism:
 
 def announced_any(path: str) -> Robot | Mechanism | Linkage:
     """The same, or the mechanism of bodies and joints of a file of that kind (``geometry.reader.read_any``)."""
-    from pkm_exact.geometry.kind_names import is_linkage, is_links
+    from pkm_exact.geometry.model_kinds import is_linkage, is_links
     from pkm_exact.geometry.reader import read_any
 
     found = read_any(path)
@@ -44,7 +44,7 @@ def announced_any(path: str) -> Robot | Mechanism | Linkage:
 
 def announced_solvable(path: str) -> Robot | Mechanism | Links:
     """The robot that a model file describes, or the mechanism with passive bodies of a file of that kind."""
-    from pkm_exact.geometry.kind_names import is_linkage, is_links
+    from pkm_exact.geometry.model_kinds import is_linkage, is_links
     from pkm_exact.geometry.reader import read_any
 
     found = read_any(path)

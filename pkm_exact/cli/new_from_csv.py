@@ -11,7 +11,7 @@ import click
 
 from pkm_exact.cli import arguments
 from pkm_exact.cli.circle_options import numbers
-from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import distance_squared, rotation_of

@@ -8,9 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pkm_exact.certify.certificate import content_of
-from pkm_exact.cli.check_command import worst
-from pkm_exact.cli.main import ExitCode
 from pkm_exact.cli.model_reading import announced_robot
+from pkm_exact.cli.program import ExitCode, worst
 from pkm_exact.errors import InputError, InternalError, PkmExactError
 from pkm_exact.failures.failure_report import reported
 from pkm_exact.files import write_whole

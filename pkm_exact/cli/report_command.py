@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.wording import printable
 

@@ -11,7 +11,7 @@ import click
 
 from pkm_exact.cli import arguments
 from pkm_exact.cli.check_command import check_all, files_in
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.program import ExitCode
 from pkm_exact.cli.shell_completion import roots_completion
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from typing import Final
 
 import click
 
-from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.wording import counted, printable
 
 _COLUMN: Final = 24

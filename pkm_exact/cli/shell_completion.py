@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 import click
 
-from pkm_exact.cli.main import COMPLETIONS, PROGRAM, ROOTS, ExitCode, commands_of
+from pkm_exact.cli.program import COMPLETIONS, PROGRAM, ROOTS, ExitCode
 from pkm_exact.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def completion(shell: str) -> int:
     bash: put the first into a file that ~/.bashrc sources. zsh: a file _certify-poses in a folder of $fpath. fish: the
     file ~/.config/fish/completions/certify-poses.fish.
     """
-    sys.stdout.write(_completer(shell, PROGRAM).source() + "\n")
+    sys.stdout.write(_completer(shell, PROGRAM, _group()).source() + "\n")
     return ExitCode.DONE
 
 
@@ -47,25 +47,30 @@ def roots_completion(shell: str) -> int:
 
     Files as for certify-poses completion, with certify-roots in their names.
     """
-    sys.stdout.write(_completer(shell, ROOTS).source() + "\n")
+    sys.stdout.write(_completer(shell, ROOTS, _group()).source() + "\n")
     return ExitCode.DONE
 
 
-def answered(program: str) -> bool:
+def answered(program: str, group: click.Command) -> bool:
     """Answer the question of a completion script, if it was one that started the program."""
     shell, _, instruction = os.environ.get(COMPLETIONS[program], "").partition("_")
     if shell not in SHELLS or instruction not in ("source", "complete"):
         return False
-    completer = _completer(shell, program)
+    completer = _completer(shell, program, group)
     sys.stdout.write((completer.source() if instruction == "source" else completer.complete()) + "\n")
     return True
 
 
-def _completer(shell: str, program: str) -> click.shell_completion.ShellComplete:
+def _group() -> click.Command:
+    """The program whose command is running."""
+    return click.get_current_context().find_root().command
+
+
+def _completer(shell: str, program: str, group: click.Command) -> click.shell_completion.ShellComplete:
     from click.shell_completion import BashComplete, FishComplete, ZshComplete
 
     known = dict(zip(SHELLS, (BashComplete, ZshComplete, FishComplete), strict=True))
-    return known[shell](commands_of(program), {}, program, COMPLETIONS[program])
+    return known[shell](group, {}, program, COMPLETIONS[program])
 
 
 def configurations(context: click.Context, _: click.Parameter, incomplete: str) -> list[CompletionItem]:

@@ -11,8 +11,8 @@ import click
 
 from pkm_exact.cli import arguments, tolerance_report
 from pkm_exact.cli.feasible_poses import SORTS
-from pkm_exact.cli.main import ExitCode
 from pkm_exact.cli.methods import METHODS, report_uncertified, require_fitting, solved
+from pkm_exact.cli.program import ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.formulations.registry import formulation_codes
 
@@ -117,7 +117,7 @@ def solve(
     """
     _require_one([("--configuration", configuration), ("--lengths", lengths), ("--joints", joints)])
     from pkm_exact.cli.model_reading import announced_solvable
-    from pkm_exact.geometry.kind_names import is_links
+    from pkm_exact.geometry.model_kinds import is_links
 
     robot = announced_solvable(model)
     if is_links(robot):

@@ -13,7 +13,7 @@ import click
 from click.core import ParameterSource
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import ExitCode
+from pkm_exact.cli.program import ExitCode
 from pkm_exact.errors import InputError
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ import click
 
 from pkm_exact.cli import arguments
 from pkm_exact.cli.given_pose import GivenPose, given_pose, pose_of, pose_options
-from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.cli.shell_completion import configurations
 from pkm_exact.errors import InputError
 from pkm_exact.wording import printable, shown

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.main import PROGRAM, ExitCode
+from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.stages import Amount
 from pkm_exact.wording import printable
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.path_reader import JointPath
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.interactive.progress import Progress
-    from pkm_exact.numeric.trajectory import BranchPoint, TrackedSample
+    from pkm_exact.numeric.tracked_branch import BranchPoint, TrackedSample
     from pkm_exact.poses.pose import Pose
     from pkm_exact.solution import Solution
 
@@ -180,7 +180,8 @@ def _follow(
 ) -> dict[str, Any] | None:
     """Add what is missing to the store; return where and why the branch ends, if it does."""
     from pkm_exact.cli.track_report import point_of, record_of, stop_of
-    from pkm_exact.numeric.trajectory import TrackingStopped, track_branch
+    from pkm_exact.numeric.tracked_branch import TrackingStopped
+    from pkm_exact.numeric.trajectory import track_branch
 
     start: Pose | BranchPoint
     poses: tuple[Pose, ...] = ()

@@ -17,7 +17,7 @@ from pkm_exact.geometry.path_reader import TIME, joint_names
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.path_reader import JointPath
-    from pkm_exact.numeric.trajectory import BranchPoint, TrackedSample, TrackingStopped
+    from pkm_exact.numeric.tracked_branch import BranchPoint, TrackedSample, TrackingStopped
     from pkm_exact.poses.pose import Interval
 
 Record = dict[str, Any]
@@ -46,7 +46,7 @@ def record_of(sample: TrackedSample, *, start_proved: bool) -> Record:
 
 def point_of(content: Record) -> BranchPoint:
     """Where a record's branch goes on."""
-    from pkm_exact.numeric.trajectory import BranchPoint
+    from pkm_exact.numeric.tracked_branch import BranchPoint
 
     return BranchPoint(
         content["row"],

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import csv
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Final
 
@@ -22,6 +23,29 @@ def is_header(fields: Sequence[str]) -> bool:
     (True, False)
     """
     return any(field[:1].isalpha() and field.lower() not in _NOT_FINITE for field in fields)
+
+
+def numbered_rows(text: str) -> Iterator[tuple[int, list[str]]]:
+    """The fields of each line, with its number; without empty lines and those that begin with #.
+
+    Raises
+    ------
+    InputError
+        If the text is not CSV.
+
+    Examples
+    --------
+    >>> list(numbered_rows("# a path\\nl1, l2\\n\\n7,5\\n"))
+    [(2, ['l1', 'l2']), (4, ['7', '5'])]
+    """
+    reader = csv.reader(text.splitlines())
+    try:
+        for cells in reader:
+            fields = [cell.strip() for cell in cells]
+            if any(fields) and not fields[0].startswith("#"):
+                yield reader.line_num, fields
+    except csv.Error as error:
+        raise InputError(f"line {reader.line_num}: not CSV ({error}); separate numbers by commas") from None
 
 
 def header_names(fields: Sequence[str], choices: Sequence[tuple[str, ...]], wanted: str, line: str) -> tuple[str, ...]:

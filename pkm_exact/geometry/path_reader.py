@@ -7,7 +7,6 @@ more, ``time``. A first line with these names may be left out. Blank lines and l
 
 from __future__ import annotations
 
-import csv
 import os
 from dataclasses import dataclass
 from fractions import Fraction
@@ -16,7 +15,7 @@ from typing import Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Crank
-from pkm_exact.geometry.csv_fields import exact_number, header_names, is_header, require_length
+from pkm_exact.geometry.csv_fields import exact_number, header_names, is_header, numbered_rows, require_length
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.robot import Robot
@@ -101,27 +100,20 @@ def path_from_csv(text: str, robot: Machine) -> JointPath:
     rows: list[tuple[Fraction, ...]] = []
     times: list[Fraction] = []
     lines: list[int] = []
-    reader = csv.reader(text.splitlines())
-    try:
-        for cells in reader:
-            fields = [cell.strip() for cell in cells]
-            if not any(fields) or fields[0].startswith("#"):
+    for number, fields in numbered_rows(text):
+        line = f"line {number}"
+        if columns is None:
+            columns = _columns(fields, names, line)
+            if is_header(fields):
                 continue
-            line = f"line {reader.line_num}"
-            if columns is None:
-                columns = _columns(fields, names, line)
-                if is_header(fields):
-                    continue
-            if len(fields) != len(columns):
-                raise InputError(f"{line}: {len(fields)} values; give {len(columns)}: {', '.join(columns)}")
-            values = [exact_number(field, f"{line}, {column}") for field, column in zip(fields, columns, strict=True)]
-            if columns[0] == TIME:
-                times.append(_increasing(values.pop(0), times, line))
-            _require_lengths(values, names, line, robot)
-            rows.append(tuple(values))
-            lines.append(reader.line_num)
-    except csv.Error as error:
-        raise InputError(f"line {reader.line_num}: not CSV ({error}); separate numbers by commas") from None
+        if len(fields) != len(columns):
+            raise InputError(f"{line}: {len(fields)} values; give {len(columns)}: {', '.join(columns)}")
+        values = [exact_number(field, f"{line}, {column}") for field, column in zip(fields, columns, strict=True)]
+        if columns[0] == TIME:
+            times.append(_increasing(values.pop(0), times, line))
+        _require_lengths(values, names, line, robot)
+        rows.append(tuple(values))
+        lines.append(number)
     if columns is None or not rows:
         raise InputError(f"has no rows; give one row of {len(names)} values ({', '.join(names)}) per sample")
     return JointPath(tuple(rows), tuple(times) if columns[0] == TIME else None, tuple(lines))

@@ -7,7 +7,6 @@ All are ordinary coordinates. Between rows every column runs linearly (a quatern
 
 from __future__ import annotations
 
-import csv
 import os
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,7 +14,7 @@ from itertools import pairwise
 from typing import Final
 
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.csv_fields import exact_number, is_header
+from pkm_exact.geometry.csv_fields import exact_number, is_header, numbered_rows
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.path_reader import TIME, path_text
 from pkm_exact.wording import printable, shown
@@ -72,15 +71,7 @@ def pose_path_from_csv(text: str, robot: Machine) -> PosePath | None:
     >>> pose_path_from_csv("l1,l2,l3\\n7,5,5\\n", robot) is None
     True
     """
-    found: list[tuple[int, list[str]]] = []
-    reader = csv.reader(text.splitlines())
-    try:
-        for cells in reader:
-            fields = [cell.strip() for cell in cells]
-            if any(fields) and not fields[0].startswith("#"):
-                found.append((reader.line_num, fields))
-    except csv.Error as error:
-        raise InputError(f"line {reader.line_num}: not CSV ({error}); separate numbers by commas") from None
+    found = list(numbered_rows(text))
     columns = _columns(found[0][1], robot, f"line {found[0][0]}") if found else None
     if columns is None:
         return None

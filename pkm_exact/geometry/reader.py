@@ -20,9 +20,10 @@ from pkm_exact.geometry.configurations import read_configuration
 from pkm_exact.geometry.fields import known_keys, label, required
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.joints import parse_metric
-from pkm_exact.geometry.kind_names import CHAINS_KIND, CONSTRAINTS_KIND, LINKS_KIND, is_linkage, is_links
+from pkm_exact.geometry.kind_names import CHAINS_KIND, CONSTRAINTS_KIND, LINKS_KIND
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.limits_reader import LimitedParts, read_limits
+from pkm_exact.geometry.model_kinds import is_linkage, is_links
 from pkm_exact.geometry.nominal_pose import read_nominal
 from pkm_exact.geometry.polar_vectors import PolarVector, with_polar_vectors
 from pkm_exact.geometry.rational import MAX_DIGITS, NumberText, parse_rational

@@ -7,14 +7,13 @@ of cranks the half tangents. Poses are in the coordinates of the model file.
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.csv_fields import exact_number, is_header
+from pkm_exact.geometry.csv_fields import exact_number, is_header, numbered_rows
 from pkm_exact.geometry.pose_reader import read_pose
 from pkm_exact.identification.constraint_calibration import Pose, as_mechanism
 from pkm_exact.wording import shown
@@ -65,15 +64,7 @@ def plan_from_csv(text: str, machine: Robot | Mechanism) -> tuple[Measured, ...]
     (['5', '4', '0'], ['3/5', '4/5'])
     """
     mechanism = as_mechanism(machine)
-    found: list[tuple[int, list[str]]] = []
-    reader = csv.reader(text.splitlines())
-    try:
-        for cells in reader:
-            fields = [cell.strip() for cell in cells]
-            if any(fields) and not fields[0].startswith("#"):
-                found.append((reader.line_num, fields))
-    except csv.Error as error:
-        raise InputError(f"line {reader.line_num}: not CSV ({error}); separate numbers by commas") from None
+    found = list(numbered_rows(text))
     if len(found) < 2 or not is_header(found[0][1]):
         raise InputError("has no poses; give a line that names the columns, and one line for each pose")
     if len(found) > MOST_POSES + 1:

@@ -19,7 +19,8 @@ from pkm_exact.certify.checker.mechanism_boxes import MechanismEquations
 from pkm_exact.certify.checker.mechanism_document import read_mechanism_document
 from pkm_exact.certify.checker.realposes import ordinary_coordinates
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.poses.jacobian import LegJacobian, pose_jacobians
+from pkm_exact.poses.jacobian import pose_jacobians
+from pkm_exact.poses.leg_jacobian import LegJacobian
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.isolation import real_root_enclosures
 

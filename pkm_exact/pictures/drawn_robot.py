@@ -12,7 +12,7 @@ from pkm_exact.pictures.shapes import Shape
 
 if TYPE_CHECKING:
     from pkm_exact.pictures.coordinates import Placed
-    from pkm_exact.poses.jacobian import LegJacobian
+    from pkm_exact.poses.leg_jacobian import LegJacobian
 
 Point: TypeAlias = tuple[float, float, float]
 

@@ -17,7 +17,6 @@ from pkm_exact.errors import InputError, PkmExactError
 from pkm_exact.pictures import style
 from pkm_exact.pictures.polytope_picture import draw_polytope
 from pkm_exact.polytopes.polytope import Polytope
-from pkm_exact.statics.at_pose import TWIST, WRENCH
 from pkm_exact.statics.capability import (
     velocity_polytope,
     velocity_section,
@@ -26,6 +25,7 @@ from pkm_exact.statics.capability import (
 )
 from pkm_exact.statics.largest_ellipsoid import LargestEllipsoid
 from pkm_exact.statics.measures import Measures
+from pkm_exact.statics.pose_rows import TWIST, WRENCH
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,7 +10,6 @@ where the pose is singular (a multiple solution).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from math import isfinite, isqrt
@@ -23,6 +22,7 @@ from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem, points
 from pkm_exact.poses.boxes import Enclosures
+from pkm_exact.poses.leg_jacobian import LegJacobian
 from pkm_exact.poses.singular_vectors import singular_vectors
 from pkm_exact.poses.wrenches import BallRows
 from pkm_exact.precision import working_precision
@@ -39,32 +39,6 @@ FINEST_EXPONENT = 256
 
 
 _ZERO = Interval(Fraction(0), Fraction(0))
-
-
-@dataclass(frozen=True)
-class LegJacobian:
-    """What is certified of the Jacobian at a pose.
-
-    Attributes
-    ----------
-    det_sign : int or None
-        Sign of the determinant, 0 if the rank is not full: assembly modes of different sign are separated by
-        singularities. None of a regular pose if there are more equations than freedoms: then there is no determinant.
-    rank : int
-        Exact rank; less than the number of freedoms at a singular pose.
-    sigma_min : Interval
-        Smallest singular value, exactly 0 at a singular pose.
-    condition : Interval or None
-        Largest singular value by the smallest; None at a singular pose.
-    length : Fraction
-        The scaling length L, in the robot's unit.
-    """
-
-    det_sign: int | None
-    rank: int
-    sigma_min: Interval
-    condition: Interval | None
-    length: Fraction
 
 
 def characteristic_length(problem: ForwardProblem) -> Fraction:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
     from pkm_exact.poses.arrays import PoseArrays
-    from pkm_exact.poses.jacobian import LegJacobian
+    from pkm_exact.poses.leg_jacobian import LegJacobian
 
 __all__ = ["Interval", "Pose"]
 

@@ -1,64 +1,30 @@
-"""A machine at a pose: its constraint wrenches, Jacobians, ranks and singularities.
-
-With t = (v, w) the twist of the platform, v the velocity of its frame's origin, w its angular velocity, both in
-coordinates of the base, ordinary and unscaled:
-
-    J_x t = J_q q',    q' = J t
-
-J_x has the wrenches of the actuated constraints as rows, J_q is diagonal, J = J_q^-1 J_x. The other constraints allow
-only twists with W_s t = 0.
-"""
+"""A machine at a pose, and what is asked about it: indices, polytopes, ellipsoids, forces."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from fractions import Fraction
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, Final
+from dataclasses import dataclass
+from typing import Any
 
-from flint import arb
-
-from pkm_exact.balls import ball, hull
 from pkm_exact.constraints.form import Vector
-from pkm_exact.geometry.inverse import Matrix, Metric
-from pkm_exact.motions.motion import Motion
-from pkm_exact.precision import working_precision
-from pkm_exact.radicals import RootSum
+from pkm_exact.geometry.inverse import Matrix
+from pkm_exact.geometry.rational import parse_rational
+from pkm_exact.polytopes.polytope import Polytope
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.actuated_equations import Equation, Held
-from pkm_exact.statics.ball_rows import BITS, BallPose, BallRow, enclosed
-from pkm_exact.statics.enclosed_matrix import EnclosedMatrix
-from pkm_exact.statics.exact_rows import ExactRow, column_squares, exact_row
-from pkm_exact.statics.singularity_kinds import Kinds, Singularity, kinds_at_rational_pose, kinds_in_balls
-
-if TYPE_CHECKING:
-    from pkm_exact.polytopes.polytope import Polytope
-    from pkm_exact.statics.forces import Forces
-    from pkm_exact.statics.largest_ellipsoid import LargestEllipsoid
-    from pkm_exact.statics.measures import Measures
-
-TWIST: Final = ("vx", "vy", "vz", "wx", "wy", "wz")
-WRENCH: Final = ("fx", "fy", "fz", "mx", "my", "mz")
+from pkm_exact.statics.actuated_equations import Held
+from pkm_exact.statics.capability import velocity_polytope, wrench_polytope
+from pkm_exact.statics.forces import Forces, forces
+from pkm_exact.statics.freedom import Freedom
+from pkm_exact.statics.index_rows import enclosed_indices
+from pkm_exact.statics.largest_ellipsoid import LargestEllipsoid, largest_ellipsoid
+from pkm_exact.statics.limits_of_actuators import ActuatorLimits
+from pkm_exact.statics.measures import Measures
+from pkm_exact.statics.pose_rows import PoseRows
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class AtPose:
-    """A machine at a pose.
-
-    Attributes
-    ----------
-    name, unit : str
-        Of the machine, and its unit of length.
-    motion : Motion
-    metric : tuple of 3 int
-    held : Held
-        The equations of all constraints and the actuators.
-    position, rotation
-        In rational coordinates of the metric where the pose is exact; else the box, in ordinary coordinates.
-    is_exact : bool
-    known_rank : int or None
-        Exact rank of all wrenches, where it is known beforehand.
+class AtPose(PoseRows):
+    """A machine at a pose, with the attributes of its rows (``PoseRows``).
 
     Examples
     --------
@@ -70,148 +36,6 @@ class AtPose:
     >>> print(at.jacobian.columns, at.jacobian[0, 0].width < 1e-15)
     ('vx', 'vy', 'wz') True
     """
-
-    name: str
-    unit: str
-    motion: Motion
-    metric: Metric
-    held: Held
-    position: Any
-    rotation: Any
-    is_exact: bool
-    known_rank: int | None = field(default=None)
-
-    @property
-    def twist(self) -> tuple[str, ...]:
-        """The components of a twist that the motion has: vx, vy, vz, wx, wy, wz."""
-        return tuple(TWIST[k] for k in self.motion.twist)
-
-    @property
-    def actuated(self) -> tuple[str, ...]:
-        """Names of the actuators, in the order of the rows of J."""
-        return tuple(actuator.name for actuator in self.held.actuators)
-
-    @property
-    def equations(self) -> tuple[Equation, ...]:
-        """Of all constraints, in their order."""
-        return self.held.equations
-
-    @cached_property
-    def exact_rows(self) -> tuple[ExactRow, ...] | None:
-        """The rows of all equations, exactly; None at an enclosed pose."""
-        if not self.is_exact:
-            return None
-        where = self.position, self.rotation, self.metric, self.motion.twist
-        return tuple(exact_row(equation, *where) for equation in self.equations)
-
-    @cached_property
-    def ball_rows(self) -> tuple[BallRow, ...]:
-        """The rows of all equations in balls and ordinary coordinates."""
-        with working_precision(BITS):
-            if self.exact_rows is not None:
-                return tuple(enclosed(row, self.metric, self.motion.twist) for row in self.exact_rows)
-            position = [_hull(entry) for entry in self.position]
-            rotation = [[_hull(entry) for entry in row] for row in self.rotation]
-            pose = BallPose(position, rotation, self.metric)
-            return tuple(pose.row(equation, self.motion.twist) for equation in self.equations)
-
-    @cached_property
-    def wrenches(self) -> EnclosedMatrix:
-        """The wrenches of all constraints, at unit force; the moment is about the platform's origin."""
-        columns = [WRENCH[k] for k in self.motion.twist]
-        return self._unit_wrenches(range(len(self.equations)), columns)
-
-    @cached_property
-    def J_x(self) -> EnclosedMatrix:
-        """The wrenches of the actuated constraints: J_x t = J_q q'."""
-        return self._unit_wrenches(self._actuated, self.twist)
-
-    def _unit_wrenches(self, chosen: Sequence[int], columns: Sequence[str]) -> EnclosedMatrix:
-        names = [self.equations[index].name for index in chosen]
-        if self.exact_rows is None:
-            return EnclosedMatrix.of(names, columns, [self.ball_rows[index].wrench for index in chosen])
-        roots = self._column_roots
-        rows = []
-        for row in (self.exact_rows[index] for index in chosen):
-            size = RootSum.root(1 / row.size_squared)
-            rows.append([size * (root * entry) for root, entry in zip(roots, row.wrench, strict=True)])
-        return EnclosedMatrix.exactly(names, columns, rows)
-
-    @cached_property
-    def J_q(self) -> EnclosedMatrix:
-        """What actuators do, a diagonal matrix: J_x t = J_q q'."""
-        rates, count = self._ball_rates, len(self.actuated)
-        rows = [[rates[i] if i == k else arb(0) for i in range(count)] for k in range(count)]
-        names = [self.equations[index].name for index in self._actuated]
-        return EnclosedMatrix.of(names, [f"q'({name})" for name in self.actuated], rows)
-
-    @cached_property
-    def jacobian(self) -> EnclosedMatrix | None:
-        """J in q' = J t; None if nothing is actuated, or an entry of J_q is or may be 0."""
-        if self.exact_rows is not None:
-            exact = self.exact_jacobian
-            return None if exact is None else EnclosedMatrix.exactly(self.actuated, self.twist, exact)
-        rates = self._ball_rates
-        if not rates or any(rate.contains(0) for rate in rates):
-            return None
-        rows = [self.ball_rows[index].wrench for index in self._actuated]
-        with working_precision(BITS):
-            found = [[entry / rate for entry in row] for row, rate in zip(rows, rates, strict=True)]
-        return EnclosedMatrix.of(self.actuated, self.twist, found)
-
-    @cached_property
-    def exact_jacobian(self) -> tuple[tuple[RootSum, ...], ...] | None:
-        """J as sums of square roots; None where there is no J or the pose is enclosed."""
-        if self.exact_rows is None:
-            return None
-        found = []
-        for index, actuator in enumerate(self.held.actuators):
-            row = self.exact_rows[actuator.equation]
-            rate = row.rates[index]
-            if not rate.terms:
-                return None
-            inverse = rate.inverse()
-            entries = zip(self._column_roots, row.wrench, strict=True)
-            found.append(tuple(root * (inverse * entry) for root, entry in entries))
-        return tuple(found) or None
-
-    @cached_property
-    def _column_roots(self) -> list[RootSum]:
-        """By what an entry of a rational wrench is multiplied to be one of the ordinary wrench."""
-        return [RootSum.root(k) for k in column_squares(self.metric, self.motion.twist)]
-
-    @cached_property
-    def kinds(self) -> Kinds:
-        """Ranks and singularities."""
-        if self.exact_rows is not None:
-            return kinds_at_rational_pose(self.held, self.exact_rows, self.motion, self.metric)
-        with working_precision(BITS):
-            return kinds_in_balls(self.held, self.ball_rows, self.motion, self.metric, self.known_rank)
-
-    @property
-    def rank(self) -> int | None:
-        """The rank of the wrenches of all constraints, exactly; None where it is not decided."""
-        return self.kinds.rank
-
-    @property
-    def singular(self) -> tuple[str, ...]:
-        """Names of the singularities that are proved: "type-1", "type-2", "constraint", "architecture"."""
-        return tuple(found.name for found in self.kinds.found)
-
-    @property
-    def singularities(self) -> tuple[Singularity, ...]:
-        """The same with the constraints that cause them."""
-        return self.kinds.found
-
-    @property
-    def _actuated(self) -> list[int]:
-        """Indices of the equations of the actuators."""
-        return [actuator.equation for actuator in self.held.actuators]
-
-    @property
-    def _ball_rates(self) -> list[arb]:
-        """The diagonal of J_q."""
-        return [self.ball_rows[actuator.equation].rates[k] for k, actuator in enumerate(self.held.actuators)]
 
     def indices(self, **limits: Any) -> dict[str, Interval]:
         """The values of all indices that have one, enclosed (``statics.index_rows`` has definitions and units).
@@ -236,29 +60,19 @@ class AtPose:
         >>> at.indices(length=4)["condition"].width < 1e-12
         True
         """
-        from pkm_exact.statics.index_rows import enclosed_indices
-
         return enclosed_indices(self.measures(**limits))[0]
 
     def measures(self, **limits: Any) -> Measures:
         """What indices are computed from."""
-        from pkm_exact.statics.freedom import Freedom
-        from pkm_exact.statics.limits_of_actuators import ActuatorLimits
-        from pkm_exact.statics.measures import Measures
-
         return Measures(Freedom(self), ActuatorLimits.of(limits, len(self.actuated)))
 
     def velocity_polytope(self, speeds: Any) -> Polytope:
         """The twists that actuators with these greatest speeds can follow; one number is that of all."""
-        from pkm_exact.statics.capability import velocity_polytope
-
         measures = self.measures(speeds=speeds)
         return velocity_polytope(measures.freedom, measures.known("speeds"))
 
     def wrench_polytope(self, forces: Any, least: Any = None) -> Polytope:
         """The wrenches that actuators with these greatest forces can exert; ``least`` ones are 0 for cables."""
-        from pkm_exact.statics.capability import wrench_polytope
-
         given = {"forces": forces} if least is None else {"forces": forces, "least_forces": least}
         measures = self.measures(**given)
         low, high = measures.limits.force_ends or ((), ())
@@ -266,8 +80,6 @@ class AtPose:
 
     def ellipsoid(self, speeds: Any, length: Any = None) -> LargestEllipsoid:
         """The largest ellipsoid of twists in the velocity polytope, turns multiplied by the length."""
-        from pkm_exact.statics.largest_ellipsoid import largest_ellipsoid
-
         measures = self.measures(**{"speeds": speeds} | ({} if length is None else {"length": length}))
         measures.require_norms()
         rows = measures.freedom.scaled(measures.limits.length, measures.known("speeds"))
@@ -275,29 +87,7 @@ class AtPose:
 
     def forces(self, load: Sequence[Any]) -> Forces:
         """The actuator forces that bear a load on the platform, about its origin (``statics.forces``)."""
-        from pkm_exact.geometry.rational import parse_rational
-        from pkm_exact.statics.forces import forces
-
         return forces(self, [parse_rational(x, f"load[{k}]") for k, x in enumerate(load, 1)])
-
-    def arm(self, point: Sequence[Fraction]) -> list[Any]:
-        """From the platform's origin to a point of the platform, in ordinary coordinates of base and platform.
-
-        Exact sums of square roots at an exact pose, else balls.
-        """
-        if self.is_exact:
-            g = self.metric
-            return [
-                sum((RootSum.root(Fraction(g[i], g[j])) * (row[j] * point[j]) for j in range(3)), RootSum())
-                for i, row in enumerate(self.rotation)
-            ]
-        with working_precision(BITS):
-            return [sum((_hull(row[j]) * ball(point[j]) for j in range(3)), arb(0)) for row in self.rotation]
-
-    def __str__(self) -> str:
-        rank = "not decided" if self.rank is None else str(self.rank)
-        kinds = "; ".join(map(str, self.singularities)) or "no singularity proved"
-        return f"{self.name} at a pose: {len(self.equations)} constraints of rank {rank}; {kinds}"
 
     def __repr__(self) -> str:
         return f"<AtPose: {self}>"
@@ -320,8 +110,3 @@ def at_box(
     who = machine.name, machine.unit, machine.motion, machine.metric
     box = tuple(position), tuple(map(tuple, rotation))
     return AtPose(*who, held, *box, is_exact=False, known_rank=rank)
-
-
-def _hull(entry: Interval) -> arb:
-    lo, hi = Fraction(entry.lo), Fraction(entry.hi)
-    return hull(lo, hi)

@@ -26,11 +26,11 @@ from pkm_exact.polytopes.slabs import Slabs
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.at_pose import AtPose
 from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.exact_rows import column_squares
 from pkm_exact.statics.freedom import Freedom
 from pkm_exact.statics.linear_program import greatest
+from pkm_exact.statics.pose_rows import PoseRows
 from pkm_exact.statics.ranks import left_kernel
 
 NOT_EXACT = "forces: internal loads are computed at exact poses of machines all of whose constraints are actuated"
@@ -79,7 +79,7 @@ def moved_load(load: Sequence[Fraction], offset: Sequence[Any]) -> list[Any]:
     return [*force, *(m + t if not isinstance(t, arb) else ball_of(m) + t for m, t in zip(moment, turned, strict=True))]
 
 
-def forces(at: AtPose, load: Sequence[Any]) -> Forces:
+def forces(at: PoseRows, load: Sequence[Any]) -> Forces:
     """The forces of actuators and constraints that bear a load.
 
     Parameters
@@ -101,7 +101,7 @@ def forces(at: AtPose, load: Sequence[Any]) -> Forces:
         return _in_balls(at, freedom, load)
 
 
-def _exactly(at: AtPose, freedom: Freedom, load: Sequence[Any]) -> Forces:
+def _exactly(at: PoseRows, freedom: Freedom, load: Sequence[Any]) -> Forces:
     """Of a machine all of whose constraints are actuated, at an exact pose."""
     found = freedom.directions
     if found is None:
@@ -124,7 +124,7 @@ def _exactly(at: AtPose, freedom: Freedom, load: Sequence[Any]) -> Forces:
         return _in_balls(at, freedom, load)
 
 
-def _in_balls(at: AtPose, freedom: Freedom, load: Sequence[Any]) -> Forces:
+def _in_balls(at: PoseRows, freedom: Freedom, load: Sequence[Any]) -> Forces:
     rows = freedom.ball_jacobian
     matrix = [[rows[i, j] for j in range(rows.ncols())] for i in range(rows.nrows())]
     matrix += [list(at.ball_rows[index].wrench) for index in at.held.structural]
@@ -149,7 +149,7 @@ def _in_balls(at: AtPose, freedom: Freedom, load: Sequence[Any]) -> Forces:
     return Forces(names, tuple(map(interval_of, values)), signs, None, is_unique=full.nrows() == full.ncols())
 
 
-def internal_loads(at: AtPose) -> list[list[RootSum]]:
+def internal_loads(at: PoseRows) -> list[list[RootSum]]:
     """A basis of the actuator forces that bear nothing: J^T z = 0, exactly.
 
     Raises
@@ -164,7 +164,7 @@ def internal_loads(at: AtPose) -> list[list[RootSum]]:
     return [[x * weight.inverse() for x, weight in zip(z, found.weights, strict=True)] for z in left_kernel(rows)]
 
 
-def has_force_closure(at: AtPose) -> bool:
+def has_force_closure(at: PoseRows) -> bool:
     """Whether actuators that can only pull, or only push, bear every load: some internal load is positive everywhere.
 
     With it, and J of full rank, every wrench is a combination with positive coefficients. Decided exactly.
@@ -197,7 +197,7 @@ def has_positive_vector(basis: Sequence[Sequence[Fraction]]) -> bool:
 
 
 def force_ranges(
-    at: AtPose, load: Sequence[Any], low: Sequence[Fraction], high: Sequence[Fraction]
+    at: PoseRows, load: Sequence[Any], low: Sequence[Fraction], high: Sequence[Fraction]
 ) -> list[tuple[Interval, Interval]] | None:
     """For each redundant actuator the least and the greatest force with which a load can be borne within limits.
 

@@ -20,9 +20,9 @@ from pkm_exact.errors import InputError
 from pkm_exact.polytopes.enclosures import ball_of
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
-from pkm_exact.statics.at_pose import AtPose
 from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.exact_rows import column_squares
+from pkm_exact.statics.pose_rows import PoseRows
 from pkm_exact.statics.ranks import pivots, proved_rank, rationalised
 
 
@@ -49,10 +49,10 @@ class Freedom:
 
     Attributes
     ----------
-    at : AtPose
+    at : PoseRows
     """
 
-    at: AtPose
+    at: PoseRows
 
     def __post_init__(self) -> None:
         if self.at.jacobian is None:

@@ -18,11 +18,12 @@ from pkm_exact.errors import InputError
 from pkm_exact.polytopes.enclosures import ball_of, interval_of
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.at_pose import WRENCH, AtPose
+from pkm_exact.statics.at_pose import AtPose
 from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.eigenvalues import eigenvalues
 from pkm_exact.statics.enclosed_matrix import EnclosedMatrix
 from pkm_exact.statics.freedom import Freedom
+from pkm_exact.statics.pose_rows import WRENCH
 
 
 def stiffness_balls(freedom: Freedom, stiffnesses: Sequence[Fraction]) -> arb_mat:
