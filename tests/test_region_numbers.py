@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from fractions import Fraction
+from itertools import product
+from math import cos, radians, sin
 from pathlib import Path
 
 import pytest
 from samples import MODELS, model, solved
 from test_regions import asked
 
+from pkm_exact import InputError
 from pkm_exact.cli.main import main
 from pkm_exact.geometry.reader import robot_from_toml
 from pkm_exact.regions.arc_area import ArcArea, arc_area
+from pkm_exact.regions.chart import rational
+from pkm_exact.regions.paving import leaves
 from pkm_exact.regions.question_reader import of_size, question_from_toml
+from pkm_exact.regions.region_conditions import asked_of
 from pkm_exact.regions.region_legs import RegionMachine, region_machine
+from pkm_exact.regions.region_points import PointJudge
 from pkm_exact.regions.region_solver import largest
 from pkm_exact.regions.singularity_locus import locus
 
@@ -301,3 +309,85 @@ def test_driven_hinges_have_no_certificates(tmp_path: Path, capsys: pytest.Captu
     assert "proved" in capsys.readouterr().out
     assert main(["region", path, str(question), "-o", str(tmp_path / "a.json")]) == 2
     assert "no word for driven hinges" in capsys.readouterr().err
+
+
+CIRCLE = "arc = {{ center = [0.425, 0.425, 0.3], radius = 0.175, degrees = [{0}, {1}] }}"
+HALVES = (CIRCLE.format(-90, 90), CIRCLE.format(90, 270))
+
+
+def test_half_of_the_circle_of_the_cartesian_manipulator() -> None:
+    """Two working modes: one is regular along it, the other crosses singularities of type 2 twice."""
+    machine = region_machine(model("3-prrr"))
+    assert asked(machine, HALVES[0], "no_type_1 = true\nno_type_2 = true\nworking_modes = ['+', '+', '+']").is_proved
+    assert _crossings(machine, ["+", "+", "-"], HALVES[:1]) == 2
+
+
+@pytest.mark.slow
+def test_the_circle_of_the_cartesian_manipulator() -> None:
+    """Elkady et al., chapter 13: all reached; six of the eight working modes are regular all along, the others not."""
+    machine = region_machine(model("3-prrr"))
+    for half in HALVES:
+        assert asked(machine, half, "no_type_1 = true").is_proved
+    refuted = []
+    for modes in product("+-", repeat=3):
+        answers = [asked(machine, half, f"no_type_2 = true\nworking_modes = {list(modes)}") for half in HALVES]
+        assert all(answer.is_proved or answer.counterexample is not None for answer in answers)
+        if not all(answer.is_proved for answer in answers):
+            refuted.append("".join(modes))
+    assert len(refuted) == 2
+    assert sum(one != other for one, other in zip(*refuted, strict=True)) == 1
+    for modes in refuted:
+        assert _crossings(machine, list(modes)) == 2
+
+
+def _crossings(machine: RegionMachine, modes: list[str], halves: Sequence[str] = HALVES) -> int:
+    """Short stretches that are undecided, at whose ends the determinant has opposite signs, decided exactly."""
+    count = 0
+    for half in halves:
+        answer = asked(machine, half, f"no_type_2 = true\nworking_modes = {modes}", "kind = 'map'\nsteps = 20")
+        found = asked_of(machine, answer.question.chart, answer.question.conditions)
+        judge, (low, high) = PointJudge(found, found.formula), answer.question.chart.box[0]
+        ends: list[Fraction] = []
+        for letter, part in leaves(answer.word, answer.axes, 1):
+            begin, end = (low + (high - low) * (part.places[0] + k) / 2**part.depth for k in (0, 1))
+            assert letter in "iu"
+            if letter == "u" and ends and ends[-1] == begin:
+                ends[-1] = end
+            elif letter == "u":
+                ends += [begin, end]
+        for begin, end in zip(ends[::2], ends[1::2], strict=True):
+            assert end - begin < Fraction(1, 10**4)
+            assert judge.determinant_sign((begin,)) == -judge.determinant_sign((end,)) != 0
+            count += 1
+    return count
+
+
+def test_an_arc_lies_on_its_circle_and_is_refused_where_it_is_none() -> None:
+    machine = region_machine(model("3-rpr-merlet-p"))
+    arc = "[region]\narc = {{ center = [1, 2], radius = 3, degrees = {0} }}\ndegrees = 0\n"
+    text = f"{arc}[conditions]\nreachable = true\n"
+    question = question_from_toml(f"{text.format('[100, 200]')}[answer]\nkind = 'all'\n", machine)
+    pose = asked_of(machine, question.chart, question.conditions).pose
+    for t, angle in zip(question.chart.box[0], (100, 200), strict=True):
+        n, x, y = (
+            float(Fraction(int(v.p), int(v.q))) for v in (p(rational(t)) for p in (pose.norm, *pose.position[:2]))
+        )
+        assert abs(x / n - 1 - 3 * cos(radians(angle))) < 1e-9
+        assert abs(y / n - 2 - 3 * sin(radians(angle))) < 1e-9
+    for degrees, said in (("[0, 350]", "too long"), ("[3, 1]", "not less than")):
+        with pytest.raises(InputError, match=said):
+            question_from_toml(f"{text.format(degrees)}[answer]\nkind = 'all'\n", machine)
+    with pytest.raises(InputError, match="in models without metric"):
+        asked(region_machine(model("delta")), CIRCLE.format(0, 90), "reachable = true")
+
+
+def test_arcs_and_rods_along_axes_have_no_certificates(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    question, target = tmp_path / "question.toml", tmp_path / "a.json"
+    for name, region, said in (
+        ("3-prrr", "position = [[0.4, 0.45], 0.4, 0.3]", "rods that slide along an axis"),
+        ("3-rpr-merlet-p", "arc = { center = [5, 5], radius = 1, degrees = [0, 9] }\ndegrees = 0", "arcs"),
+    ):
+        question.write_text(f"[region]\n{region}\n[conditions]\nreachable = true\n[answer]\nkind = 'all'\n")
+        assert main(["region", str(FILES[name]), str(question), "-o", str(target)]) == 2
+        assert said in capsys.readouterr().err
+        assert not target.exists()

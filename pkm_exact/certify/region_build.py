@@ -33,6 +33,8 @@ def region_certificate(answer: RegionAnswer) -> dict[str, Any]:
     _require_rational(machine)
     if question.conditions.indices or question.conditions.load:
         raise InputError("-o: certificates have no word for bounds of indices and forces; leave -o out")
+    if question.chart.arc is not None:
+        raise InputError("-o: certificates have no word for arcs; leave -o out")
     found = answer.counterexample
     return sealed(
         {
@@ -135,6 +137,10 @@ def _require_rational(machine: RegionMachine) -> None:
                     f"others; give one of {', '.join(map(str, CONE_ANGLES))}, or leave -o out"
                 )
     for leg in machine.legs:
+        if leg.axis is not None:
+            raise InputError(
+                f"-o: {leg.name}: certificates have no word for rods that slide along an axis; leave -o out"
+            )
         if isinstance(leg.actuator, OnHinge):
             raise InputError(f"-o: {leg.name}: certificates have no word for driven hinges; leave -o out")
         if isinstance(leg.actuator, OnCrank) and leg.reach is not None and any(end % 90 for end in leg.reach):

@@ -64,6 +64,10 @@ def _proof(robot: Machine, path: PosePath, modes: str | None) -> PosePathProof:
     from pkm_exact.regions.region_legs import OwnLength, region_machine
 
     machine = region_machine(robot, with_leg_distance=True)
+    if sliding := [leg.name for leg in machine.legs if leg.axis is not None]:
+        raise InputError(
+            f"{sliding[0]}: slides along an axis, which paths of poses do not know; give a path of lengths"
+        )
     if machine.forms or len(machine.legs) != len(machine.twist):
         raise InputError(
             "path: has poses, but these are followed only for robots whose legs are as many as their freedoms "

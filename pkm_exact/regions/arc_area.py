@@ -47,7 +47,7 @@ def arc_area(machine: RegionMachine, question: RegionQuestion) -> ArcArea | None
         A map over x and y, of limits of lengths, slides and position only.
     """
     chart = question.chart
-    own = all(isinstance(leg.actuator, OwnLength | OnSlide) for leg in machine.legs)
+    own = all(isinstance(leg.actuator, OwnLength | OnSlide) and leg.axis is None for leg in machine.legs)
     plain = machine.base_cones is None and machine.platform_cones is None and not question.shape
     lengths = "limits" in question.conditions.asked and not {"no_type_1", "no_type_2"} & set(question.conditions.asked)
     if chart.variables != ("x", "y") or not (own and plain and lengths):

@@ -28,6 +28,23 @@ Polynomial: TypeAlias = fmpq_mpoly
 
 
 @dataclass(frozen=True)
+class Arc:
+    """The points c + r ((1 - t^2) (u, v) + 2 t (-v, u)) / (1 + t^2), t half the tangent of the angle from (u, v).
+
+    Attributes
+    ----------
+    center : tuple of 2 Fraction
+    radius : Fraction
+    middle : tuple of 2 Fraction
+        (u, v), of length 1.
+    """
+
+    center: Pair
+    radius: Fraction
+    middle: Pair
+
+
+@dataclass(frozen=True)
 class Chart:
     """Which poses a region has.
 
@@ -43,6 +60,8 @@ class Chart:
         In the order of ``box``: positions first.
     box : tuple of pairs of Fraction
         Their intervals.
+    arc : Arc or None
+        If there is one, x and y run along it with the variable "arc".
     """
 
     position: tuple[Fraction | str, ...]
@@ -50,6 +69,7 @@ class Chart:
     turns: tuple[Pair | str, ...]
     variables: tuple[str, ...]
     box: tuple[Pair, ...]
+    arc: Arc | None = None
 
     @property
     def has_fixed_orientation(self) -> bool:
@@ -99,8 +119,26 @@ def pose_polynomials(chart: Chart, metric: Metric, roots: Sequence[str] = ()) ->
         rotation = [[element(entry) for entry in row] for row in rotation_of(chart.quaternion, metric)]
     else:
         norm, rotation = _turned(chart.turns, metric, element, ring)
+    if chart.arc is not None:
+        return _along_arc(chart, chart.arc, ring, norm, rotation)
     position = tuple(norm * element(value) for value in chart.position)
     return PosePolynomials(ring, norm, position, tuple(map(tuple, rotation)))
+
+
+def _along_arc(
+    chart: Chart, arc: Arc, ring: fmpq_mpoly_ctx, norm: Polynomial, rotation: Sequence[Sequence[Polynomial]]
+) -> PosePolynomials:
+    """The same with x and y on an arc: all times 1 + t^2."""
+    t = dict(zip(ring.names(), ring.gens(), strict=True))["arc"]
+    size, cosine, (u, v) = 1 + t * t, 1 - t * t, arc.middle
+    turned = (rational(u) * cosine - rational(2 * v) * t, rational(v) * cosine + rational(2 * u) * t)
+    x, y = (norm * (rational(c) * size + rational(arc.radius) * way) for c, way in zip(arc.center, turned, strict=True))
+    height = chart.position[2]
+    if isinstance(height, str):
+        raise TypeError("the height of an arc is a number")
+    wide = norm * size
+    matrix = tuple(tuple(size * entry for entry in row) for row in rotation)
+    return PosePolynomials(ring, wide, (x, y, wide * rational(height)), matrix)
 
 
 def _turned(turns: Sequence[Pair | str], metric: Metric, element: Any, ring: fmpq_mpoly_ctx) -> tuple[Polynomial, Any]:

@@ -26,9 +26,9 @@ from typing import Any, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.regions.chart import Polynomial, PosePolynomials, rational
-from pkm_exact.regions.placed_legs import PlacedLeg, exact_vector, product, without_squares
+from pkm_exact.regions.placed_legs import PlacedLeg, exact_vector, without_squares
 from pkm_exact.regions.region_determinants import determinant, leg_row
-from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, RegionMachine
+from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, RegionMachine, product
 
 INDEX_NAMES: Final = ("transmission", "manipulability")
 

@@ -110,7 +110,7 @@ def joint_ranges(
 def _range(machine: RegionMachine, question: RegionQuestion, k: int) -> JointRange:
     leg = machine.legs[k]
     ball = ball_of(question.shape, machine.metric)
-    alone = question.conditions.asked == ("reachable",) and not isinstance(leg.actuator, OnCrank)
+    alone = question.conditions.asked == ("reachable",) and not isinstance(leg.actuator, OnCrank) and leg.axis is None
     ends = []
     for way in (-1, 1):
         if ball is not None and alone:

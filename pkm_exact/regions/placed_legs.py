@@ -10,7 +10,8 @@ With N the norm of the chart and e = N (C + R B - A), products in the metric, s 
                  m cos = a h - s b y, m sin = b h / w + s a y, y = sqrt(D)
                                                                          rod m e - N (m cos) u - N (m sin) v
 
-The rod is a positive multiple of C + R B - K, K its lower end.
+The rod is a positive multiple of C + R B - K, K its lower end. Of a rod that slides along an axis, e is what is
+perpendicular to it.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from typing import Any
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.regions.chart import Polynomial, PosePolynomials, moved, rational
-from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, RegionLeg
+from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, RegionLeg, product
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,12 +56,6 @@ class PlacedLeg:
     scale: Polynomial | None = None
 
 
-def product(metric: Metric, left: Any, right: Any) -> Any:
-    """That of two vectors in the metric."""
-    g = metric
-    return g[0] * left[0] * right[0] + g[1] * left[1] * right[1] + g[2] * left[2] * right[2]
-
-
 def exact_vector(values: Vector) -> list[Any]:
     """Its entries as FLINT has them."""
     return [rational(value) for value in values]
@@ -82,6 +77,11 @@ def placed_leg(leg: RegionLeg, pose: PosePolynomials, metric: Metric, mode: int,
     tip = moved(pose, leg.platform)
     arm = [p - c for p, c in zip(tip, pose.position, strict=True)]
     offset = [p - pose.norm * rational(a) for p, a in zip(tip, leg.base, strict=True)]
+    if leg.axis is not None:
+        along = product(metric, leg.axis, leg.axis)
+        axis = exact_vector(leg.axis)
+        share = product(metric, axis, offset) * rational(1 / along)
+        offset = [x - share * a for x, a in zip(offset, axis, strict=True)]
     if isinstance(leg.actuator, OnSlide):
         return _on_slide(leg, leg.actuator, pose, metric, arm, offset, mode, place)
     if isinstance(leg.actuator, OnCrank):

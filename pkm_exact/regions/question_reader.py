@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from math import isqrt
 from pathlib import Path
@@ -18,7 +19,7 @@ from pkm_exact.geometry.rational import parse_positive, parse_rational
 from pkm_exact.geometry.reader import parsed_toml
 from pkm_exact.geometry.rotation_degrees import half_turn_pair, is_exact_turn
 from pkm_exact.precision import working_precision
-from pkm_exact.regions.chart import POSITIONS, TURNS, Chart
+from pkm_exact.regions.chart import POSITIONS, TURNS, Arc, Chart
 from pkm_exact.regions.index_quotients import INDEX_NAMES
 from pkm_exact.regions.region_conditions import CONDITIONS, Conditions
 from pkm_exact.regions.region_legs import RegionMachine
@@ -34,7 +35,7 @@ from pkm_exact.regions.region_shapes import Quadratic, in_model, polygon_shape, 
 from pkm_exact.wording import printable, shown
 
 _TABLES: Final = ("region", "conditions", "answer")
-_SHAPES: Final = ("position", "ball", "cylinder", "prism")
+_SHAPES: Final = ("position", "ball", "cylinder", "prism", "arc")
 _TURNED: Final = ("quaternion", "rpy_degrees", "degrees", "any_axis_degrees")
 _VALUED: Final = ("working_modes", "indices", "length", "forces")
 _MOST_STEPS: Final = 120
@@ -79,12 +80,41 @@ def question_from_toml(text: str, machine: RegionMachine) -> RegionQuestion:
         if given := [key for key in _SHAPES if key in region]:
             raise InputError(f"region.{given[0]}: the answer largest has a shape of its own; remove it")
         return largest_question(_turned(region, machine), machine, conditions, answer, Fraction(1))
+    if "arc" in region:
+        return RegionQuestion(_on_arc(region, machine), (), conditions, answer)
     position, shape, enlarged = _shape(region, machine)
     any_axis = _any_axis(region, machine, answer)
     chart = _chart(position, _turned(region, machine))
     if not chart.variables and any_axis is None:
         raise InputError("region: is a single pose; give an interval for a coordinate, or ask `legs`")
     return RegionQuestion(chart, shape, conditions, answer, enlarged or any_axis is not None, any_axis)
+
+
+def _on_arc(region: dict[str, Any], machine: RegionMachine) -> Chart:
+    """The chart of an arc of a circle in a horizontal plane, and of turns."""
+    if given := [key for key in (*_SHAPES, "any_axis_degrees") if key in region and key != "arc"]:
+        raise InputError(f"region.{given[0]}: given beside an arc; give one of them")
+    table, where = region["arc"], "region.arc"
+    if not isinstance(table, dict):
+        raise InputError(
+            f"{where}: {shown(table)} is not a table; write {{ center = [..], radius = r, degrees = [a, b] }}"
+        )
+    known_keys(table, ("center", "radius", "degrees"), where)
+    if 0 not in machine.twist or set(machine.metric) != {1}:
+        raise InputError(f"{where}: is for robots that move, in models without metric; give another shape")
+    center = _numbers(required(table, "center", f"{where}."), f"{where}.center", _dimension(machine))
+    radius = parse_positive(required(table, "radius", f"{where}."), f"{where}.radius")
+    low, high = _pair(required(table, "degrees", f"{where}."), f"{where}.degrees")
+    quarter = round((low + high) / 180)
+    start = 90 * quarter
+    if not -180 < low - start < high - start < 180:
+        raise InputError(f"{where}.degrees: {shown(low)} to {shown(high)} is too long; give two arcs")
+    ends = _half_tangent(low - start, 1, -1), _half_tangent(high - start, 1, 1)
+    u, v = ((1, 0), (0, 1), (-1, 0), (0, -1))[quarter % 4]
+    height = center[2] if len(center) == 3 else Fraction(0)
+    chart = _chart([Fraction(0), Fraction(0), height], _turned(region, machine))
+    arc = Arc((center[0], center[1]), radius, (Fraction(u), Fraction(v)))
+    return replace(chart, variables=("arc", *chart.variables), box=(ends, *chart.box), arc=arc)
 
 
 def _any_axis(region: dict[str, Any], machine: RegionMachine, answer: WantedAnswer) -> Fraction | None:

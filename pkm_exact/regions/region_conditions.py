@@ -15,9 +15,9 @@ from pkm_exact.regions.chart import POSITIONS, Chart, Polynomial, PosePolynomial
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some
 from pkm_exact.regions.index_quotients import force_polynomials, index_square
 from pkm_exact.regions.near_angles import squared_cosines, turn_directions
-from pkm_exact.regions.placed_legs import PlacedLeg, placed_leg, product, without_squares
+from pkm_exact.regions.placed_legs import PlacedLeg, placed_leg, without_squares
 from pkm_exact.regions.region_determinants import determinant, structural_rows, wrench_rows
-from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, OwnLength, RegionMachine
+from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, OwnLength, RegionMachine, product
 
 CONDITIONS: Final = ("reachable", "limits", "no_type_1", "no_type_2")
 """In the order of certificates. That no constraint is singular is part of the last."""

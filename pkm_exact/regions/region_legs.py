@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final, TypeAlias
 
+from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Form, Vector
 from pkm_exact.constraints.point_in_plane import InPlane
@@ -92,6 +93,8 @@ class RegionLeg:
     actuator : OwnLength, OnSlide or OnCrank
     reach : pair of Fraction or None
         Least and greatest length, position of the slide, or angle of the crank in degrees; None without a limit.
+    axis : vector of 3 Fraction or None
+        Of a rod that also slides along an axis: what counts is perpendicular to it, and so are slide and crank.
     """
 
     name: str
@@ -99,6 +102,7 @@ class RegionLeg:
     platform: Vector
     actuator: Actuator
     reach: Pair | None = None
+    axis: Vector | None = None
 
 
 @dataclass(frozen=True)
@@ -198,6 +202,9 @@ def _mechanism_legs(mechanism: Mechanism, limits: Limits) -> tuple[tuple[RegionL
         if isinstance(found, InPlane) and found.name in moved:
             legs.append(_hinged(found, mechanism))
             continue
+        if isinstance(found, AxisDistance) and found.name in moved:
+            legs.append(_sliding(found, *moved[found.name], reach, mechanism.metric))
+            continue
         actuated = found.name in mechanism.actuated
         if not actuated and found.name not in moved:
             if found.squares(mechanism.metric):
@@ -241,6 +248,24 @@ def _reach(mechanism: Mechanism, limits: Limits) -> dict[str, Pair]:
         pairs: tuple[Pair, ...] = getattr(limits, sort)
         found |= dict(zip(names, pairs, strict=bool(pairs)))
     return found
+
+
+def _sliding(found: AxisDistance, drive: Drive, part: Part, reach: dict[str, Pair], metric: Metric) -> RegionLeg:
+    """A rod at a distance from an axis that a crank or slide moves, perpendicular to the axis."""
+    across = all(product(metric, axis, found.direction) == 0 for axis in part.axes)
+    if part.field != "point" or len(drive.parts) != 1 or not across:
+        raise InputError(f"{shown(drive.name)}: moves more than the axis of one rod, across it; ask of another robot")
+    axes: Any = part.axes
+    actuator: Actuator = OnSlide(axes[0], found.radius_squared)
+    if drive.is_crank:
+        actuator = OnCrank(axes[0], axes[1], drive.weight, found.radius_squared)
+    return RegionLeg(found.name, found.point, found.platform, actuator, reach.get(drive.name), found.direction)
+
+
+def product(metric: Metric, left: Any, right: Any) -> Any:
+    """That of two vectors in the metric."""
+    g = metric
+    return g[0] * left[0] * right[0] + g[1] * left[1] * right[1] + g[2] * left[2] * right[2]
 
 
 def _driven(found: Distance, drive: Drive, part: Part, reach: dict[str, Pair]) -> RegionLeg:
