@@ -36,6 +36,13 @@ ROOTS: dict[str, Case] = {
     ),
     "a root 1/3": (lambda: _turned(3 * T - 1), ACCEPTED),
     "a root 6": (lambda: _turned(T - 6), ACCEPTED),
+    "a root 3/8": (lambda: _turned(8 * T - 3), ACCEPTED),
+    "roots between which the polynomial is 1 at 0": (lambda: _turned(T * T - 3 * T + 1), ACCEPTED),
+    "roots beside which four times the polynomial is 1 at 1/2": (lambda: _turned(T * T + 2 * T - 1), ACCEPTED),
+    "a root 1 / (2^127 - 1)": (
+        lambda: as_version_2(on_circle([(Fraction(1, (1 << 127) - 1), Fraction(1))], (0, 1, 0))),
+        ACCEPTED,
+    ),
     "roots 3 and 3 + 2^-32": (lambda: _turned((T - 3) * ((1 << 32) * T - (3 << 32) - 1)), ACCEPTED),
     "a root 2^-40": (lambda: _turned((1 << 40) * T - 1), ACCEPTED),
     "roots 2^-40, -2^-40 and 5": (lambda: _turned(((1 << 80) * T * T - 1) * (T - 5)), ACCEPTED),
