@@ -353,6 +353,33 @@ def test_the_table_scrolls_to_the_pose_and_the_page_does_not(rolland: Tab) -> No
         assert rolland.run("return scrollY") == place
 
 
+def test_a_tap_on_a_row_shows_the_picture_on_a_small_screen(rolland: Tab) -> None:
+    rolland.send("Emulation.setDeviceMetricsOverride", **_screen(375, 740, mobile=True))
+    rolland.driver.refresh()
+    seen = (
+        "const box = document.querySelector('#view').getBoundingClientRect();"
+        "return box.top >= 0 && box.bottom <= innerHeight;"
+    )
+    rolland.middle("tr[data-pose='9']")
+    assert not rolland.run(seen)
+    rolland.run("document.querySelector(\"tr[data-pose='9'] td:nth-child(4)\").click()")
+    assert (rolland.current, rolland.legs[0]) == ([9], [9])
+    assert rolland.run(seen)
+
+
+@pytest.mark.parametrize("width", [1280, 1366, 1440])
+def test_no_column_of_the_table_is_cut_off(rolland: Tab, width: int) -> None:
+    rolland.send("Emulation.setDeviceMetricsOverride", **_screen(width, 740, mobile=False))
+    rolland.driver.refresh()
+    assert rolland.run("const box = document.querySelector('.tall'); return box.scrollWidth <= box.clientWidth;")
+
+
+def test_the_picture_comes_before_the_proof(rolland: Tab) -> None:
+    order = "return [...document.querySelectorAll('main > *')].map((node) => node.id || node.className)"
+    found = rolland.run(order)
+    assert found.index("claim") < found.index("poses") < found.index("reasons")
+
+
 def test_columns_are_sorted_both_ways(rolland: Tab) -> None:
     data = data_of(page("rolland-6-6"))
     column = data["columns"].index("condition")

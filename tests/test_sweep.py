@@ -330,6 +330,22 @@ def test_files_that_are_refused(tmp_path: Path, content: bytes, sentence: str) -
         read_lengths(tmp_path / "lengths.csv", read_robot(PLANAR))
 
 
+def test_cranks_are_swept_by_joint_values(tmp_path: Path, capsys: Capture) -> None:
+    rows = written(tmp_path / "joints.csv", ["h1,h2,h3", "30deg,0deg,-20deg", "1/2,0,1/3", "1,x,1"])
+    out, model, certificates = tmp_path / "out.jsonl", FILES["3-rrr"], tmp_path / "certificates"
+    assert run(model, rows, out, "--joints", "--certificates", str(certificates), "--workers", "1") == 3
+    first, second, third = map(json.loads, out.read_text().splitlines())
+    assert third["error"].startswith("line 4, h2: x is not a number")
+    assert second["real_poses"] == 2
+    one = tmp_path / "one.json"
+    words = ["solve", str(model), "--joints", "30deg,0deg,-20deg", "--method", "krawczyk", "-o", str(one)]
+    assert main(words) == 0
+    assert (certificates / "1.json").read_bytes() == one.read_bytes()
+    assert first["certificate_sha256"] == sha256(one.read_bytes()).hexdigest()
+    assert run(model, rows, tmp_path / "other.jsonl", "--joints", "--squared") == 2
+    assert "exclude each other" in capsys.readouterr().err
+
+
 def test_what_is_no_file_of_lengths_is_one_sentence(tmp_path: Path, capsys: Capture) -> None:
     rows = written(tmp_path / "lengths.csv", GOOD)
     os.mkfifo(tmp_path / "pipe")
@@ -337,7 +353,10 @@ def test_what_is_no_file_of_lengths_is_one_sentence(tmp_path: Path, capsys: Capt
         (PLANAR, tmp_path / "none.csv"): "none.csv: does not exist",
         (PLANAR, tmp_path): "is not a regular file",
         (PLANAR, tmp_path / "pipe"): "is not a regular file",
-        (FILES["3-rrr"], rows): "the rods of a 3-RRR robot have fixed lengths",
+        (
+            FILES["3-rrr"],
+            rows,
+        ): "the rods of a 3-RRR robot have fixed lengths; give joint values in its rows, and --joints",
         (tmp_path / "none.toml", rows): "none.toml",
     }.items():
         assert run(*arguments, tmp_path / "out.jsonl") == 2

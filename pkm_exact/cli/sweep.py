@@ -51,6 +51,11 @@ _SECONDS_PER_LINE: Final = 0.2
 @arguments.width_option
 @click.option("--squared", is_flag=True, help="The rows have squared lengths.")
 @click.option(
+    "--joints",
+    is_flag=True,
+    help="The rows have joint values, as `solve --joints` takes them: for cranks half tangents, or angles as 30deg.",
+)
+@click.option(
     "--certificates",
     type=arguments.FilePath(),
     metavar="DIR",
@@ -85,6 +90,7 @@ def sweep(
     method: str,
     width: Fraction,
     squared: bool,
+    joints: bool,
     certificates: str | None,
     indices: tuple[str, ...],
     limits: tuple[str, ...],
@@ -113,6 +119,8 @@ def sweep(
     """
     if workers is not None and scheduler is not None:
         raise click.UsageError("--workers and --scheduler exclude each other: a cluster has its own workers.")
+    if joints and squared:
+        raise click.UsageError("--joints and --squared exclude each other: joint values are not squared.")
     if limits and not indices:
         raise click.UsageError("--limits: belongs to --index, give that as well.")
     target = Path(output)
@@ -121,7 +129,7 @@ def sweep(
     from pkm_exact.sweep.lengths import read_lengths
 
     robot = announced_model(model)
-    rows = read_lengths(lengths, robot)
+    rows = read_lengths(lengths, robot, joints=joints)
     asked = _asked(indices, limits, len(rows.names))
     arguments.require_other_file(target, model, "-o")
     arguments.require_other_file(target, lengths, "-o", "the file of the lengths")
@@ -141,6 +149,7 @@ def sweep(
         squared=squared,
         certificates=folder is not None,
         indices=asked,
+        joints=joints,
     )
 
     def started(job: SweepJob) -> AbstractContextManager[Workers]:

@@ -36,6 +36,7 @@ from pkm_exact.report_page.sections import (
     mechanism_section,
     pose_table,
     proof_section,
+    reasons_section,
     robot_section,
 )
 from pkm_exact.report_page.tolerance_page import tolerance_rows, tolerance_scene
@@ -86,7 +87,8 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
     notes = () if tolerances else document["notes"]
     extra = _tolerance_facts(document) if tolerances else {}
     sections = {
-        "claim": claim_section(meaning, counts, limits_of(document), notes),
+        "claim": claim_section(meaning, counts),
+        "reasons": reasons_section(meaning, limits_of(document), notes),
         "explorer": _explorer(scene, poses, tolerances=tolerances) if poses.rows else Markup(),
         "robot": mechanism_section(mechanism, scene.configuration)
         if mechanism is not None

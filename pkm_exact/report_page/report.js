@@ -74,6 +74,13 @@ function startThemeButton() {
   update();
 }
 
+/** Scrolls the page to the picture unless most of it is seen: on a small screen the table is below it. */
+function reveal(node) {
+  const box = node.getBoundingClientRect();
+  const seen = Math.min(box.bottom, innerHeight) - Math.max(box.top, 0);
+  if (seen < 0.8 * box.height) node.scrollIntoView({ block: "center" });
+}
+
 function startPoses(data) {
   const view = new View(byId("view"), data);
   const withNumber = new Map(data.poses.map((pose, index) => [pose.number, index]));
@@ -94,7 +101,7 @@ function startPoses(data) {
     const place = table.order.indexOf(shown) + by;
     choose(table.order[(place + table.order.length) % table.order.length]);
   };
-  const table = new PoseTable(byId("pose-table"), choose, (count) => {
+  const table = new PoseTable(byId("pose-table"), choose, () => reveal(byId("view")), (count) => {
     byId("ticked").textContent = count ? `${count} ticked` : `none ticked: all ${data.poses.length}`;
   });
   show(shown);

@@ -49,11 +49,10 @@ class Facts:
     has_second_checker: bool
 
 
-def claim_section(meaning: Meaning, counts: Mapping[str, str], limits: Sequence[str], notes: Sequence[str]) -> Markup:
-    """What is claimed, what is not, and how many poses there are."""
+def claim_section(meaning: Meaning, counts: Mapping[str, str]) -> Markup:
+    """What is claimed, in plain words, and how many poses there are."""
     style = "sheet claim proved" if meaning.settled else "sheet claim"
     figures = (element("div", element("dt", name), element("dd", value)) for name, value in counts.items())
-    remarks = [element("div", element("h3", "Notes"), _list(notes), cls="stack")] if notes else []
     return element(
         "section",
         element("h2", "The claim", id="claim-title", cls="unseen"),
@@ -68,6 +67,18 @@ def claim_section(meaning: Meaning, counts: Mapping[str, str], limits: Sequence[
             element("dl", *figures, cls="counts") if counts else "",
             cls="claim-head",
         ),
+        cls=style,
+        id="claim",
+        aria_labelledby="claim-title",
+    )
+
+
+def reasons_section(meaning: Meaning, limits: Sequence[str], notes: Sequence[str]) -> Markup:
+    """How the claim is proved, and what is not claimed."""
+    remarks = [element("div", element("h3", "Notes"), _list(notes), cls="stack")] if notes else []
+    return element(
+        "section",
+        element("h2", "What the claim means", id="reasons-title"),
         element(
             "div",
             element("div", element("h3", "How it is proved"), element("p", meaning.proof), cls="stack"),
@@ -75,9 +86,9 @@ def claim_section(meaning: Meaning, counts: Mapping[str, str], limits: Sequence[
             *remarks,
             cls="columns small",
         ),
-        cls=style,
-        id="claim",
-        aria_labelledby="claim-title",
+        cls="sheet",
+        id="reasons",
+        aria_labelledby="reasons-title",
     )
 
 

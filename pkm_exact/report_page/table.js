@@ -1,11 +1,12 @@
 // The table of poses: one row is shown in the picture, any number of rows are ticked for copying.
 
 class PoseTable {
-  constructor(table, onShow, onTick) {
+  constructor(table, onShow, onClick, onTick) {
     this.table = table;
     this.body = table.tBodies[0];
     this.rows = [...this.body.rows];
     this.onShow = onShow;
+    this.onClick = onClick;
     this.onTick = onTick;
     this.all = table.querySelector("thead input");
     this.body.addEventListener("click", (event) => this.clicked(event));
@@ -63,6 +64,7 @@ class PoseTable {
     }
     this.onShow(this.numberOf(row));
     row.focus({ preventScroll: true });
+    this.onClick();
   }
 
   pressed(event) {

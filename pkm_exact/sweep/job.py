@@ -21,7 +21,7 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.policy import Policy
 from pkm_exact.sweep.asked_indices import AskedIndices
-from pkm_exact.sweep.lengths import LengthRow, LengthsFile, problem_of
+from pkm_exact.sweep.lengths import LengthRow, LengthsFile, problem_of, robot_at
 from pkm_exact.sweep.record import error_line, solution_line
 
 FIRST_ROWS: Final = 256
@@ -63,6 +63,8 @@ class SweepJob:
         Whether certificates are wanted, not only their digests.
     indices : AskedIndices or None
         What else is wanted at each pose.
+    joints : bool
+        Whether rows have joint values, as those of cranks and slides.
     """
 
     robot: Machine
@@ -71,13 +73,15 @@ class SweepJob:
     squared: bool
     certificates: bool
     indices: AskedIndices | None = None
+    joints: bool = False
 
     def answer(self, row: LengthRow) -> Answer:
         """The answer to a row, whatever happens on the way: the other rows are not affected."""
         try:
-            solution = self.solver.solution(problem_of(self.robot, row, self.names, squared=self.squared))
-            data = certificate_bytes(self.robot, None, solution)
-            line = solution_line(row, self.robot, solution, data, self.indices)
+            robot, name = robot_at(self.robot, row, self.names) if self.joints else (self.robot, None)
+            solution = self.solver.solution(_problem(robot, name, row, self.names, squared=self.squared))
+            data = certificate_bytes(robot, name, solution)
+            line = solution_line(row, robot, name, solution, data, self.indices)
             return Answer(row.number, line, data if self.certificates else None)
         except InternalError as error:
             sentence = _internal(error)
@@ -90,6 +94,12 @@ class SweepJob:
         except Exception as error:
             sentence = _internal(error)
         return Answer(row.number, error_line(row, sentence))
+
+
+def _problem(
+    robot: Machine, name: str | None, row: LengthRow, names: tuple[str, ...], *, squared: bool
+) -> ForwardProblem:
+    return problem_of(robot, row, names, squared=squared) if name is None else robot.problem(robot.configuration(name))
 
 
 def _internal(error: Exception) -> str:
@@ -106,18 +116,20 @@ def sweep_job(
     squared: bool,
     certificates: bool,
     indices: AskedIndices | None = None,
+    joints: bool = False,
 ) -> SweepJob:
     """The job for a file. The start section is that of the first rows, however many are solved by whom."""
-    problems = list(_problems(robot, lengths, squared=squared)) if method == "krawczyk" else []
+    problems = list(_problems(robot, lengths, squared=squared, joints=joints)) if method == "krawczyk" else []
     solver = RowSolver.of(problems, width, policy, method)
-    return SweepJob(robot, lengths.names, solver, squared, certificates, indices)
+    return SweepJob(robot, lengths.names, solver, squared, certificates, indices, joints)
 
 
-def _problems(robot: Machine, lengths: LengthsFile, *, squared: bool) -> Iterable[ForwardProblem]:
+def _problems(robot: Machine, lengths: LengthsFile, *, squared: bool, joints: bool) -> Iterable[ForwardProblem]:
     """Those of the first rows that pose one."""
     for row in islice(lengths.rows(), FIRST_ROWS):
         try:
-            yield problem_of(robot, row, lengths.names, squared=squared)
+            at, name = robot_at(robot, row, lengths.names) if joints else (robot, None)
+            yield _problem(at, name, row, lengths.names, squared=squared)
         except InputError:
             continue
 
@@ -131,11 +143,13 @@ def identity(job: SweepJob, lengths: LengthsFile, certificates: Path | None) -> 
     options: tuple[object, ...] = (job.solver.method, job.solver.width, job.solver.policy, job.squared, folder)
     if job.indices is not None:
         options = (*options, job.indices)
+    if job.joints:
+        options = (*options, "joints")
     return sha256(repr((words, options)).encode()).hexdigest()
 
 
 def _geometry(robot: Machine) -> tuple[object, ...]:
     """What the poses of a robot depend on beside its metric and its values."""
     if isinstance(robot, Robot):
-        return robot.base_joints, robot.platform_joints, robot.written_digit
+        return robot.base_joints, robot.platform_joints, robot.written_digit, *robot.chains
     return (robot,)

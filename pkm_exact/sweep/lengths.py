@@ -19,7 +19,9 @@ from typing import Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.csv_fields import exact_number, header_names, is_header, require_length
+from pkm_exact.geometry.given_joints import joint_configuration, joint_word
 from pkm_exact.geometry.machine import Machine
+from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.path_reader import joint_names
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
@@ -91,8 +93,10 @@ class LengthsFile:
             raise _named(self.path, error) from None
 
 
-def read_lengths(path: str | os.PathLike[str], robot: Machine) -> LengthsFile:
+def read_lengths(path: str | os.PathLike[str], robot: Machine, *, joints: bool = False) -> LengthsFile:
     """The file of length vectors of a robot. What concerns it as a whole is checked; its numbers are not read yet.
+
+    With ``joints`` it has joint values of cranks and slides as well (``geometry.given_joints``).
 
     Raises
     ------
@@ -104,9 +108,9 @@ def read_lengths(path: str | os.PathLike[str], robot: Machine) -> LengthsFile:
     try:
         if not names:
             raise InputError(f"{robot.name} has no actuated constraints; solve its configurations one by one")
-        if isinstance(robot, Robot) and robot.chains:
+        if isinstance(robot, Robot) and robot.chains and not joints:
             raise InputError(
-                f"the rods of a {robot.kind} robot have fixed lengths; solve its configurations one by one"
+                f"the rods of a {robot.kind} robot have fixed lengths; give joint values in its rows, and --joints"
             )
         if not Path(name).exists():
             raise InputError("does not exist; give the path of a CSV file")
@@ -144,13 +148,34 @@ def row_values(row: LengthRow, names: tuple[str, ...]) -> list[Fraction]:
     [Fraction(7, 1), Fraction(5, 2), Fraction(1, 10)]
     """
     line = f"line {row.line}"
+    _require_fields(row, names)
+    return [exact_number(field, f"{line}, {name}") for field, name in zip(row.fields, names, strict=True)]
+
+
+def _require_fields(row: LengthRow, names: tuple[str, ...]) -> None:
+    line = f"line {row.line}"
     if row.defect is not None:
         raise InputError(f"{line}: {row.defect}")
     if len(row.fields) != len(names):
         raise InputError(f"{line}: {len(row.fields)} values; give {len(names)}: {', '.join(names)}")
     if is_header(row.fields) and tuple(field.lower() for field in row.fields) == names:
         raise InputError(f"{line}: is a second header; remove it")
-    return [exact_number(field, f"{line}, {name}") for field, name in zip(row.fields, names, strict=True)]
+
+
+def robot_at(robot: Machine, row: LengthRow, names: tuple[str, ...]) -> tuple[Machine, str]:
+    """The robot with the joint values of a row as a further configuration, and that configuration's name.
+
+    Raises
+    ------
+    InputError
+        If they are no joint values of the robot.
+    """
+    _require_fields(row, names)
+    line = f"line {row.line}"
+    words = [joint_word(field, f"{line}, {name}") for field, name in zip(row.fields, names, strict=True)]
+    if not isinstance(robot, Robot | Mechanism):
+        raise InputError(f"{line}: {robot.name} has no joint values; solve its configurations one by one")
+    return joint_configuration(robot, words, line)
 
 
 def problem_of(robot: Machine, row: LengthRow, names: tuple[str, ...], *, squared: bool) -> ForwardProblem:

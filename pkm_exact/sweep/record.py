@@ -19,10 +19,15 @@ from pkm_exact.sweep.lengths import LengthRow
 
 
 def solution_line(
-    row: LengthRow, robot: Machine, solution: Solution, certificate: bytes, asked: AskedIndices | None = None
+    row: LengthRow,
+    robot: Machine,
+    configuration: str | None,
+    solution: Solution,
+    certificate: bytes,
+    asked: AskedIndices | None = None,
 ) -> bytes:
     """What was found for a row, with the digest of its certificate, and at each pose the indices asked for."""
-    poses, notes = [_pose(pose) for pose in solution.poses], list(answer_notes(robot, None, solution))
+    poses, notes = [_pose(pose) for pose in solution.poses], list(answer_notes(robot, configuration, solution))
     if asked is not None:
         values, reasons = asked.at_poses(robot, solution.problem, solution.poses)
         poses = [{**pose, "indices": found} for pose, found in zip(poses, values, strict=True)]
