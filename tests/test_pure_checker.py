@@ -238,6 +238,21 @@ def test_multiples(h: list[int], q: list[int], r: list[int]) -> None:
     assert multiples.include(pure.at_power([int(c) for c in other.coeffs()], multiples.k)) == divides
 
 
+@given(polynomials.filter(lambda p: len(p) > 1), st.lists(integers, min_size=1, max_size=20), polynomials)
+def test_multiples_of_many_times_the_degree(h: list[int], q: list[int], r: list[int]) -> None:
+    """The same where the quotient is found in several steps; the first factor may vanish at 0, and signs are any."""
+    h0 = pure.primitive_part(h)
+    product = fmpz_poly(h0) * fmpz_poly(q)
+    other = product + fmpz_poly(r)
+    degrees = max(2, -(-max(product.degree(), other.degree()) // (len(h0) - 1)))
+    bound = max(sum(abs(int(c)) for c in p.coeffs()) for p in (product, other))
+    multiples = pure.Multiples(h0, bound, degrees)
+    assert multiples.steps > 1 or degrees == 2
+    assert multiples.include(pure.at_power([int(c) for c in product.coeffs()], multiples.k))
+    divides = not divmod(other, fmpz_poly(h0))[1]
+    assert multiples.include(pure.at_power([int(c) for c in other.coeffs()], multiples.k)) == divides
+
+
 def test_an_exact_quotient_of_values_is_not_enough() -> None:
     """At X = 2^k the value of X - 1 divides that of 2^k - 1, and of every polynomial that vanishes there."""
     multiples = pure.Multiples([-1, 1], 5)

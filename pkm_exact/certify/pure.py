@@ -770,29 +770,40 @@ class Multiples:
     q, of degree d, has size at most 2^d bound (Mignotte), so X, chosen larger, makes q the digits of the integer
     P(X) / h0(X). Conversely, if this is an integer with digits q so small that h0 q, like P, has coefficients below
     X / 2, then P = h0 q, because both have the same value at X.
-    Exact quotients are computed modulo a power of 2, where the inverse of h0(X) is found once, by Newton's iteration.
+    Exact quotients are found from below, some bits at a time, modulo a power of 2, where the inverse of h0(X) is found
+    once, by Newton's iteration (Hensel).
     """
 
     def __init__(self, h0: Polynomial, bound: int, degrees: int = 2) -> None:
         self.h0 = h0
         number = (degrees - 1) * (len(h0) - 1) + 1
         self.k = bound.bit_length() + number + size(h0).bit_length() + 2
-        self.value = at_power(h0, self.k)
-        self.zeros = (self.value & -self.value).bit_length() - 1
-        self.length = self.k * (number + 1)
-        spend(6 * product_cost(self.length, self.length))
-        odd, self.inverse, known = self.value >> self.zeros, 1, 1
-        while known < self.length:
-            known = min(2 * known, self.length)
+        value = at_power(h0, self.k)
+        self.zeros = (value & -value).bit_length() - 1
+        self.odd = value >> self.zeros
+        self.step = self.k * min(len(h0), number + 1)
+        self.steps = -(-self.k * (number + 1) // self.step)
+        spend(6 * product_cost(self.step, self.step))
+        self.inverse, known = 1, 1
+        while known < self.step:
+            known = min(2 * known, self.step)
             mask = (1 << known) - 1
-            self.inverse = self.inverse * (2 - (odd & mask) * self.inverse) & mask
+            self.inverse = self.inverse * (2 - (self.odd & mask) * self.inverse) & mask
 
     def include(self, value: int) -> bool:
         """Whether h0 divides the polynomial with this value at X."""
-        spend(3 * product_cost(self.length, max(self.length, value.bit_length())))
-        quotient = (value >> self.zeros) * self.inverse & ((1 << self.length) - 1)
-        quotient -= quotient >> (self.length - 1) << self.length
-        if quotient * self.value != value:
+        length = max(self.step * self.steps, value.bit_length())
+        spend(self.steps * (2 * product_cost(self.step, self.odd.bit_length()) + length // 10))
+        if value & ((1 << self.zeros) - 1):
+            return False
+        rest, quotient, mask = value >> self.zeros, 0, (1 << self.step) - 1
+        for number in range(self.steps):
+            digit = (rest & mask) * self.inverse & mask
+            rest = (rest - digit * self.odd) >> self.step
+            quotient |= digit << (number * self.step)
+        if rest == -self.odd:
+            quotient -= 1 << (self.steps * self.step)
+        elif rest:
             return False
         return size(digits(quotient, self.k)) * size(self.h0) < 1 << (self.k - 2)
 

@@ -331,16 +331,26 @@ class Values:
         return self.known[monomial]
 
     def value(self, form: Forms) -> Any:
-        """The value of a polynomial; None for 0, and the number itself if the degree is 0."""
+        """The value of a polynomial; None for 0, and the number itself if the degree is 0.
+
+        Terms with the same power of x_0 are summed before they are multiplied by it.
+        """
+        parts: dict[int, Any] = {}
+        for (power, *others), value in form.items():
+            part = self.times(value, self.monomial((0, *others))) if any(others) else value
+            parts[power] = parts[power] + part if power in parts else part
         total: Any = None
-        for monomial, value in form.items():
-            if not any(monomial):
-                return value
-            if self.cost is not None:
-                pure.spend(self.cost(value, self.monomial(monomial)))
-            term = value * self.monomial(monomial)
-            total = term if total is None else total + term
+        for power, part in parts.items():
+            if power:
+                part = self.times(part, self.monomial((power, *(0 for _ in self.coordinates[1:]))))
+            total = part if total is None else total + part
         return total
+
+    def times(self, a: Any, b: Any) -> Any:
+        """The product."""
+        if self.cost is not None:
+            pure.spend(self.cost(a, b))
+        return a * b
 
 
 def product_of_integers(a: int, b: int) -> int:
