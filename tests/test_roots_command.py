@@ -1,6 +1,9 @@
 """The command ``certify-roots``: what it prints, its exit codes, and what it says of input that it cannot use."""
 
 import json
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -144,3 +147,15 @@ def test_commands_for_robots_say_that_it_is_none(circle: str, tmp_path: Path, ca
         assert "internal" not in capsys.readouterr().err
     assert main(["check", "--recompute", target]) == ExitCode.DONE
     assert "same bytes, complete, 2 real solutions" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="limits of memory as Linux has them")
+def test_little_memory_ends_in_one_sentence() -> None:
+    """FLINT's own lines do not appear."""
+    command = [sys.executable, "-c", "import sys; from pkm_exact.cli.main import roots_main; sys.exit(roots_main())"]
+    file = Path(__file__).parent / "systems" / "virasoro.ms"
+    done = subprocess.run([*command, str(file), "--memory", "150"], capture_output=True, text=True, check=False)
+    assert done.returncode == ExitCode.NO_ANSWER
+    assert done.stdout == ""
+    assert re.fullmatch(r"certify-roots: error: no answer: the memory of 150 MB does not suffice .*\n", done.stderr)

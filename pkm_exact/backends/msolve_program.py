@@ -99,8 +99,15 @@ def msolve_output(system: PolynomialSystem, *, seconds: float | None, program: P
         except subprocess.TimeoutExpired as error:
             raise MsolveError(f"msolve did not end within {seconds} seconds") from error
         if done.returncode or not target.is_file():
-            raise MsolveError(f"msolve failed with exit code {done.returncode}: {done.stderr.strip()[:200]}")
+            raise MsolveError(_failure(done.returncode, done.stderr.strip()[:200]))
         return target.read_text(encoding="ascii")
+
+
+def _failure(code: int, said: str) -> str:
+    """Why there is no answer, in a sentence."""
+    if code < 0:
+        return f"msolve was ended by signal {-code}, maybe for want of memory; give it more, or solve without it"
+    return f"msolve failed with exit code {code}" + (f": {said}" if said else "; solve without it")
 
 
 def msolve_command(program: Path, source: Path, target: Path, threads: int = 1) -> list[str]:

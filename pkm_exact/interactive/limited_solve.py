@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import fields
 from fractions import Fraction
 from multiprocessing.connection import Connection
@@ -84,3 +85,6 @@ def _limit_memory(megabytes: int) -> None:
     except ImportError:
         return
     resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (1, 2):  # FLINT writes lines of its own before it ends the process
+        os.dup2(nowhere, stream)
