@@ -40,14 +40,12 @@ QUICK = (
 LONG = (
     "cpdm5",
     "cyclic-7",
-    "d1",
     "discret3s",
     "dz1",
     "filter9",
     "fourbar",
     "i1",
     "ipp",
-    "kin1",
     "rbpl24",
     "stewgou40",
     "virasoro",
@@ -55,6 +53,8 @@ LONG = (
 """Minutes each, or out of reach."""
 
 BY_ORACLE = ("katsura-9",)
+MOST_FOR_THE_PLAIN_CHECKER = 160
+"""Distinct solutions: a minute at most; a few minutes for all others."""
 
 FINITE = [
     pytest.param(name, marks=() if name in QUICK else pytest.mark.slow)
@@ -78,7 +78,7 @@ def test_counts_and_certificates(name: str) -> None:
     data = found.certificate().data
     one = check_bytes(data)
     assert one.status == "accepted", one.lines
-    if system.distinct is not None and system.distinct <= 70:
+    if system.distinct is not None and system.distinct <= MOST_FOR_THE_PLAIN_CHECKER:
         assert pure.check_bytes(data) == (one.status, one.lines)
 
 

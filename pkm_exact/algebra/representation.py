@@ -153,7 +153,6 @@ def satisfies(representation: UnivariateRepresentation, system: PolynomialSystem
 def homogeneous_evaluator(numerators: Sequence[fmpz_poly], denominator: fmpz_poly) -> Callable[[fmpz_mpoly], fmpz_poly]:
     """A function that gives denominator^deg(F) F(numerators / denominator); products are kept between calls."""
     values: dict[tuple[int, ...], fmpz_poly] = {(0,) * len(numerators): fmpz_poly([1])}
-    powers = [fmpz_poly([1])]
 
     def monomial(exponents: tuple[int, ...]) -> fmpz_poly:
         if exponents not in values:
@@ -164,16 +163,13 @@ def homogeneous_evaluator(numerators: Sequence[fmpz_poly], denominator: fmpz_pol
 
     def evaluate(polynomial: fmpz_mpoly) -> fmpz_poly:
         degree = int(polynomial.total_degree())
-        while len(powers) <= degree:
-            powers.append(powers[-1] * denominator)
         by_degree = [fmpz_poly() for _ in range(degree + 1)]
         for exponents, coefficient in polynomial.to_dict().items():
             key = tuple(map(int, exponents))
             by_degree[sum(key)] += coefficient * monomial(key)
         total = fmpz_poly()
-        for low, part in enumerate(by_degree):
-            if part:
-                total += part * powers[degree - low]
+        for part in by_degree:
+            total = total * denominator + part
         return total
 
     return evaluate

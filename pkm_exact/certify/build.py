@@ -7,14 +7,14 @@ bytes: nothing in a certificate depends on the time, the machine, a precision or
 
 from __future__ import annotations
 
-import json
 import os
-from hashlib import sha256
-from json.encoder import encode_basestring_ascii
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.certify.build_constraints import constraints_content
 from pkm_exact.certify.certificate_entries import claim_entries, pose_entries, steps_entry, texts
+from pkm_exact.certify.sealing import canonical_bytes as canonical_bytes
+from pkm_exact.certify.sealing import digest_of
+from pkm_exact.certify.sealing import sealed as sealed
 from pkm_exact.claim import CompletenessRoute
 from pkm_exact.files import write_whole
 from pkm_exact.geometry.kinds import KINDS
@@ -61,7 +61,7 @@ def certificate(robot: Machine, configuration_name: str | None, solution: Soluti
 def certificate_bytes(robot: Machine, configuration_name: str | None, solution: Solution) -> bytes:
     """What ``write_certificate`` writes of a solution, spelled out only once; errors as ``certificate``."""
     body = canonical_bytes(_content(robot, configuration_name, solution))
-    return body.removesuffix(b"\n}\n") + f',\n "digest": "{_digest(body)}"\n}}\n'.encode("ascii")
+    return body.removesuffix(b"\n}\n") + f',\n "digest": "{digest_of(body)}"\n}}\n'.encode("ascii")
 
 
 def _content(machine: Machine, configuration_name: str | None, solution: Solution) -> dict[str, Any]:
@@ -107,45 +107,6 @@ def robot_entry(robot: Robot) -> dict[str, Any]:
         "base": [texts(joint) for joint in robot.base_joints],
         "platform": [texts(joint) for joint in robot.platform_joints],
     }
-
-
-def sealed(content: dict[str, Any]) -> dict[str, Any]:
-    """The object with the digest of all its other entries as last entry.
-
-    Examples
-    --------
-    >>> sealed({"version": 1})["digest"][:20]
-    'sha256:aa2c737df4367'
-    """
-    body = {key: value for key, value in content.items() if key != "digest"}
-    return {**body, "digest": _digest(canonical_bytes(body))}
-
-
-def _digest(body: bytes) -> str:
-    return f"sha256:{sha256(body).hexdigest()}"
-
-
-def canonical_bytes(content: object) -> bytes:
-    r"""The one spelling of a JSON value that certificates use: one entry per line, ASCII only, a line feed at the end.
-
-    Examples
-    --------
-    >>> canonical_bytes({"a": [1, "é"]})
-    b'{\n "a": [\n  1,\n  "\\u00e9"\n ]\n}\n'
-    """
-    return (_text(content, "\n") + "\n").encode("ascii")
-
-
-def _text(value: object, line: str) -> str:
-    """What ``json.dumps`` with an indent of 1 writes after the given beginning of a line, in a third of its time."""
-    if isinstance(value, str):
-        return encode_basestring_ascii(value)
-    inner = line + " "
-    if isinstance(value, dict) and value:
-        return "{" + ",".join([f"{inner}{_text(k, inner)}: {_text(v, inner)}" for k, v in value.items()]) + line + "}"
-    if isinstance(value, list | tuple) and value:
-        return "[" + ",".join([inner + _text(entry, inner) for entry in value]) + line + "]"
-    return json.dumps(value, allow_nan=False)
 
 
 def write_certificate(path: str | os.PathLike[str], content: dict[str, Any]) -> None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.certificate_entries import coefficients, products_entry
+from pkm_exact.certify.sealing import canonical_bytes, sealed
 from pkm_exact.claim import Claim
 from pkm_exact.poses.pose_spelling import ends
 from pkm_exact.systems.polynomial_terms import spelled_terms
