@@ -47,7 +47,6 @@ LONG = (
     "i1",
     "ipp",
     "rbpl24",
-    "stewgou40",
     "virasoro",
 )
 """Minutes each, or out of reach."""
