@@ -80,9 +80,9 @@ def _root_of_3(bits: int) -> Fraction:
 
 
 def _beside(sign: int, side: int) -> Content:
-    """sqrt(3) x is 3/4 and ``sign`` 2^-32 units of the grid 1/4, and on this side of that by 2^-265 or so."""
-    value = (3 + sign * UNIT) / 4
-    x = value / _root_of_3(400) + Fraction(side, 1 << 265)
+    """sqrt(3) x is 2^20 + 3/4 and ``sign`` 2^-32 units of the grid 1/4, and on this side of that by 2^-245 or so."""
+    value = (1 << 20) + (3 + sign * UNIT) / 4
+    x = value / _root_of_3(400) + Fraction(side, 1 << 245)
     return _oblong(x, 2)
 
 
@@ -126,7 +126,7 @@ CELLS: dict[str, Case] = {
         for sign in (1, -1)
     },
     **{
-        f"{name}, {sign} 2^-32 from a grid point and {side} 2^-265": (partial(make, sign, side), ACCEPTED)
+        f"{name}, {sign} 2^-32 from a grid point and on side {side}": (partial(make, sign, side), ACCEPTED)
         for name, make in (("a position that is no rational", _beside), ("a quaternion that is not", _half_turned))
         for sign in (1, -1)
         for side in (1, -1)
@@ -386,7 +386,41 @@ def _few_in_slices() -> Content:
     return content | {"representation": None, "self_motion": motion}
 
 
+def _in_planes(**entries: Any) -> Content:
+    """A translation held by three planes: one pose, and no unknown is left in its section."""
+    at = Pose((1, 0, 0, 0), (0, 1, 2, 5))
+    planes = [at.in_plane(n, (1, 1, 2)) for n in ((1, 0, 2), (0, 1, 1), (3, 1, 1))]
+    return listing("translation", [at], planes) | entries
+
+
+NO_POSE: Content = {
+    **dict.fromkeys(("complex_solutions", "distinct_solutions", "real_poses", "box_exponent"), 0),
+    "representation": None,
+    "poses": [],
+    "claim": "inconsistent",
+}
 TOUCHING: dict[str, Case] = {
+    "three planes and a pose": (
+        lambda: _in_planes(claim="complete", completeness_route="product-bound"),
+        ACCEPTED,
+    ),
+    **{
+        f"three planes and a pose, by the elimination {steps}": (
+            lambda steps=steps: _in_planes(  # type: ignore[misc]
+                claim="complete", completeness_route="exact-elimination", elimination=steps
+            ),
+            ACCEPTED,
+        )
+        for steps in ([], [[]])
+    },
+    "three planes, said to have no pose": (
+        lambda: _in_planes(**NO_POSE, completeness_route="modular-rank"),
+        REJECTED,
+    ),
+    "three planes, said to have no pose by an elimination": (
+        lambda: _in_planes(**NO_POSE, completeness_route="exact-elimination", elimination=[]),
+        REJECTED,
+    ),
     "two spheres that touch": (
         lambda: _touching(
             lambda at: [
