@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from certificate_tools import golden
 from samples import model, solved
 
 from pkm_exact.claim import Claim
@@ -399,6 +400,12 @@ def test_the_modes_of_the_reconfigurable_robot() -> None:
         robot = drawn("P-FUS", f'freedoms="{freedoms}"', slides="[30, 35, 27]", half_tangents=tangents)
         assert len(robot.constraints) == 6
         assert sum(found.type == "in-plane" for found in robot.constraints) == 6 - int(freedoms)
+
+
+def test_the_other_modes_are_shipped_with_their_counts() -> None:
+    counts = {"p-fus-4": 32, "p-fus-5": 40, "p-fus-6": 40, "carriage-hexapod": 40}
+    assert {name: golden(name)["complex_solutions"] for name in counts} == counts
+    assert {golden(name)["claim"] for name in counts} == {"complete"}
 
 
 @pytest.mark.slow

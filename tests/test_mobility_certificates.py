@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from copy import deepcopy
 from fractions import Fraction
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +15,11 @@ from pkm_exact import check_bytes, mobility_of, read_linkage
 from pkm_exact.certify import pure, pure_mobility
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.checker import mobility_document
-from pkm_exact.certify.mobility_build import mobility_certificate
+from pkm_exact.certify.mobility_build import listed_sets, mobility_certificate
 from pkm_exact.cli.main import main
 from pkm_exact.geometry.joint_types import JointGeometry
 from pkm_exact.geometry.linkage import Joint, Linkage
+from pkm_exact.mobility.actuation import ActuatorSets
 
 CHAINS = Path(__file__).parent.parent / "models" / "chains"
 Content = dict[str, Any]
@@ -307,3 +309,11 @@ def test_all_sets_are_all_among_the_freedoms_looked_at() -> None:
     (status, lines), other = _answers(content)
     assert (status, lines) == other
     assert "platform sets: 0 minimal sets hold it, there is no other among 1 freedoms" in lines
+
+
+def test_of_a_list_that_is_not_called_complete_a_part_is_written() -> None:
+    linkage = read_linkage(CHAINS / "3-pprr.toml")
+    some = tuple(combinations(linkage.freedoms, 3))
+    for is_complete, count in ((True, len(some)), (False, 100)):
+        listed = listed_sets(ActuatorSets(some, is_complete=is_complete), linkage)
+        assert listed == {"complete": is_complete, "sets": [list(names) for names in some[:count]]}

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 FORMAT: Final = "pkm_exact mobility certificate"
 VERSION: Final = 1
+MOST_OF_SOME: Final = 100
+"""Sets of actuators in a certificate whose list is not called complete."""
 
 
 def mobility_certificate(found: LinkageMobility) -> dict[str, Any]:
@@ -57,8 +59,8 @@ def mobility_certificate(found: LinkageMobility) -> dict[str, Any]:
             },
             "actuator_sets": {
                 "among": list(found.among),
-                "platform": _sets(found.hold_platform, found.linkage),
-                "mechanism": _sets(found.hold_mechanism, found.linkage),
+                "platform": listed_sets(found.hold_platform, found.linkage),
+                "mechanism": listed_sets(found.hold_mechanism, found.linkage),
             },
             "finite": _finite(found),
         }
@@ -158,9 +160,12 @@ def _texts(values: Sequence[Fraction]) -> list[str]:
     return [str(value) for value in values]
 
 
-def _sets(sets: ActuatorSets, linkage: Linkage) -> dict[str, Any]:
+def listed_sets(sets: ActuatorSets, linkage: Linkage) -> dict[str, Any]:
+    """Sets of actuators as certificates have them: all of a complete list, or some."""
     places = {name: place for place, name in enumerate(linkage.freedoms)}
     ordered = sorted(sets.sets, key=lambda names: (len(names), [places[name] for name in names]))
+    if not sets.is_complete:  # nothing is said of the others anyway
+        ordered = ordered[:MOST_OF_SOME]
     return {"complete": sets.is_complete, "sets": [list(names) for names in ordered]}
 
 
