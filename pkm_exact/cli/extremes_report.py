@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pkm_exact.regions.joint_ranges import JointRange
     from pkm_exact.regions.region_legs import RegionMachine
     from pkm_exact.regions.region_question import RegionQuestion
+    from pkm_exact.regions.region_threshold import Threshold
 
 
 def between(value: Interval) -> str:
@@ -80,6 +81,32 @@ def index_json(machine: RegionMachine, asked: RegionQuestion, found: IndexRange)
         "greatest_at": [[str(low), str(high)] for low, high in found.greatest_at],
         "precise": found.is_precise,
         "enlarged": asked.enlarged,
+    }
+    return json.dumps(content, indent=1) + "\n"
+
+
+def threshold_text(asked: RegionQuestion, found: Threshold) -> str:
+    """A few lines."""
+    names = ", ".join(asked.conditions.names)
+    lines = [f"{found.proved.machine.name}: {names} in a region of {', '.join(asked.chart.variables)}"]
+    for value, answer in zip((found.low, found.high), found.answers, strict=True):
+        word = "proved: all poses of the region are good" if answer.is_proved else "no, with a counterexample"
+        lines.append(f"{asked.answer.parameter} = {value}: {word}")
+    lines.append("between these the answer changes; nothing is said of other values")
+    if not found.is_precise:
+        lines.append("undecided: not as precise as asked for with the work allowed; raise answer.steps or answer.boxes")
+    return "\n".join(lines) + "\n"
+
+
+def threshold_json(asked: RegionQuestion, found: Threshold) -> str:
+    """The same as a JSON object; numbers are exact rationals as strings."""
+    content = {
+        "robot": found.proved.machine.name,
+        "answer": "threshold",
+        "parameter": asked.answer.parameter,
+        "between": [str(found.low), str(found.high)],
+        "verdicts": ["proved" if answer.is_proved else "refuted" for answer in found.answers],
+        "precise": found.is_precise,
     }
     return json.dumps(content, indent=1) + "\n"
 

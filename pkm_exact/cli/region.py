@@ -41,7 +41,7 @@ def region(
     QUESTION.toml says which region ([region]: a box, ball, cylinder or prism of positions, with a fixed orientation or
     intervals of angles), what is asked of its poses ([conditions]: reachable, limits, no_type_1, no_type_2), and which
     answer is wanted ([answer]: all of it proved or a counterexample; a map; the largest cube or ball; the locus of
-    singular poses; extremes of joint values or indices).
+    singular poses; extremes of joint values or indices; between which values of a number of the model it changes).
 
     With -o an interrupted run leaves CERT.json.partial; the same command goes on from there, to the same bytes.
 
@@ -61,19 +61,13 @@ def region(
     except InputError as error:
         raise InputError(f"{model}: {error}") from None
     asked = read_question(question, machine)
+    _require_outputs(model, question, asked, output, picture)
     if asked.answer.kind == "locus":
-        if output is not None or picture is not None:
-            raise InputError(f"{question}: answer.kind: a locus has neither certificate nor picture; leave -o out")
         return _locus(machine, asked, question, layout)
     if asked.answer.kind == "extremes":
-        if output is not None or picture is not None:
-            raise InputError(f"{question}: answer.kind: extremes have neither certificate nor picture; leave -o out")
         return _extremes(machine, asked, question, layout, verbose=verbose)
-    for path, option in ((output, "-o"), (picture, "--picture")):
-        if path is not None:
-            arguments.require_other_file(Path(path), model, option)
-            arguments.require_other_file(Path(path), question, option, "the question")
-            arguments.require_writable(Path(path), option)
+    if asked.answer.kind == "threshold":
+        return _threshold(model, asked, question, output, layout, verbose=verbose)
     from pkm_exact.interactive.progress import Progress
 
     try:
@@ -90,6 +84,20 @@ def region(
     return ExitCode.WEAKER_CLAIM if region_report.is_undecided(answer) else ExitCode.DONE
 
 
+def _require_outputs(model: str, question: str, asked: RegionQuestion, output: str | None, picture: str | None) -> None:
+    """Refuse files that the answer does not have, and those that must not be written."""
+    kind = asked.answer.kind
+    if kind in ("locus", "extremes") and (output or picture):
+        raise InputError(f"{question}: answer.kind: {kind} has neither certificate nor picture; leave -o out")
+    if kind == "threshold" and picture is not None:
+        raise InputError(f"{question}: answer.kind: a threshold has no picture; leave --picture out")
+    for path, option in ((output, "-o"), (picture, "--picture")):
+        if path is not None:
+            arguments.require_other_file(Path(path), model, option)
+            arguments.require_other_file(Path(path), question, option, "the question")
+            arguments.require_writable(Path(path), option)
+
+
 def _locus(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str) -> int:
     from pkm_exact.cli import region_report
     from pkm_exact.regions.singularity_locus import locus
@@ -101,6 +109,40 @@ def _locus(machine: RegionMachine, asked: RegionQuestion, question: str, layout:
     said = region_report.locus_json if layout == "json" else region_report.locus_text
     sys.stdout.write(said(machine, found))
     return ExitCode.DONE
+
+
+def _threshold(
+    model: str, asked: RegionQuestion, question: str, output: str | None, layout: str, *, verbose: bool
+) -> int:
+    from pkm_exact.cli import extremes_report
+    from pkm_exact.geometry.reader import robot_with
+    from pkm_exact.interactive.progress import Progress
+    from pkm_exact.regions.question_reader import read_question
+    from pkm_exact.regions.region_legs import region_machine
+    from pkm_exact.regions.region_solver import answered
+    from pkm_exact.regions.region_threshold import threshold
+
+    text, wanted = Path(model).read_text(encoding="utf-8"), asked.answer
+
+    def ask(value: Fraction) -> RegionAnswer:
+        machine = region_machine(robot_with(text, wanted.parameter, value))
+        return answered(machine, read_question(question, machine))
+
+    try:
+        with Progress(verbose=verbose) as progress:
+            found = threshold(
+                ask,
+                wanted.between,
+                wanted.precision,
+                progress=lambda value, _: progress(f"{wanted.parameter} = {float(value):.6g}"),
+            )
+    except InputError as error:
+        raise InputError(f"{question}: {error}") from None
+    if output is not None:
+        _write(found.proved, output)
+    said = extremes_report.threshold_json if layout == "json" else extremes_report.threshold_text
+    sys.stdout.write(said(asked, found))
+    return ExitCode.DONE if found.is_precise else ExitCode.WEAKER_CLAIM
 
 
 def _extremes(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str, *, verbose: bool) -> int:

@@ -34,6 +34,8 @@ from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
     from pkm_exact.geometry.linkage import Linkage
     from pkm_exact.geometry.links import Links
     from pkm_exact.geometry.machines.machine_kind import MachineKind
@@ -150,7 +152,10 @@ def read_links(path: str | os.PathLike[str]) -> Links:
 
 def robot_from_toml(text: str) -> Robot | Mechanism:
     """The robot that the text of a model file describes."""
-    found = any_from_toml(text)
+    return _with_one_body(any_from_toml(text))
+
+
+def _with_one_body(found: Robot | Mechanism | Linkage | Links) -> Robot | Mechanism:
     if is_links(found):
         raise InputError(
             f"kind: {LINKS_KIND} is a mechanism with passive bodies, and only certify-poses solve takes those; give a "
@@ -166,7 +171,51 @@ def robot_from_toml(text: str) -> Robot | Mechanism:
 
 def any_from_toml(text: str) -> Robot | Mechanism | Linkage | Links:
     """What the text of a model file describes."""
+    return _from_table(_parse(text))
+
+
+def robot_with(text: str, key: str, value: Fraction) -> Robot | Mechanism:
+    """The robot of a model file in which one number is another.
+
+    Parameters
+    ----------
+    text : str
+        The model file.
+    key : str
+        Where the number stands, such as "dimensions.height" or "base.joints.2.1", entries of lists counted from 1.
+    value : Fraction
+
+    Raises
+    ------
+    InputError
+        If no number stands there, or the file describes no robot with it.
+    """
     table = _parse(text)
+    place: Any = table
+    *path, last = key.split(".")
+    for name in path:
+        place = _entry(place, name, key)
+    old = _entry(place, last, key)
+    if isinstance(old, dict | list | bool):
+        raise InputError(
+            f"answer.parameter: {shown(key)} is no number of the model; name one, such as dimensions.height"
+        )
+    place[int(last) - 1 if isinstance(place, list) else last] = str(value)
+    return _with_one_body(_from_table(table))
+
+
+def _entry(place: Any, name: str, key: str) -> Any:
+    """An entry of a table or list."""
+    if isinstance(place, dict) and name in place:
+        return place[name]
+    if isinstance(place, list) and name.isascii() and name.isdigit() and 1 <= int(name) <= len(place):
+        return place[int(name) - 1]
+    raise InputError(
+        f"answer.parameter: {shown(key)} is not in the model; name a number of it, such as dimensions.height"
+    )
+
+
+def _from_table(table: dict[str, Any]) -> Robot | Mechanism | Linkage | Links:
     nominal = table.pop("nominal", None)
     kind = table.get("kind")
     table, polar = with_polar_vectors(table, _metric(table), exact=kind in (CHAINS_KIND, LINKS_KIND))

@@ -399,13 +399,17 @@ def _load(table: dict[str, Any], machine: RegionMachine) -> tuple[tuple[Fraction
 
 
 def _answer(table: dict[str, Any], machine: RegionMachine) -> WantedAnswer:
-    known_keys(table, ("kind", "steps", "boxes", "shape", "about", "precision", "of"), "answer")
+    known_keys(table, ("kind", "steps", "boxes", "shape", "about", "precision", "of", "parameter", "between"), "answer")
     kind = required(table, "kind", "answer.")
     if kind not in ANSWERS:
         raise InputError(f"answer.kind: {shown(kind)} is unknown; use one of: {', '.join(ANSWERS)}")
     steps = _count(table.get("steps", DEFAULT_STEPS), "answer.steps", _MOST_STEPS)
     boxes = _count(table.get("boxes", DEFAULT_BOXES), "answer.boxes", _MOST_BOXES)
     of = _extremes_of(table, kind)
+    if kind == "threshold":
+        return _threshold(table, steps, boxes)
+    if given := [key for key in ("parameter", "between") if key in table]:
+        raise InputError(f"answer.{given[0]}: belongs to the kind threshold; remove it")
     if kind != "largest":
         for key in ("shape", "about", *(() if of else ("precision",))):
             if key in table:
@@ -416,6 +420,20 @@ def _answer(table: dict[str, Any], machine: RegionMachine) -> WantedAnswer:
         raise InputError(f"answer.shape: {shown(shape)} is unknown; use one of: cube, ball")
     about = _numbers(required(table, "about", "answer."), "answer.about", _dimension(machine))
     return WantedAnswer(kind, steps, boxes, shape, about, _precision(table, "1/100"))
+
+
+def _threshold(table: dict[str, Any], steps: int, boxes: int) -> WantedAnswer:
+    if given := [key for key in ("shape", "about") if key in table]:
+        raise InputError(f"answer.{given[0]}: belongs to the kind largest; remove it")
+    key = required(table, "parameter", "answer.")
+    if not isinstance(key, str) or not key:
+        raise InputError(
+            f"answer.parameter: {shown(key)} is no text; name a number of the model, such as dimensions.height"
+        )
+    between = _pair(required(table, "between", "answer."), "answer.between")
+    return WantedAnswer(
+        "threshold", steps, boxes, precision=_precision(table, "1/1000"), parameter=key, between=between
+    )
 
 
 def _extremes_of(table: dict[str, Any], kind: str) -> str:

@@ -11,7 +11,7 @@ from pkm_exact.regions.index_quotients import INDEX_NAMES
 from pkm_exact.regions.region_conditions import Conditions
 from pkm_exact.regions.region_shapes import Quadratic
 
-ANSWERS: Final = ("all", "map", "largest", "locus", "extremes")
+ANSWERS: Final = ("all", "map", "largest", "locus", "extremes", "threshold")
 EXTREMES: Final = ("joint_values", *INDEX_NAMES)
 """Of what the least and the greatest value may be asked."""
 DEFAULT_STEPS: Final = 30
@@ -38,6 +38,10 @@ class WantedAnswer:
         Relative.
     of : str
         Of the answer "extremes": one of ``EXTREMES``.
+    parameter : str
+        Of the answer "threshold": which number of the model varies.
+    between : tuple of 2 Fraction
+        From one value to another.
     """
 
     kind: str
@@ -47,6 +51,8 @@ class WantedAnswer:
     about: tuple[Fraction, ...] = ()
     precision: Fraction = Fraction(1, 100)
     of: str = ""
+    parameter: str = ""
+    between: tuple[Fraction, ...] = ()
 
 
 @dataclass(frozen=True)
