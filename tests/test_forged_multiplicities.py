@@ -1,5 +1,6 @@
 """Multiplicities that are too large are rejected: every element must be 0 in the algebra that tells them."""
 
+import json
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
@@ -10,8 +11,12 @@ import pytest
 from certificate_tools import both, both_resealed, last_line
 from forged_multiplicities import Content, Pose, Vector, forged, honest
 
+from pkm_exact import solve
 from pkm_exact.certify import pure
+from pkm_exact.certify.build import certificate_bytes
 from pkm_exact.certify.checker import claims, traceform
+from pkm_exact.geometry.reader import robot_from_toml
+from pkm_exact.geometry.robot import Robot
 
 CASES = Path(__file__).parent / "cases"
 
@@ -149,3 +154,40 @@ def test_the_spatial_one_by_another_hand_is_rejected() -> None:
     assert both((CASES / "honest_spatial.json").read_bytes()).status == "accepted"
     answer = both((CASES / "forged_spatial.json").read_bytes())
     assert (answer.status, "8 solutions are proved simple" in last_line(answer)) == ("rejected", True)
+
+
+IN_LINE: Final = """
+schema = 1
+name = "3-RPR in line with two double poses, sqrt(2) above and below the base"
+kind = "3-RPR"
+unit = "1"
+source = "made for this test: the leg lines meet in (1, -sqrt(2)), mirrored in (1, sqrt(2))"
+
+[base]
+joints = [["1/2", 0], [1, 0], ["7/6", 0]]
+
+[platform]
+joints = [[0, 0], [3, 0], [6, 0]]
+
+[[configurations]]
+name = "double"
+lengths_squared = ["9/4", 18, "1825/36"]
+"""
+
+
+@cache
+def _in_line() -> Content:
+    robot = robot_from_toml(IN_LINE)
+    assert isinstance(robot, Robot)
+    solution = solve(robot.problem(robot.configuration()))
+    content: Content = json.loads(certificate_bytes(robot, "double", solution))
+    return content
+
+
+@pytest.mark.parametrize(
+    ("multiplicities", "status"), [((2, 2), "accepted"), ((1, 2), "rejected"), ((2, 1), "rejected")]
+)
+def test_double_poses_whose_parameters_are_irrational(multiplicities: tuple[int, ...], status: str) -> None:
+    poses = [{**pose, "multiplicity": m} for pose, m in zip(_in_line()["poses"], multiplicities, strict=True)]
+    assert all(pose["parameter"][0] != pose["parameter"][1] for pose in poses)
+    assert both_resealed({**_in_line(), "poses": poses}).status == status
