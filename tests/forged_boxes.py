@@ -103,6 +103,20 @@ def _first_part(unit: int, turned: bool) -> Content:
 
 
 UNIT_CHART = (1, 0, 0, 0)
+LAST_CHART = (0, 0, 0, 1)
+GRIDS = {
+    "narrow enough by a little": (
+        *((OWN, 0, False, (11, 8)), (OWN, 0, False, (12, 11)), (OWN, 0, False, (16, 9))),
+        *((LAST_CHART, 0, False, (10, 9)), (UNIT_CHART, 0, True, (12, 9))),
+    ),
+    "too wide by a little": ((OWN, 0, False, (11, 9)), (OWN, 0, False, (13, 14)), (OWN, 0, False, (12, 12))),
+    "too wide in imaginary parts alone": ((OWN, 0, False, (11, 7)),),
+    "too wide in a real part alone": ((UNIT_CHART, 1, True, (9, 5)), ((1, 0, 0, 2), 1, False, (20, 29))),
+    "too wide in the first coordinate alone": ((LAST_CHART, 0, False, (9, 5)), (LAST_CHART, 0, False, (10, 4))),
+    "too wide in the last coordinate alone": ((OWN, 0, False, (11, 10)),),
+    "too wide in one of the others": ((LAST_CHART, 0, False, (10, 10)), (OWN, 0, False, (12, 7))),
+}
+"""Grids on which the image of a box is, or is not, within the box: chart, solution, whether conjugate, exponents."""
 Case = tuple[Callable[[], Content], str, str]
 BOXES: dict[str, Case] = {
     **{
@@ -152,6 +166,16 @@ BOXES: dict[str, Case] = {
         "boxes: the complex ones",
     ),
     "two solutions on different grids": (lambda: listed(OWN, _one(0, (36, 25)), _one(1, (28, 32))), "accepted", ""),
+    **{
+        f"{words}: {grid} in the chart {chart}": (
+            lambda chart=chart, number=number, turned=turned, grid=grid: listed(  # type: ignore[misc]
+                chart, _one(number, grid, chart, turned)
+            ),
+            *(("accepted", "") if "enough" in words else ("rejected", "boxes: not proved that complex box 1")),
+        )
+        for words, rows in GRIDS.items()
+        for chart, number, turned, grid in rows
+    },
     "a coarse grid of e and a fine one of f": (
         lambda: listed(OWN, _one(0, (28, 70))),
         "rejected",

@@ -1,0 +1,67 @@
+"""Echelon forms that look like others modulo the first primes: none is believed before its size proves it."""
+
+from fractions import Fraction
+
+import pytest
+from flint import fmpq, fmpq_mat, fmpz_mat
+
+from pkm_exact.certify.checker import echelon
+from pkm_exact.certify.checker.echelon import Echelon, echelon_form, primes
+
+FIRST = next(primes())
+
+
+def _chained(value: int) -> list[list[int]]:
+    """Entries of 33 bits, of whose echelon form the first entry is a value of 64, beside zeros."""
+    high, low = divmod(value, 1 << 32)
+    return [[1, -(1 << 32), low, 0], [0, 1, high, 0]]
+
+
+def _unseen() -> list[list[int]]:
+    """The same with columns whose entries, of 64 bits, cancel in the combinations looked at first."""
+    weights = [echelon._weights(14, base) for base in range(4, 16, 2)]
+    rows = [[int(i == j) for j in range(14)] + [row[i] << 40 for row in weights] for i in range(14)]
+    short = fmpz_mat(rows).lll()
+    vectors = [[int(short[k, j]) for j in range(20)] for k in range(2)]
+    assert all(vector[14:] == [0] * 6 for vector in vectors)
+    scale = (1 << 31) // max(map(abs, vectors[0]))
+    high, low = [scale * value for value in vectors[0][:14]], vectors[1][:14]
+    return [[1, -(1 << 32), *low, 0], [0, 1, *high, 0]]
+
+
+def _rational(table: list[list[int]]) -> list[list[Fraction]]:
+    """The same form by rational arithmetic."""
+    reduced, rank = fmpq_mat([[fmpq(value) for value in row] for row in table]).rref()
+    return [[Fraction(int(value.p), int(value.q)) for value in row] for row in reduced.tolist()[:rank]]
+
+
+def _whole(form: Echelon) -> list[list[Fraction]]:
+    """All entries of a form."""
+    rows = []
+    for pivot, numerators in zip(form.pivots, form.numerators, strict=True):
+        row = [Fraction(0)] * (len(form.pivots) + len(form.others))
+        row[pivot] = Fraction(1)
+        for column, value in zip(form.others, numerators, strict=True):
+            row[column] = Fraction(value, form.denominator)
+        rows.append(row)
+    return rows
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        [[1, FIRST + 3]],
+        [[1, FIRST // 2 + 1], [0, FIRST]],
+        _chained(FIRST + 3),
+        _chained(3 * FIRST + 1),
+        _unseen(),
+        [[FIRST, 1], [0, FIRST]],
+        [[FIRST, 1, 0], [1, 0, 1], [FIRST + 1, 1, 1]],
+        [[3 * FIRST, 7]],
+        [[2, 4, 6], [1, 2, 4]],
+        [[5, 0, 1], [0, 0, 0]],
+        [[0, 0, 4]],
+    ],
+)
+def test_forms_that_are_others_modulo_a_prime(table: list[list[int]]) -> None:
+    assert _whole(echelon_form(table)) == _rational(table)
