@@ -66,8 +66,8 @@ class Collector:
         self.alike: Counter[tuple[str, str, str]] = Counter()
         self.test = ""
         self.failures = 0
-        first.check_bytes = self.kept(first.check_bytes)
-        plain.check_bytes = self.kept(plain.check_bytes)
+        for checker in (first, plain):
+            _replace_everywhere(checker.check_bytes, self.kept(checker.check_bytes))
 
     def kept(self, check: Any) -> Any:
         """A checker that keeps what it is given."""
@@ -90,6 +90,13 @@ class Collector:
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """A test ends."""
         self.failures += report.failed
+
+
+def _replace_everywhere(old: Any, new: Any) -> None:
+    """Whatever module has it by name, also those that were imported before."""
+    for module in list(sys.modules.values()):
+        for name in [name for name, value in vars(module).items() if value is old]:
+            setattr(module, name, new)
 
 
 def collect(target: Path, tests: Sequence[str] = ()) -> int:

@@ -312,6 +312,7 @@ def test_forty_points_of_a_self_motion_are_not_all() -> None:
     for pose in content["poses"]:
         pose["multiplicity"] = 1
     _assert_rejected(content, "multiplicity")
+    _assert_rejected(content | claimed, "claim")
 
 
 def _moving(kind: str) -> dict[str, Any]:
