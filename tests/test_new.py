@@ -451,3 +451,20 @@ def test_every_kind_can_be_chosen() -> None:
     option = next(parameter for parameter in new.params if parameter.name == "kind")
     assert set(KINDS) < set(option.type.choices)  # type: ignore[attr-defined]
     assert all(kind.description for kind in KINDS.values())
+
+
+def test_rods_of_a_given_length(tmp_path: Path, capsys: Capture) -> None:
+    """Arm, rod and circles of a servo hexapod; the platform is level at the height that follows."""
+    target = tmp_path / "servo.toml"
+    words = ["new", "--kind", "6-RUS", "--base-circle", "80,30", "--platform-circle", "60,30", "--platform-shift", "60"]
+    assert main([*words, "--crank", "20", "--rod", "130", "-o", str(target)]) == 0
+    robot = read_robot(target)
+    assert {chain.rod_squared for chain in robot.chains} == {Fraction(130) ** 2}
+    assert robot.nominal is not None
+    assert main(["solve", str(target), "--nearest"]) == 0
+    text = capsys.readouterr().out
+    assert "its position is " in text
+    assert main([*words, "--crank", "20", "--rod", "10", "-o", str(tmp_path / "no.toml")]) == 2
+    assert "--rod: 10 is too short for any height" in capsys.readouterr().err
+    assert main([*words, "--crank", "20", "--rod", "130", "--height", "9", "-o", str(tmp_path / "no.toml")]) == 2
+    assert "exclude each other" in capsys.readouterr().err

@@ -274,3 +274,25 @@ def test_any_value_in_any_place_is_read_or_refused(values: list[str], place: str
         assert isinstance(robot_from_toml(text), Robot)
     except InputError as error:
         assert str(error).isprintable()
+
+
+@pytest.mark.parametrize("name", ["3-rpr-merlet-p", "mourrain-l"])
+def test_positions_are_those_of_the_tool_point(name: str) -> None:
+    """Platform joints are relative to it; lengths, which do not depend on where a pose is read, stay."""
+    path = Path(__file__).parent.parent / "models" / f"{name}.toml"
+    robot = read_robot(path)
+    size = 2 if robot.motion.is_planar else 3
+    tool = (Fraction(1, 2), Fraction(-3), Fraction(2))[:size]
+    words = ", ".join(f'"{x}"' for x in tool)
+    text = path.read_text(encoding="utf-8").replace("[platform]\n", f"[platform]\ntool = [{words}]\n")
+    moved = robot_from_toml(text)
+    shifted = tuple(tuple(b - t for b, t in zip(joint, tool, strict=False)) for joint in robot.platform_joints)
+    assert tuple(joint[:size] for joint in moved.platform_joints) == shifted
+    assert moved.base_joints == robot.base_joints
+    assert [c.lengths_squared for c in moved.configurations if c.name != "pose"] == [
+        c.lengths_squared for c in robot.configurations if c.name != "pose"
+    ]
+    with pytest.raises(InputError, match=r"platform\.tool"):
+        robot_from_toml(text.replace(f"tool = [{words}]", "tool = [1]"))
+    with pytest.raises(InputError, match="tool"):
+        robot_from_toml(text.replace(f"tool = [{words}]", "").replace("[base]\n", f"[base]\ntool = [{words}]\n"))

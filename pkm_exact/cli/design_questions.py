@@ -26,7 +26,7 @@ ALIASES: Final = {"6-6": "6-UPS"}
 
 def asked_design(given: dict[str, Any], *, interview: bool) -> Design:
     """The design that the options give, the rest asked for."""
-    from pkm_exact.templates.design import Design, has_cranks
+    from pkm_exact.templates.design import Design, has_cranks, with_rods
     from pkm_exact.templates.layout import default_decimals
 
     kind = given["kind"]
@@ -41,7 +41,7 @@ def asked_design(given: dict[str, Any], *, interview: bool) -> Design:
         click.echo(_EXPLANATION[planar], err=True)
     pairs = circles(given, kind)
     sides = [_sides(given, kind, part, default) for part, default in zip(PARTS, _SIDES[planar], strict=True)]
-    height = _length(given["height"], "--height", _HEIGHT[planar], "300" if planar else "500")
+    height = _height(given, planar=planar)
     crank = None
     if has_cranks(kind):
         crank = _length(given["crank"], "--crank", "Length of the cranks", "150")
@@ -54,7 +54,17 @@ def asked_design(given: dict[str, Any], *, interview: bool) -> Design:
         digits = ask("Decimals to round the joints to, or exact", str(DEFAULT_DECIMALS), _digits)
     elif digits is None:
         digits = DEFAULT_DECIMALS if pairs else default_decimals((sides[0], sides[1]))
-    return Design(kind, sides[0], sides[1], height, crank, digits, pairs)
+    design = Design(kind, sides[0], sides[1], height, crank, digits, pairs)
+    return design if given["rod"] is None else with_rods(design, _length(given["rod"], "--rod", "", ""))
+
+
+def _height(given: dict[str, Any], *, planar: bool) -> Fraction:
+    """The height that is given or asked for; 1 if it follows from that of the rods."""
+    if given["rod"] is None:
+        return _length(given["height"], "--height", _HEIGHT[planar], "300" if planar else "500")
+    if given["height"] is not None:
+        raise click.UsageError("--height and --rod exclude each other: one follows from the other.")
+    return Fraction(1)
 
 
 def _digits(text: str) -> int | None:

@@ -9,7 +9,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
+    from pkm_exact.geometry.machine import Machine
     from pkm_exact.poses.pose import Pose
+    from pkm_exact.solution import Solution
 
 _GROUPS: Final = {1: "positive", -1: "negative", 0: "singular", None: "undecided"}
 _WORDS: Final = {
@@ -32,6 +34,30 @@ def assembly_modes(poses: Sequence[Pose]) -> dict[str, list[int]]:
     for place, pose in enumerate(poses):
         found[_GROUPS[None if pose.jacobian is None else pose.jacobian.det_sign]].append(place)
     return found
+
+
+def joined_modes(robot: Machine, solution: Solution, *, verbose: bool) -> str:
+    """Which poses are proved to be joined by motions without a singular pose, in words."""
+    from pkm_exact.interactive.progress import Progress
+    from pkm_exact.regions.joined_modes import joined_poses
+
+    with Progress(verbose=verbose) as progress:
+        groups = joined_poses(robot, solution, progress)
+    signs = [solution.poses[group[0] - 1].det_sign for group in groups]
+    return joined_in_words(groups, are_all=len(set(signs)) == len(signs))
+
+
+def joined_in_words(groups: Sequence[Sequence[int]], *, are_all: bool) -> str:
+    """Groups of poses that are joined, by their numbers.
+
+    Examples
+    --------
+    >>> joined_in_words([(1, 4), (2,), (3,)], are_all=False)
+    'joined by motions without a singular pose: {1, 4}; of other pairs with the same sign of det J it is not known'
+    """
+    known = ["{" + ", ".join(map(str, group)) + "}" for group in groups if len(group) > 1]
+    rest = "" if are_all else "; of other pairs with the same sign of det J it is not known"
+    return f"joined by motions without a singular pose: {', '.join(known) or 'none found'}{rest}"
 
 
 def summary(modes: dict[str, list[int]], numbers: Sequence[int]) -> str:

@@ -71,6 +71,7 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
 )
 @click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
 @click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
+@click.option("--rod", metavar="L", help="Instead of --height: length of all rods, for 6-RUS and 6-PUS.")
 @click.option(
     "--digits",
     type=click.IntRange(0, MOST_DECIMALS),
@@ -194,7 +195,7 @@ def _missing(given: dict[str, Any], output: str | None) -> list[str]:
     """The options without which nothing can be drawn: nobody is to guess them."""
     names = [] if given["kind"] else ["--kind"]
     names += [f"--{part}-sides" for part in PARTS if given[f"{part}_sides"] is None is given[f"{part}_circle"]]
-    names += [] if given["height"] else ["--height"]
+    names += [] if given["height"] or given["rod"] else ["--height"]
     if given["kind"] in _CRANKED and given["crank"] is None:
         names.append("--crank")
     return names if output is not None else [*names, "-o"]

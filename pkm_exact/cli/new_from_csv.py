@@ -29,6 +29,7 @@ _NOT_WITH_CSV = (
     "platform_shift",
     "base_azimuth",
     "crank",
+    "rod",
 )
 
 

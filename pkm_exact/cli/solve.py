@@ -83,6 +83,11 @@ if TYPE_CHECKING:
     show_default=True,
     help="Order of the list; every pose keeps its number.",
 )
+@click.option(
+    "--joined",
+    is_flag=True,
+    help="Say which poses are proved to be joined by motions of the platform without a singular pose.",
+)
 @click.option("-v", "--verbose", is_flag=True, help="Say more: method, box widths, stages on a terminal.")
 def solve(
     model: str,
@@ -101,6 +106,7 @@ def solve(
     feasible: bool,
     nearest: bool,
     sort: str,
+    joined: bool,
     verbose: bool,
 ) -> int:
     """Find all real poses of the robot in the file MODEL for one configuration, or for given leg lengths.
@@ -183,6 +189,10 @@ def solve(
     from pkm_exact.cli.report import report
 
     report(robot, name, solution, layout, verbose=verbose, shown=shown)
+    if joined:
+        from pkm_exact.cli.modes import joined_modes
+
+        click.echo(joined_modes(robot, solution, verbose=verbose), err=layout != "table")
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM
 
 

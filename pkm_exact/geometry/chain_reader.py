@@ -25,8 +25,22 @@ _RODS: Final = ("length", "lengths", "lengths_squared")
 
 
 def read_joints(table: dict[str, Any], key: str, kind: Kind, metric: Metric) -> Joints:
-    """The joints of ``[base]`` or ``[platform]``, as coordinates or, for six, as a semi-regular hexagon."""
+    """The joints of ``[base]`` or ``[platform]``, as coordinates or, for six, as a semi-regular hexagon.
+
+    If the platform has a tool point, from there: it is then the point whose position a pose is given by.
+    """
     value = table_field(table, key, "joints = [...]")
+    has_tool = key == "platform" and "tool" in value
+    joints = _joints(
+        {name: entry for name, entry in value.items() if name != "tool" or not has_tool}, key, kind, metric
+    )
+    if not has_tool:
+        return joints
+    x, y, z = parse_vector(value["tool"], "platform.tool", kind.dimension)
+    return tuple((a - x, b - y, c - z) for a, b, c in joints)
+
+
+def _joints(value: dict[str, Any], key: str, kind: Kind, metric: Metric) -> Joints:
     known_keys(value, ("joints",) if kind.motion.is_planar else ("joints", "hexagon"), key)
     if "hexagon" not in value:
         rows = list_field(required(value, "joints", f"{key}."), f"{key}.joints", kind.legs)

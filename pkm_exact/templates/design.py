@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import isqrt
 from typing import TYPE_CHECKING, Final
@@ -14,7 +14,7 @@ from pkm_exact.geometry.inverse import UNIT_METRIC, Matrix, Metric, distance_squ
 from pkm_exact.geometry.kinds import KINDS, Joints, Kind, knees
 from pkm_exact.geometry.planar_rotation import quarter_turn, turn_of, weight
 from pkm_exact.templates import MOST_DECIMALS
-from pkm_exact.templates.layout import joints_and_metric
+from pkm_exact.templates.layout import joints_and_metric, rounded_root
 from pkm_exact.templates.rings import Ring, facing, motor_directions, ring_joints
 from pkm_exact.wording import shown
 
@@ -46,6 +46,8 @@ class Design:
         None for exact joints; else the number of decimals to which they are rounded.
     circles : tuple of 2 Ring, or None
         Instead of sides: where the pairs of joints of base and platform are.
+    rod : Fraction or None
+        Length of all rods, if it is given; the height is then one at which they nearly fit.
     """
 
     kind: str
@@ -55,6 +57,7 @@ class Design:
     crank: Fraction | None = None
     digits: int | None = None
     circles: tuple[Ring, Ring] | None = None
+    rod: Fraction | None = None
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
@@ -151,7 +154,37 @@ def drawn(design: Design) -> Draft:
     at_home: JointValue = (Fraction(1), zero) if has_cranks(design.kind) else zero
     feet = knees(base, chains, (at_home,) * len(chains)) if chains else base
     squares = _squares(feet, platform, position, rotation, metric)
+    if design.rod is not None:
+        squares = (design.rod**2,) * len(squares)
     return Draft(design, base, platform, metric, position, half_tangent, chains, squares)
+
+
+def with_rods(design: Design, rod: Fraction) -> Design:
+    """The design with rods of this length, and at a height where they nearly fit with the actuators at home.
+
+    Raises
+    ------
+    InputError
+        If the kind has no rods, or is planar, or the rods are too short for any height.
+
+    Examples
+    --------
+    >>> sides = (Fraction(4), Fraction(2)), (Fraction(1), Fraction(3))
+    >>> float(with_rods(Design("6-RUS", *sides, Fraction(1), crank=Fraction(1)), Fraction(8)).height)
+    7.504443
+    """
+    kind = KINDS[design.kind]
+    if kind.chain is None or kind.motion.is_planar:
+        raise InputError(
+            f"--rod: is for cranks or slides of a platform in space, not for a {design.kind}; leave it out"
+        )
+    across = [square - design.height**2 for square in drawn(design).lengths_squared]
+    square = rod**2 - sum(across, Fraction(0)) / len(across)
+    if rod <= 0 or square <= 0:
+        raise InputError(
+            f"--rod: {shown(rod)} is too short for any height; give more than {float(max(across)) ** 0.5:.6g}"
+        )
+    return replace(design, height=rounded_root(square, MOST_DECIMALS // 2), rod=rod)
 
 
 def _joints(design: Design) -> tuple[list[Joints], Metric]:

@@ -135,13 +135,15 @@ def _vectors(key: str, draft: Draft, vectors: list[tuple[Fraction, ...]]) -> Ite
 
 
 def _home(draft: Draft) -> Iterator[str]:
-    height = _plain(draft.design.height)
+    height, nearly = _plain(draft.design.height), "about " if draft.design.rod is not None else ""
     kind = KINDS[draft.design.kind]
     yield "# Locked actuators, under a name; as many of these tables as you like. The first is what `solve` takes."
     yield "[[configurations]]"
     yield 'name = "home"'
     if draft.chains:
-        where = f"at ({_numbers(draft.position[:2])})" if kind.motion.is_planar else f"level at the height {height}"
+        where = (
+            f"at ({_numbers(draft.position[:2])})" if kind.motion.is_planar else f"level at {nearly}the height {height}"
+        )
         what = "Tangents of half the angles (0 is 0 degrees, 1 is 90)" if _cranks(draft) else "Positions of the slides"
         yield f"# {what}; the platform can then be {where}."
         yield f"{'half_tangents' if _cranks(draft) else 'slides'} = [{', '.join(['0'] * kind.legs)}]"
@@ -191,7 +193,7 @@ def _options(draft: Draft) -> str:
     for option, sides in (("--base-sides", design.base), ("--platform-sides", design.platform)):
         words += [f"{option} {','.join(map(_plain, sides))}"] if sides else []
     words += _circles(design)
-    words.append(f"--height {_plain(design.height)}")
+    words.append(f"--height {_plain(design.height)}" if design.rod is None else f"--rod {_plain(design.rod)}")
     if design.crank is not None:
         words.append(f"--crank {_plain(design.crank)}")
     if design.digits is not None:
