@@ -7,21 +7,23 @@ none closes, or some solutions are too close to each other, the exact engine ans
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from typing import Final
 
 from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.completeness.completeness_proof import CompletenessProof, goes_shortly
 from pkm_exact.completeness.conditions import Conditions
-from pkm_exact.completeness.short_proof import short_proof
+from pkm_exact.completeness.short_proof import can_close, short_proof
 from pkm_exact.engine import solve
 from pkm_exact.failures.contradiction import attached, require
 from pkm_exact.final_checks import consistent
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.chart_equations import ChartSystem
-from pkm_exact.numeric.poses import approximations, certified_solutions, is_tracked, real_poses
+from pkm_exact.numeric.poses import Approximations, approximations, certified_solutions, is_tracked, real_poses
+from pkm_exact.numeric.seeds import has_seeds, seeds
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width
@@ -31,6 +33,9 @@ from pkm_exact.stages import Stages
 
 ATTEMPTS: Final = 2
 """Times that all paths are tracked, each time along other paths, before the exact engine takes over."""
+PATHS: Final = "path tracking"
+TEMPLATE: Final = "elimination template"
+"""Stages in which floating point finds solutions."""
 FORMULATION: Final = "AFD6"
 """The equations are those of the constraints and Study's condition in Study coordinates."""
 FALLBACK_NOTE: Final = "the numeric engine did not"
@@ -59,23 +64,39 @@ def _by_numbers(
     problem: ForwardProblem, width: Fraction, policy: Policy, stages: Stages, start: StartSection | None
 ) -> Solution | None:
     """The answer of the numeric engine, or None if it cannot certify all solutions."""
-    degree = problem.solution_bound
-    starts = [(None, policy.seed * attempt) for attempt in range(ATTEMPTS)]
-    for section, seed in starts if start is None else [(start, 0), *starts]:
-        stages.enter("path tracking")
+    degree, most = problem.solution_bound, -1
+    for stage, find in _searches(problem, policy, stages, start):
+        stages.enter(stage)
         try:
-            found = approximations(problem, section, seed, stages.amount)
+            found = find()
         except OverflowError:
             break
         stages.enter("Krawczyk operator")
         system, isolated = certified_solutions(problem, found, stages.amount)
         count = isolated.count
         require(count <= degree, "more solutions than the variety of motions allows", certified=count, degree=degree)
+        if count <= most:
+            break  # another way finds no more: so it will be
+        most = count
         proof = _proof(problem, count, policy, stages)
         if proof is not None:
             return _solution(system, isolated, proof, width, stages)
+        if not can_close(Conditions.of(problem), policy):
+            break
     stages.leave()
     return None
+
+
+def _searches(
+    problem: ForwardProblem, policy: Policy, stages: Stages, start: StartSection | None
+) -> Iterator[tuple[str, Callable[[], Approximations]]]:
+    """Ways to find all solutions, each with the name of its stage. What is certified does not depend on the way."""
+    if start is not None:
+        yield PATHS, partial(approximations, problem, start, 0, stages.amount)
+    if has_seeds(problem):
+        yield TEMPLATE, partial(seeds, problem)
+    for attempt in range(ATTEMPTS):
+        yield PATHS, partial(approximations, problem, None, policy.seed * attempt, stages.amount)
 
 
 def _proof(problem: ForwardProblem, count: int, policy: Policy, stages: Stages) -> CompletenessProof | None:

@@ -7,6 +7,7 @@ together, the section being finite (``finite_section``, ``infinity``).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
@@ -68,11 +69,9 @@ def short_proof(
         return ShortProof(CompletenessRoute.MODULAR_RANK)
     if conditions.motion != SPATIAL or not _is_square(conditions):
         return None
-    # "No" may be the fault of primes or of too few relations: it is asked twice. Curves at infinity, or too few points,
-    # are seen soonest in a bound for their number.
-    bounds = (most_at_infinity(conditions, next(primes), is_quick=is_quick) for is_quick in (False, True))
-    if not any(most is not None and total + 2 * most >= bound.degree for most in bounds):
+    if not _has_room(conditions, bound.degree - total, primes):
         return None
+    # "No" may be the fault of primes or of too few relations: it is asked twice.
     bits = min(policy.lifting_bits, LIFTING_BITS)
     tried = (points_at_infinity(conditions, primes, bits, is_quick=is_quick) for is_quick in (True, False))
     found = next(filter(None, tried), None)
@@ -83,6 +82,28 @@ def short_proof(
     counts = {"listed": total, "infinity": found.multiplicity}
     require(total + found.multiplicity <= bound.degree, "more solutions than the degree of the motions", **counts)
     return ShortProof(CompletenessRoute.COUNTING_AT_INFINITY, found)
+
+
+def can_close(conditions: Conditions, policy: Policy) -> bool:
+    """Whether the degree of the motions, or another bound, can be filled at all: not where curves are at infinity.
+
+    "No" says only that nothing is known that would do.
+    """
+    bound = pose_bound(conditions)
+    if bound.least < bound.degree or conditions.motion != SPATIAL or not _is_square(conditions):
+        return True
+    primes = primes_from(policy.seed_for(conditions.digest, "room"), policy.prime_bits)
+    return _has_room(conditions, 0, primes)
+
+
+def _has_room(conditions: Conditions, wanted: int, primes: Iterator[int]) -> bool:
+    """Whether points at infinity may make up a number: no curves, nor too few points, are there.
+
+    Both are seen soonest in a bound for the number of points. "No" may be the fault of primes or of too few relations:
+    it is asked twice.
+    """
+    bounds = (most_at_infinity(conditions, next(primes), is_quick=is_quick) for is_quick in (False, True))
+    return any(most is not None and 2 * most >= wanted for most in bounds)
 
 
 def _is_square(conditions: Conditions) -> bool:

@@ -31,6 +31,8 @@ SETTLED_BITS = 30
 """The last step is this many bits smaller than a unit of the grid: which grid point is nearest is then certain."""
 SETTLING_STEPS = 6
 """Steps near the limit after which a last one that is still too large shows that more bits are needed."""
+NEARLY_BITS = 26
+"""Numbers that are smaller than a power of 2 by less than this part of it count as large as it is."""
 SURELY_CONVERGING = arb(2) ** -20
 """Relative steps as small as this are not damped any more."""
 GREATEST_DAMPING = 1 << 10
@@ -215,8 +217,13 @@ def _dyadic(value: acb) -> Dyadic:
 
 def _exponent(parts: Sequence[tuple[int, int]]) -> int:
     """The binary exponent of a number's size, roughly; that of 0 is very small."""
-    sizes = [exponent + mantissa.bit_length() for mantissa, exponent in parts if mantissa]
+    sizes = [exponent + _lifted(abs(mantissa)).bit_length() for mantissa, exponent in parts if mantissa]
     return max([-GRIDS[-1], *sizes])
+
+
+def _lifted(mantissa: int) -> int:
+    """A little more: what is a power of 2 counts as one, from whichever side it is approximated."""
+    return mantissa + (mantissa >> NEARLY_BITS)
 
 
 def _rounded(mantissa: int, power: int, exponent: int) -> int:

@@ -165,7 +165,7 @@ def section_quadrics(legs: Complex, motion: Motion) -> Complex:
     if chosen[..., 0].all():
         legs = legs - legs[..., :1] / chosen[..., :1] * chosen
         legs[..., pivot, :] = chosen[..., 0, :]
-    forms = _motion_forms()
+    forms = motion_forms()
     quadrics: Complex = np.tensordot(legs, forms[:QUANTITIES], axes=1)
     if motion.has_study_condition:
         study = np.broadcast_to(forms[QUANTITIES], (*legs.shape[:-2], 1, 8, 8))
@@ -177,12 +177,12 @@ def section_quadrics(legs: Complex, motion: Motion) -> Complex:
 
 def motion_values(point: Complex) -> Complex:
     """The 17 quantities at a point (e, f)."""
-    values: Complex = np.einsum("kij,i,j->k", _motion_forms()[:QUANTITIES], point, point)
+    values: Complex = np.einsum("kij,i,j->k", motion_forms()[:QUANTITIES], point, point)
     return values
 
 
 @cache
-def _motion_forms() -> Real:
+def motion_forms() -> Real:
     """(18, 8, 8): the symmetric matrices of the 17 quantities, then Study's condition."""
     return np.array([_symmetric(quadric) for quadric in (*motion_quadrics((1, 1, 1)), STUDY_CONDITION)])
 

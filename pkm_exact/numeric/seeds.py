@@ -1,0 +1,75 @@
+"""Approximate solutions of a robot without paths: of six linear forms on all rigid motions, by an elimination template.
+
+In a few milliseconds, where paths take ten times as long. Solutions that are lost, as some that lie close to each other
+may be, are left to paths.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.motions.motion_groups import SPATIAL
+from pkm_exact.numeric.poses import GREATEST_CHANGE, Approximations, is_tracked
+from pkm_exact.numeric.study_system import QUANTITIES, Complex, Real, motion_forms, numeric_section
+from pkm_exact.numeric.template import motion_seeds
+from pkm_exact.numeric.tracker import polished
+
+SMALL = 1e-14
+"""Relative singular values below which directions of f are taken for undetermined."""
+
+
+def has_seeds(problem: ForwardProblem) -> bool:
+    """Whether the template is one for the problem: six linear forms on all rigid motions, and nothing else."""
+    return problem.motion == SPATIAL and is_tracked(problem)
+
+
+def seeds(problem: ForwardProblem) -> Approximations:
+    """The solutions that Newton's method finds from the template's guesses; none where the template breaks down.
+
+    Raises
+    ------
+    OverflowError
+        If a number of the robot is too large for floating point.
+    """
+    section = numeric_section(problem)
+    with np.errstate(all="ignore"):
+        try:
+            points = study_points(motion_seeds(section.legs.real))
+        except np.linalg.LinAlgError:
+            points = np.zeros((0, 8), dtype=complex)
+        points, change = polished(points[np.isfinite(points).all(axis=1)], section.quadrics)
+    return Approximations(section, points[change < GREATEST_CHANGE])
+
+
+def study_points(values: Complex) -> Complex:
+    """Study coordinates (.., 8) from the 17 quantities (.., 17) of ``study_system``, as well as they fit.
+
+    e follows from R and 1, which are linear in its products; f from u and C, linear in f, and Study's condition.
+    """
+    inverse, mixed = _inverse_forms()
+    squares = np.tensordot(values[:, 7:], inverse, axes=([1], [2]))
+    count = np.arange(len(values))
+    largest = np.argmax(np.abs(np.einsum("pii->pi", squares)), axis=1)
+    e = squares[count, largest] / np.sqrt(squares[count, largest, largest])[:, None]
+    size = np.linalg.norm(e, axis=1)[:, None]
+    matrices = np.einsum("pi,kij->pkj", e / size, mixed)
+    right = np.concatenate([values[:, 1:7], np.zeros((len(values), 1))], axis=1)
+    f = (np.linalg.pinv(matrices, rcond=SMALL) @ right[:, :, None])[:, :, 0] / size
+    return np.concatenate([e, f], axis=1)
+
+
+@cache
+def _inverse_forms() -> tuple[Real, Real]:
+    """(4, 4, 10): products e_i e_j in R and 1. (7, 4, 4): u, C and Study's condition, bilinear in e and f."""
+    forms = motion_forms()
+    i, j = np.triu_indices(4)
+    products = forms[7:QUANTITIES, :4, :4][:, i, j] * np.where(i == j, 1, 2)
+    place = np.empty((4, 4), dtype=np.intp)
+    place[i, j] = place[j, i] = np.arange(10)
+    mixed = np.empty((7, 4, 4))
+    mixed[:6], mixed[6] = 2 * forms[1:7, :4, 4:], np.sqrt(8) * np.eye(4)
+    inverse = np.linalg.inv(products)[place].astype(np.float64)
+    return inverse, mixed
