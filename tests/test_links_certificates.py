@@ -16,7 +16,8 @@ from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.certify.links_build import links_certificate_bytes
 from pkm_exact.cli.main import main
-from pkm_exact.geometry.reader import read_links
+from pkm_exact.geometry.links import Links
+from pkm_exact.geometry.reader import any_from_toml, read_links
 from pkm_exact.links.link_engine import solve_links
 from pkm_exact.links.start_box import solve_from_start
 
@@ -70,6 +71,41 @@ def test_a_spatial_box_is_accepted_by_both() -> None:
     assert last_line(verdict) == "not proven complete: one pose is proved, others are not excluded"
 
 
+HEAD = 'schema = 1\nname = "x"\nkind = "links"\nunit = "m"\nsource = "a test"\n'
+TABLES = {
+    "a point in the plane": (
+        'motion = "planar"\n[[bodies]]\nname = "point"\nmotion = "translation"\n[[constraints]]\nname = "pin"\n'
+        'type = "at-point"\nbodies = ["base", "point"]\npoint = ["1/3", 2]\nplatform = [0, 1]\n'
+    ),
+    "a turning body": '[[bodies]]\nname = "ball"\nmotion = "spherical"\n'
+    + "".join(
+        f'[[constraints]]\nname = "{i}{j}"\ntype = "angle"\nbodies = ["base", "ball"]\nproduct = 0\n'
+        f"base = {[int(k == i) for k in range(3)]}\nplatform = {[int(k == j) for k in range(3)]}\n"
+        for i, j in ((0, 1), (1, 2), (0, 2))
+    ),
+}
+
+
+def _small(name: str) -> Content:
+    """The certificate of one pose of a mechanism with one body."""
+    links = any_from_toml(HEAD + TABLES[name])
+    assert isinstance(links, Links)
+    found: Content = json.loads(links_certificate_bytes(solve_from_start(links)))
+    return found
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_certificates_of_one_body_are_accepted_by_both(name: str) -> None:
+    assert both_resealed(_small(name))
+
+
+def _turned_over() -> Content:
+    """R = diag(1, 1, -1) fulfils all equations, as R = 1 does."""
+    content = _small("a turning body")
+    centre = content["box"]["centre"]
+    return with_entry(content, ("box", "centre", 8), hex(-int(centre[8], 16)))
+
+
 # Forgeries: each is consistent in all else
 
 
@@ -88,14 +124,19 @@ def _exchanged(content: Content) -> Content:
     return _with(content, "system", "polynomials", value=polynomials)
 
 
-def _renamed(content: Content) -> Content:
+def _twice(content: Content) -> Content:
+    joined = content["mechanism"]["joined"]
+    return _with(content, "mechanism", "joined", value=[*joined, joined[0]])
+
+
+def _renamed(content: Content, v: str = "v") -> Content:
     """All variables of the system called by other names."""
     text = json.dumps(content["system"])
     for name in content["system"]["variables"]:
-        text = text.replace(f'"{name}"', f'"v{name}"')
+        text = text.replace(f'"{name}"', f'"{v}{name}"')
         for sign in ("-", "*", '"'):
-            text = text.replace(f"{sign}{name}*", f"{sign}v{name}*").replace(f"{sign}{name}^", f"{sign}v{name}^")
-            text = text.replace(f'{sign}{name}"', f'{sign}v{name}"')
+            text = text.replace(f"{sign}{name}*", f"{sign}{v}{name}*").replace(f"{sign}{name}^", f"{sign}{v}{name}^")
+            text = text.replace(f'{sign}{name}"', f'{sign}{v}{name}"')
     return {**content, "system": json.loads(text)}
 
 
@@ -116,10 +157,10 @@ def _translated(content: Content) -> Content:
     return _with(content, "mechanism", "bodies", 1, "motion", value="translation")
 
 
-def _shifted(units: int) -> Callable[[Content], Content]:
+def _shifted(units: int, place: int = 2) -> Callable[[Content], Content]:
     def change(content: Content) -> Content:
         centre = content["box"]["centre"]
-        return _with(content, "box", "centre", 2, value=hex(int(centre[2], 16) + units))
+        return _with(content, "box", "centre", place, value=hex(int(centre[place], 16) + units))
 
     return change
 
@@ -144,6 +185,20 @@ FORGERIES: dict[str, tuple[Callable[[], Content], str]] = {
     "other bodies": (lambda: _other_bodies(_exact()), "system: its polynomials are not those of the mechanism"),
     "polynomials exchanged": (lambda: _exchanged(_exact()), "system: its polynomials are not those of the mechanism"),
     "variables renamed": (lambda: _renamed(_exact()), "system: its variables are not the unknowns of the bodies"),
+    "variables renamed otherwise": (
+        lambda: _renamed(_exact(), "a"),
+        "system: its variables are not the unknowns of the bodies",
+    ),
+    "a box with a pin twice": (lambda: _twice(_box()), "box: 10 polynomials in 8 unknowns, not as many"),
+    "a box beside in the first unknown": (
+        lambda: _shifted(1 << 16, 0)(_box()),
+        "box: that it holds exactly one pose is not proved",
+    ),
+    "a box beside in the last unknown": (
+        lambda: _shifted(1 << 16, 7)(_box()),
+        "box: that it holds exactly one pose is not proved",
+    ),
+    "the only body mirrored": (_turned_over, "box: that body 1 is turned and not mirrored is not proved"),
     "another motion": (lambda: _translated(_exact()), "system: its variables are not the unknowns of the bodies"),
     "forms of another pin": (
         lambda: _with(_exact(), "mechanism", "joined", 0, "constraint", "forms", 0, 16, value="-2"),
@@ -187,6 +242,13 @@ MALFORMED: dict[str, tuple[Path_, Any]] = {
     "a body twice": (("mechanism", "joined", 0, "bodies"), [1, 1]),
     "a body that there is not": (("mechanism", "joined", 0, "bodies"), [0, 3]),
     "neither true nor false": (("mechanism", "planar"), 1),
+    "the first that there is not": (("mechanism", "joined", 0, "bodies"), [3, 1]),
+    "bodies that are no list": (("mechanism", "bodies"), {}),
+    "a system that is none": (("system",), []),
+    "a version that is no number": (("system", "version"), True),
+    "a name that is none": (("mechanism", "name"), 1),
+    "a source that is none": (("mechanism", "source"), 1),
+    "a name of a body that is none": (("mechanism", "bodies", 0, "name"), 1),
     "a note that is none": (("notes",), [1]),
     "a configuration that is none": (("configuration",), None),
 }
@@ -196,6 +258,11 @@ MALFORMED: dict[str, tuple[Path_, Any]] = {
 def test_what_is_no_certificate_is_malformed(name: str) -> None:
     path, value = MALFORMED[name]
     assert both_resealed(with_entry(_exact(), path, value)).status == "malformed"
+
+
+def test_the_method_has_its_own_part_only() -> None:
+    both_parts = {**_exact(), "method": "krawczyk", "box": _box()["box"]}
+    assert both_resealed(both_parts).status == "malformed"
 
 
 @pytest.mark.parametrize(

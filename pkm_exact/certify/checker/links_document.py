@@ -79,8 +79,6 @@ def read_links(body: dict[str, Any]) -> LinksDocument:
     items(values["notes"], "notes", None, text)
     bodies, joined = _mechanism(values["mechanism"])
     names = [name for unknowns in bodies for name in unknowns.names]
-    if not names:
-        raise malformed("mechanism: no unknown")
     if len(names) > MAX_VARIABLES:
         raise too_large(f"mechanism: more than {MAX_VARIABLES} unknowns")
     is_exact = choice(values["method"], "method", METHODS) == "exact"
@@ -98,10 +96,9 @@ def read_links(body: dict[str, Any]) -> LinksDocument:
 
 def _variables(system: Any) -> list[str]:
     """The variables of a system, whose format is looked at here."""
-    if not isinstance(system, dict) or (system.get("format"), system.get("version")) != SYSTEM:
+    is_one = isinstance(system, dict) and (system.get("format"), system.get("version")) == SYSTEM
+    if not is_one or type(system["version"]) is not int:
         raise malformed(f"system: not a {SYSTEM[0]}, version {SYSTEM[1]}")
-    if type(system["version"]) is not int:
-        raise malformed("system.version: not an integer")
     return list(items(system.get("variables"), "system.variables", None, text))
 
 
