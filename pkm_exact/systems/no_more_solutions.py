@@ -81,23 +81,20 @@ def prove_complete(
 
 
 def prove_by_bounds(found: ListedSolutions, system: PolynomialSystem, policy: Policy) -> ListProof | None:
-    """A proof by degrees, or by ranks where nothing is at infinity."""
+    """A proof by degrees, as a whole or in groups of variables, or by ranks where nothing is at infinity."""
     degree = found.representation.degree
     if found.is_regular and degree == product_of_degrees(total_degrees(system), len(system.unknowns)):
         return ListProof(SystemRoute.REFINED_BEZOUT, degree)
     if room_for(system, found.weight, policy) == found.weight:
         return ListProof(SystemRoute.MODULAR_RANK, found.weight, found.weights)
-    return None
+    groups = groups_with(system, degree) if found.is_regular else None
+    return ListProof(SystemRoute.MULTIHOMOGENEOUS_BEZOUT, degree, groups=groups) if groups is not None else None
 
 
 def prove_by_search(
     found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None = None
 ) -> ListProof | None:
     """A proof for which something must be found first; errors as ``prove_complete``."""
-    degree = found.representation.degree
-    groups = groups_with(system, degree) if found.is_regular else None
-    if groups is not None:
-        return ListProof(SystemRoute.MULTIHOMOGENEOUS_BEZOUT, degree, groups=groups)
     points = filling_points(system, found.weight, policy)
     if points is not None:
         return ListProof(SystemRoute.COUNTING_AT_INFINITY, found.weight, found.weights, infinity=points)
