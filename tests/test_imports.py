@@ -83,6 +83,12 @@ def test_every_public_name_is_there(name: str) -> None:
     assert name in dir(pkm_exact)
 
 
+@pytest.mark.parametrize("name", pkm_exact.__all__)
+def test_every_public_name_has_an_example(name: str) -> None:
+    value = getattr(pkm_exact, name)
+    assert not callable(value) or ">>>" in (value.__doc__ or "")
+
+
 def test_an_unknown_name_is_an_attribute_error() -> None:
     with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
         pkm_exact.nonsense  # noqa: B018

@@ -51,6 +51,11 @@ class Certificate:
         ------
         InputError
             If the file cannot be read, or is larger than any certificate.
+
+        Examples
+        --------
+        >>> str(Certificate.load("certs/3-rrr.json").check().status)
+        'accepted'
         """
         from pkm_exact.certify.checker.verdict import MAX_BYTES
 
@@ -78,7 +83,13 @@ class Certificate:
         return content
 
     def check(self) -> Verdict:
-        """The verdict of the checker, which shares nothing with the solver; it never raises on account of the data."""
+        """The verdict of the checker, which shares nothing with the solver; it never raises on account of the data.
+
+        Examples
+        --------
+        >>> Certificate.load("certs/3-rpr-merlet-p.json").check().lines[-1]
+        'complete: polynomials over Q that vanish at all poses leave room for 6, there is no other'
+        """
         from pkm_exact.certify.check import check_bytes
         from pkm_exact.precision import working_precision
 

@@ -100,7 +100,15 @@ class ForwardProblem:
 
     @cached_property
     def forms(self) -> tuple[Form, ...]:
-        """The linear forms on rigid motions that vanish at the poses, in the order of the constraints."""
+        """The linear forms on rigid motions that vanish at the poses, in the order of the constraints.
+
+        Examples
+        --------
+        >>> from pkm_exact import read_robot
+        >>> robot = read_robot("models/3-rrr.toml")
+        >>> len(robot.problem(robot.configuration()).forms)
+        3
+        """
         return tuple(form for found in self.constraints for form in found.forms(self.metric))
 
     @cached_property

@@ -51,7 +51,13 @@ class Tolerances:
 
     @staticmethod
     def uniform(value: Fraction | int | str) -> Tolerances:
-        """The same tolerance for every datum."""
+        """The same tolerance for every datum.
+
+        Examples
+        --------
+        >>> str(Tolerances.uniform("1/1000").lengths)
+        '1/1000'
+        """
         number = parse_rational(value, "tolerance")
         return Tolerances(number, number, number)
 

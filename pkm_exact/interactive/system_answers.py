@@ -39,7 +39,13 @@ class SystemSolution(system_solutions.SystemSolution):
         return Certificate(system_certificate_bytes(self, title))
 
     def check(self) -> Verdict:
-        """The verdict of the checker on the certificate."""
+        """The verdict of the checker on the certificate.
+
+        Examples
+        --------
+        >>> str(solve_system(["x^2 = 2"]).check().status)
+        'accepted'
+        """
         return self.certificate().check()
 
     def save(self, path: str | os.PathLike[str], title: str = "") -> None:

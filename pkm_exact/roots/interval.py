@@ -58,11 +58,23 @@ class Interval:
         return (self.lo + self.hi) / 2
 
     def contains(self, value: Fraction) -> bool:
-        """Whether ``value`` lies in the closed interval."""
+        """Whether ``value`` lies in the closed interval.
+
+        Examples
+        --------
+        >>> Interval(Fraction(1), Fraction(2)).contains(Fraction(3, 2))
+        True
+        """
         return self.lo <= value <= self.hi
 
     def overlaps(self, other: Interval) -> bool:
-        """Whether the two closed intervals have a point in common."""
+        """Whether the two closed intervals have a point in common.
+
+        Examples
+        --------
+        >>> Interval(Fraction(1), Fraction(2)).overlaps(Interval(Fraction(3), Fraction(4)))
+        False
+        """
         return self.lo <= other.hi and other.lo <= self.hi
 
     def ball(self) -> tuple[float, float]:
