@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from copy import deepcopy
+from fractions import Fraction
 from typing import Any
 
 from handmade_mobility import REGULAR, Content, O, X, Y, Z, certificate, joint, subgroups
@@ -122,6 +123,48 @@ MADE: dict[str, tuple[Content, str]] = {
         ),
         FINITE,
     ),
+    "balls and a cut leg with their group": (
+        certificate(
+            legs([BALL], [OTHER_BALL], [("R", O, [FAR]), PX]),
+            [],
+            ["a1.1"],
+            subgroups(("a1", 0), ("b1", 0), ("c1 c2", 1)),
+        ),
+        FINITE,
+    ),
+    "a ball, a hinge of it and a cut leg with it": (
+        certificate(
+            legs([BALL], [("R", O, [FAR])], [("R", O, [FAR]), PX]),
+            [],
+            ["b1"],
+            subgroups(("a1", 0), ("b1", 0), ("c1 c2", 1)),
+        ),
+        FINITE,
+    ),
+    "cut legs alike, of two dimensions": (
+        certificate(
+            legs([PX, PY, ("R", FAR, [Y])], [("P", O, [(1, 1, 0)]), ("P", O, [(1, -1, 0)]), ("R", (1, 5, 3), [Y])]),
+            [],
+            ["a1"],
+            subgroups(("a1 a2 a3", 2), ("b1 b2 b3", 2)),
+        ),
+        FINITE,
+    ),
+    "slides abreast, passed backwards": (
+        certificate(legs([("P-", O, [X])], [PX]), [], None, subgroups(("a1", 0), ("b1", 0))),
+        FINITE,
+    ),
+    "a freedom that does nothing between two": (
+        certificate(
+            [
+                joint("a", "P", "base", "x", O, [X]),
+                joint("b", "P", "base", "aside", O, [Z]),
+                joint("c", "P", "x", "top", O, [Y]),
+            ]
+        ),
+        NOTHING,
+    ),
+    "hinges abreast": (certificate(legs([("R", O, [X])], [("R", O, [X])])), NOTHING),
     "a universal joint": (certificate(legs([("U", FAR, [Z, X]), PX]), [], [], subgroups(("a1 a2", 1))), FINITE),
     "a universal joint passed backwards": (
         certificate(legs([("U-", FAR, [X, Z]), PX]), [], [], subgroups(("a1 a2", 1))),
@@ -192,6 +235,39 @@ LEGS: dict[str, Row] = {
         certificate(legs([PX], [PY, ("R", FAR, [Y])]), [], None, subgroups(("a1", 0), ("b1 b2", 1))),
         "rejected",
         CROSS,
+    ),
+    "balls and a cut leg with their line in its sum": (
+        certificate(
+            legs([BALL], [OTHER_BALL], [PX, PY, PZ, ("R", O, [X]), ("R", O, [(0, 2, 3)])]),
+            [],
+            [],
+            subgroups(("a1", 0), ("b1", 0), ("c1 c2 c3 c4 c5", 4)),
+        ),
+        "rejected",
+        CROSS,
+    ),
+    "a chain of leaps": (
+        certificate(
+            [
+                joint("a", "P", "m", "base", O, [X]),
+                joint("b", "P", "n", "m", O, [Y]),
+                joint("c", "P", "top", "n", O, [Z]),
+            ],
+            finite=subgroups(("b a c", 0)),
+        ),
+        "rejected",
+        "finite: the joints of a leg are no chain",
+    ),
+    "a leg that ends at a later body": (
+        certificate(
+            [
+                *(joint("a", "P", "top", "z", O, [X]), joint("b", "P", "base", "z", O, [X])),
+                *(joint("c", "P", "base", "y", O, [X]), joint("d", "P", "y", "z", O, [X])),
+            ],
+            finite=subgroups(("b a", 0), ("c d", 0)),
+        ),
+        "rejected",
+        "finite: a leg does not end",
     ),
     "a joint twice": (
         _finite("slides abreast, legs", subgroups(("a1", 0), ("a1", 0))),
@@ -307,6 +383,11 @@ def _proofs() -> dict[str, Row]:
                 )
                 line = OWN if place in free else SPACE
                 found[f"vector {k}, number {place}, {word}"] = (put(HING, value, *LOOPS, k, place), "rejected", line)
+    numbers = [[Fraction(x) for x in vector] for vector in vectors]
+    for k, other in ((0, 1), (0, -1), (-1, 0), (-1, -2)):
+        for name, one, more in (("more", 1, 1), ("less", 1, -1), ("half", Fraction(1, 2), 0), ("twice", 2, 0)):
+            mixed = [str(one * x + more * y) for x, y in zip(numbers[k], numbers[other], strict=True)]
+            found[f"vector {k}, {name} {other}"] = (put(HING, mixed, *LOOPS, k % len(vectors)), "rejected", OWN)
     found["a vector less"] = (put(HING, vectors[:-1], *LOOPS), "malformed", SHAPE)
     found["a vector more"] = (put(HING, [*vectors, vectors[0]], *LOOPS), "malformed", SHAPE)
     found["vectors in another order"] = (put(HING, vectors[::-1], *LOOPS), "rejected", OWN)
@@ -327,6 +408,33 @@ def _proofs() -> dict[str, Row]:
         found[f"one of {key} twice"] = (put(HING, twice, "loops", key), "malformed", f"loops.{key}: not in increasing")
         found[f"one of {key} less"] = (put(HING, places[:-1], "loops", key), "malformed", f"loops.{key}: not a list")
         found[f"one of {key} below 0"] = (put(HING, [-1, *places[1:]], "loops", key), "malformed", f"loops.{key}")
+        found[f"the last of {key} swapped"] = (
+            put(HING, [*places[:-2], places[-1], places[-2]], "loops", key),
+            "malformed",
+            f"loops.{key}: not in increasing",
+        )
+        found[f"the first of {key} swapped"] = (
+            put(HING, [places[1], places[0], *places[2:]], "loops", key),
+            "malformed",
+            f"loops.{key}: not in increasing",
+        )
+        found[f"no list of {key}"] = (put(HING, 5, "loops", key), "malformed", f"loops.{key}")
+    found["a rank of one less"] = (put(HING, HING["loops"]["rank"] - 1, "loops", "rank"), "malformed", "loops.rows")
+    more = {
+        "rank": len(rows) + 1,
+        "rows": sorted([*rows, *[k for k in range(6) if k not in rows][:1]]),
+        "columns": [*columns, size],
+    }
+    found["a column more, outside"] = (put(HING, {**more, "null_space": vectors}, "loops"), "malformed", INSIDE)
+    none = {"rank": 1, "rows": [0], "columns": [0], "null_space": []}
+    found["a column where there is none"] = (
+        put(MADE["two slides apart"][0], none, "platform"),
+        "malformed",
+        "platform: a place outside",
+    )
+    abreast = legs([("R", O, [X])], [("R", O, [X])])
+    found["the first equation unseen"] = (certificate(abreast, unseen=[0]), "rejected", SPACE)
+    found["the last equation unseen"] = (certificate(legs([PZ], [PZ]), unseen=[5]), "rejected", SPACE)
     found["a minor of 0"] = (put(HING, [0, 1, 2], "loops", "rows"), "rejected", "loops: the minor is 0")
     alone = MADE["a leg, regular"][0]
     found["a row where there is none"] = (
@@ -406,6 +514,17 @@ CHOSEN: dict[str, Row] = {
         "rejected",
         f"{SETS}.platform: {MINIMAL}",
     ),
+    "one that does nothing, alone": (
+        _sets(certificate(legs([PX, PY], [PX])), "platform", [["a2"]], complete=False),
+        "rejected",
+        f"{SETS}.platform: {HOLDS}",
+    ),
+    "a freedom of the last set not looked at": (
+        put(_sets(FEW, "platform", [ALL[0], ALL[3]], complete=False), ["a1", "a2", "b1"], SETS, "among"),
+        "malformed",
+        f"{SETS}.platform.sets: a freedom",
+    ),
+    "no list of sets": (_sets(FEW, "platform", 5), "malformed", f"{SETS}.platform.sets"),
     "nothing to hold": (_sets(MADE["two slides apart"][0], "platform", [[]]), "accepted", NOTHING),
     "nothing to hold, held": (
         _sets(MADE["two slides apart"][0], "platform", [["a1"]]),
@@ -597,6 +716,34 @@ FORMAT: dict[str, Row] = {
         "mechanism.joints[1].point",
     ),
     "a slide with a pitch": (put(SLIDE, "1", *JOINTS, 0, "pitch"), "malformed", "mechanism.joints[1].pitch"),
+    "seven screws that move": (
+        certificate([joint("a", "screw", "base", "top", screws=[*SIX, [1] * 6])]),
+        "malformed",
+        "",
+    ),
+    "a screw of nothing that moves, first": (
+        certificate([joint("a", "screw", "base", "top", screws=[[0] * 6, [1] * 6])]),
+        "malformed",
+        "",
+    ),
+    "a screw of nothing that moves, last": (
+        certificate([joint("a", "screw", "base", "top", screws=[[1] * 6, [0] * 6])]),
+        "malformed",
+        "",
+    ),
+    "no screw": (certificate([*legs([PX]), joint("b", "screw", "top", "aside")]), "malformed", ""),
+    "a body apart": (
+        certificate([*legs([PX]), joint("b", "R", "y", "z", O, [X])]),
+        "malformed",
+        "mechanism: a body is not connected",
+    ),
+    "a body apart, first": (
+        certificate([*legs([PX]), joint("b", "R", "aa", "ab", O, [X])], bodies=["aa", "ab", "base", "top"]),
+        "malformed",
+        "mechanism: a body is not connected",
+    ),
+    "axes of no list": _joint("malformed", axes=5),
+    "screws of no list": _joint("malformed", screws=5),
     "screws of none": _joint("malformed", type="screw", point=ZERO3, axes=[], screws=[]),
     "a screw": (certificate([joint("a", "screw", "base", "top", screws=[[1, 2, 3, 4, 5, 6]])]), "accepted", NOTHING),
     "seven screws": _joint("malformed", type="screw", point=ZERO3, axes=[], screws=[["1"] * 6] * 7),

@@ -118,9 +118,12 @@ def certificate(
     among: Sequence[str] | None = None,
     finite: Any = None,
     platform: str = "top",
+    unseen: Sequence[int] = (),
+    bodies: Sequence[str] = (),
 ) -> Content:
-    """What is true of a mechanism."""
+    """What is true of a mechanism, or would be without the equations at some places; ``bodies`` in another order."""
     machine = mechanism(joints, platform=platform)
+    machine["bodies"] = list(bodies) or machine["bodies"]
     part, tree, loops = {body: body for body in machine["bodies"]}, [], []
     for place, entry in enumerate(joints):
         one, other = (part[body] for body in entry["bodies"])
@@ -134,6 +137,7 @@ def certificate(
         number = len(twists_of(entry))
         names += [entry["name"]] if number == 1 else [f"{entry['name']}.{k + 1}" for k in range(number)]
     size, matrix = len(names), [row for loop in loops for row in block(joints, loop)]
+    matrix = [[Fraction(0)] * size if k in unseen else row for k, row in enumerate(matrix)]
     proofs, motions = {}, {}
     for key, units in (
         ("", []),
