@@ -47,6 +47,7 @@ MACHINES = {
     "legs alike": ALIKE,
     "sides that are none": BROAD,
     "a line": LINE,
+    "opposite legs": machine(FLAT, [(1, 0, 0), (0, 1, 0), (0, -1, 0)]),
     "a line turned": machine(
         [5], [(1, 2, 0)], legs=[{"base": ["0", "0", "0"], "platform": ["1", "2", "0"]}], position=["1", "0", "0"]
     ),
@@ -142,6 +143,16 @@ POLYTOPES: dict[str, Row] = {
     ),
     "a vertex of wrenches that is none, first": (
         _put(HEX, [[-1, -1, 1], *HEX["wrench_polytope"]["vertices"][1:]], "wrench_polytope", "vertices"),
+        "rejected",
+        "wrench_polytope",
+    ),
+    "a vertex of wrenches between opposite legs": (
+        machine(
+            FLAT,
+            [(1, 0, 0), (0, 1, 0), (0, -1, 0)],
+            wrench_polytope=HONEST["opposite legs"]["wrench_polytope"]
+            | {"vertices": [[1, 1, 1], *HONEST["opposite legs"]["wrench_polytope"]["vertices"][1:]]},
+        ),
         "rejected",
         "wrench_polytope",
     ),
@@ -522,6 +533,22 @@ FORMAT: dict[str, Row] = {
         ),
         "rejected",
         "ellipsoid",
+    ),
+    "legs of no list": _with("malformed", 5, "legs"),
+    "facets of no list": _with("malformed", 5, *SIDES),
+    "vertices of no list": _with("malformed", 5, "velocity_polytope", "vertices"),
+    "ends of no list": _with("malformed", 5, *ENDS),
+    "planes of no list": _with("malformed", 5, "wrench_polytope", "facets"),
+    "forces of no list": _with("malformed", 5, "forces"),
+    "too many choices in a large file": (
+        machine(
+            range(5),
+            [(1, 2, 3)] * 12,
+            name="x" * 10000,
+            velocity_polytope={"facets": [], "vertices": [[["0"] * 12] * 5] * 150},
+        ),
+        "too-large",
+        "velocity_polytope: too many",
     ),
     "too many choices": (
         machine(range(5), [(1, 2, 3)] * 12, velocity_polytope={"facets": [], "vertices": []}),

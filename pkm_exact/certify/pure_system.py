@@ -118,7 +118,8 @@ class Certificate:
 def some_names(value: Any, where: str) -> tuple[str, ...]:
     """The names of the variables."""
     names: tuple[str, ...] = tuple(pure.a_list(pure.a_text)(value, where))
-    pure.well_formed(1 <= len(names) <= MAX_VARIABLES, f"{where}: not 1 to {MAX_VARIABLES} of them")
+    pure.well_formed(names, f"{where}: none")
+    pure.affordable(len(names) <= MAX_VARIABLES, f"{where}: more than {MAX_VARIABLES}")
     pure.well_formed(all(map(NAME.fullmatch, names)) and len(set(names)) == len(names), f"{where}: not different names")
     return names
 
@@ -154,7 +155,8 @@ def a_system(names: Sequence[str], value: Any, where: str) -> tuple[pure.Terms, 
     """The polynomials, terms decreasing."""
     places = {name: place for place, name in enumerate(names)}
     lists = pure.a_list(pure.a_list(partial(a_term, places)))(value, where)
-    pure.well_formed(1 <= len(lists) <= MAX_POLYNOMIALS, f"{where}: not 1 to {MAX_POLYNOMIALS} of them")
+    pure.well_formed(lists, f"{where}: none")
+    pure.affordable(len(lists) <= MAX_POLYNOMIALS, f"{where}: more than {MAX_POLYNOMIALS}")
     pure.affordable(sum(map(len, lists)) <= MAX_TERMS, f"{where}: more than {MAX_TERMS} terms")
     for number, terms in enumerate(lists):
         keys = [pure.order(monomial) for monomial, _ in terms]

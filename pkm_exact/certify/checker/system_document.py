@@ -58,7 +58,7 @@ _INFINITY: Final = ("chart", "separating_form", "eliminant", "coordinates", "mul
 _WITNESS: Final = ("cause", "forms", "slices")
 _SOLUTION: Final = ("parameter", "values", "multiplicity")
 
-_PRODUCT: Final = re.compile(r"(?:0|[1-9][0-9]{0,5})(?: (?:0|[1-9][0-9]?)){0,64}", re.ASCII)
+_PRODUCT: Final = re.compile(r"(?:0|[1-9][0-9]{0,5})(?: (?:[0-9]|[1-5][0-9]|6[0-3])){0,64}", re.ASCII)
 _MOST_SLICES: Final = 2000
 
 

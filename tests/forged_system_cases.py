@@ -1,0 +1,709 @@
+"""More certificates of polynomial systems made by hand, with what both checkers must say of them."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from fractions import Fraction
+from typing import Any
+
+from handmade_systems import (
+    BILINEAR,
+    CORNERS,
+    ENDS,
+    LINE,
+    PAIR,
+    SQUARES,
+    Content,
+    at_infinity,
+    complete,
+    handmade,
+    hexadecimal,
+    listed,
+    represented,
+    system_content,
+)
+
+from pkm_exact.certify import pure
+from pkm_exact.certify.checker.solutions import PRIMES
+
+Row = tuple[Content, str]
+"""A certificate without its digest, and the verdict."""
+
+MADE = handmade()
+
+
+def put(content: Content, value: Any, *path: Any) -> Content:
+    """With another entry."""
+    found = deepcopy(content)
+    entry: Any = found
+    for key in path[:-1]:
+        entry = entry[key]
+    entry[path[-1]] = value
+    return found
+
+
+def none(texts: tuple[str, ...], route: str | None, names: str = "x,y", **entries: Any) -> Content:
+    return system_content(names, texts, claim="inconsistent", completeness_route=route, complex_solutions=0, **entries)
+
+
+def counted(texts: tuple[str, ...], points: Any, infinity: Content, total: int, **options: Any) -> Content:
+    return listed("x,y", texts, points, **options, **complete("counting-at-infinity", total, infinity=infinity))
+
+
+def slices(
+    texts: tuple[str, ...], forms: Any, constants: Any, point: Any, form: tuple[int, ...], names: str = "x,y"
+) -> Content:
+    """Of a line: the point for each constant."""
+    entries = [{"constant": str(a), "representation": represented([point(Fraction(a))], form)} for a in constants]
+    witness = {"cause": "more-solutions-than-bound", "forms": forms, "slices": entries}
+    return system_content(names, texts, claim="positive-dimensional-proved", witness=witness)
+
+
+# Multiplicities
+
+FAT = ("x^2", "x*y", "y^2")
+"""Multiplicity 3 at the origin, where all three derivatives are 0: with two polynomials the weight would be 4."""
+STAIRS = ("x^2-x", "x*y", "y^4-6*y^3+11*y^2-6*y")
+STEPS = [(0, 0), (1, 0), (0, 1), (0, 2), (0, 3)]
+CURVED = ("x^2-2*x-y+3", "x*y-2*x-y+2", "y^2-4*y+4")
+"""Multiplicity 3 at (1, 2): y = 2 + (x - 1)^2, and (x - 1)^3 is 0; the weight is 2."""
+CONICS = ("x^2+y^2-5", "x*y-2", "x^3+x*y^2+x*y-5*x-2")
+"""The third follows from the others; the algebra does not close, but the top forms leave room for four."""
+MEETINGS = [(1, 2), (2, 1), (-1, -2), (-2, -1)]
+ROOTS = (-3, -2, -1, 2, 4)
+
+
+def _nodal() -> tuple[tuple[str, str], list[tuple[Fraction, Fraction]]]:
+    """Two cubics with nodes at the point (0 : 0 : 1) at infinity, and five points beside it.
+
+    x y + a + x^3 and (1 - x^2) y + q: then (1 - x^2) (a + x^3) - x q has the roots asked for.
+    """
+    r = [1]
+    for root in ROOTS:
+        r = [a - root * b for a, b in zip([0, *r], [*r, 0], strict=True)]
+    r = [-c for c in r]
+    a = r[0]
+    left = [a, 0, -a, 1, 0, -1]
+    q = [x - y for x, y in zip(left, r, strict=True)][1:]
+    q_text = "+".join(f"{c}*x^{k}" if k else f"{c}" for k, c in enumerate(q) if c).replace("+-", "-").replace("^1", "")
+    points = [(Fraction(x), -Fraction(a + x**3, x)) for x in ROOTS]
+    return (f"x*y+x^3+{a}".replace("+-", "-"), f"y-x^2*y+{q_text}".replace("+-", "-")), points
+
+
+NODES, BESIDE = _nodal()
+FIRST, PLAIN = PRIMES[0], pure.PRIMES[0]
+DOUBLE_END = ("x^2-y", "x^2+x-2*y")
+"""Meet twice at (0 : 0 : 1)."""
+ONE_END = at_infinity([(0, 1)], (0, 1), (0, 1), 2)
+
+
+def _beside(name: str, prime: int) -> dict[str, Row]:
+    """Systems of one simple and one double solution, that look regular modulo the prime: all is called simple."""
+    lost = represented([(0,), (Fraction(1, prime),)], (1,))
+    alike = represented([(0, 0), (prime, 1)], (1, 0))
+    square = (f"{prime**2}*x^3-{2 * prime}*x^2+x",)
+    twin = (f"x-{prime}*y", "y^3-2*y^2+y")
+    return {
+        f"a double solution lost modulo {name}": (listed("x", square, lost, exponent=70, multiplicities=1), "rejected"),
+        f"a double solution lost modulo {name}, unknown": (
+            listed("x", square, lost, exponent=70, multiplicities=None),
+            "accepted",
+        ),
+        f"solutions alike modulo {name}": (listed("x,y", twin, alike, multiplicities=1), "rejected"),
+        f"solutions alike modulo {name}, unknown": (listed("x,y", twin, alike, multiplicities=None), "accepted"),
+    }
+
+
+WEIGHTS: dict[str, Row] = {
+    "a fat point": (
+        listed("x,y", FAT, represented([(0, 0)], (1, 1)), multiplicities=3) | complete("modular-rank", 3),
+        "accepted",
+    ),
+    "a fat point of two": (
+        listed("x,y", FAT[::2], represented([(0, 0)], (1, 1)), multiplicities=4) | complete("modular-rank", 4),
+        "accepted",
+    ),
+    "a fat point of two, called three": (
+        listed("x,y", FAT[::2], represented([(0, 0)], (1, 1)), multiplicities=3) | complete("modular-rank", 3),
+        "rejected",
+    ),
+    "three polynomials, one of them twice": (
+        listed("x,y", (*FAT[::2], "2*x^2"), represented([(0, 0)], (1, 1)), multiplicities=4)
+        | complete("modular-rank", 4),
+        "rejected",
+    ),
+    "stairs": (listed("x,y", STAIRS, represented(STEPS, (5, 1)), **complete("modular-rank", 5)), "accepted"),
+    "stairs, not all": (
+        listed("x,y", STAIRS, represented(STEPS[1:], (5, 1)), **complete("modular-rank", 4)),
+        "rejected",
+    ),
+    "stairs by the product of the degrees": (
+        listed("x,y", STAIRS, represented(STEPS, (5, 1)), **complete("refined-bezout", 5)),
+        "rejected",
+    ),
+    "a curved point": (
+        listed("x,y", CURVED, represented([(1, 2)], (1, 1)), multiplicities=3)
+        | complete("exact-elimination", 3, elimination=[]),
+        "accepted",
+    ),
+    "a curved point, called double": (
+        listed("x,y", CURVED, represented([(1, 2)], (1, 1)), multiplicities=2)
+        | complete("exact-elimination", 3, elimination=[]),
+        "rejected",
+    ),
+    "a curved point, by ranks": (
+        listed("x,y", CURVED, represented([(1, 2)], (1, 1)), multiplicities=2) | complete("modular-rank", 2),
+        "rejected",
+    ),
+    "conics": (
+        listed("x,y", CONICS, represented(MEETINGS, (1, 0)), **complete("exact-elimination", 4, elimination=[])),
+        "accepted",
+    ),
+    "conics, not all": (
+        listed("x,y", CONICS, represented(MEETINGS[1:], (1, 0)), **complete("exact-elimination", 3, elimination=[])),
+        "rejected",
+    ),
+    "half of the corners": (
+        listed("x,y", (*SQUARES, "x-1"), represented(CORNERS[2:], (0, 1)), **complete("refined-bezout", 2)),
+        "rejected",
+    ),
+    "half of the corners, as they are": (
+        listed("x,y", (*SQUARES, "x-1"), represented(CORNERS[2:], (0, 1))),
+        "accepted",
+    ),
+    "half of the corners, by ranks": (
+        listed("x,y", (*SQUARES, "x-1"), represented(CORNERS[2:], (0, 1)), **complete("modular-rank", 2)),
+        "accepted",
+    ),
+    "four points of a line": (
+        listed(
+            "x,y",
+            LINE,
+            represented([(0, k) for k in range(4)], (0, 1)),
+            multiplicities=1,
+            **complete("refined-bezout", 4),
+        ),
+        "rejected",
+    ),
+    "four points of a line, unknown": (
+        listed("x,y", LINE, represented([(0, k) for k in range(4)], (0, 1)), multiplicities=None),
+        "accepted",
+    ),
+    "a fourfold root": (
+        listed(
+            "x,y",
+            SQUARES,
+            {
+                "separating_form": [1, 0],
+                "eliminant": hexadecimal([1, 0, 2, 0, 1]),
+                "numerators": [hexadecimal([-4, 0, -4]), hexadecimal([7, 0, 7])],
+            },
+            multiplicities=None,
+        )
+        | {"distinct_solutions": 4},
+        "rejected",
+    ),
+    **_beside("the first prime", FIRST),
+    **_beside("the first prime of the plain checker", PLAIN),
+}
+
+
+def _long(place: int) -> Content:
+    """One numerator with h added, in a coordinate that the form has not."""
+    content = listed(
+        "x,y",
+        ("x^2-1", "x-y"),
+        represented([(-1, -1), (1, 1)], (1, 0) if place else (0, 1)),
+        **complete("refined-bezout", 2),
+    )
+    representation = content["representation"]
+    h = [int(c, 16) for c in representation["eliminant"]]
+    old = [int(c, 16) for c in representation["numerators"][place]]
+    sums = [x + y for x, y in zip(h, [*old, *[0] * (len(h) - len(old))], strict=True)]
+    return put(content, hexadecimal(sums), "representation", "numerators", place)
+
+
+MEET = ("4*x^2-8*x+3", "y+5*x-15/2")
+"""(1/2, 5) and (3/2, 0)."""
+TOUCH = ("4*x^2-8*x+3", "x-y")
+BOXES: dict[str, Row] = {
+    **{f"a long numerator {k}": (_long(k), "rejected") for k in (0, 1)},
+    "boxes apart in y alone": (
+        listed(
+            "x,y",
+            MEET,
+            represented([(Fraction(1, 2), 5), (Fraction(3, 2), 0)], (2, 0)),
+            exponent=0,
+            **complete("refined-bezout", 2),
+        )
+        | {"box_exponent": 0},
+        "accepted",
+    ),
+    "boxes that touch": (
+        listed(
+            "x,y",
+            TOUCH,
+            represented([(Fraction(1, 2),) * 2, (Fraction(3, 2),) * 2], (2, 0)),
+            exponent=0,
+            **complete("refined-bezout", 2),
+        )
+        | {"box_exponent": 0},
+        "rejected",
+    ),
+    "boxes that touch, the other way": (
+        listed(
+            "x,y",
+            ("4*x^2-8*x+3", "x+y-2"),
+            represented([(Fraction(1, 2), Fraction(3, 2)), (Fraction(3, 2), Fraction(1, 2))], (2, 0)),
+            exponent=0,
+            **complete("refined-bezout", 2),
+        )
+        | {"box_exponent": 0},
+        "rejected",
+    ),
+}
+
+# Points at infinity
+
+INFINITY: dict[str, Row] = {
+    "an end twice": (counted(DOUBLE_END, represented([(0, 0), (1, 1)], (1, 0)), ONE_END, 2), "accepted"),
+    "an end twice, called once": (
+        counted(DOUBLE_END, represented([(0, 0), (1, 1)], (1, 0)), put(ONE_END, 1, "multiplicity"), 2),
+        "rejected",
+    ),
+    "an end twice, called thrice": (
+        counted(DOUBLE_END, represented([(0, 0), (1, 1)], (1, 0)), put(ONE_END, 3, "multiplicity"), 2),
+        "rejected",
+    ),
+    "an end twice, but for a solution": (counted(DOUBLE_END, represented([(1, 1)], (1, 0)), ONE_END, 1), "rejected"),
+    "an end of another chart": (
+        counted(DOUBLE_END, represented([(0, 0), (1, 1)], (1, 0)), put(ONE_END, [0, 2], "chart"), 2),
+        "rejected",
+    ),
+    "an end of another form": (
+        counted(DOUBLE_END, represented([(0, 0), (1, 1)], (1, 0)), put(ONE_END, [0, 2], "separating_form"), 2),
+        "rejected",
+    ),
+    "an end four times": (counted(NODES, represented(BESIDE, (1, 0)), put(ONE_END, 4, "multiplicity"), 5), "accepted"),
+    "an end four times, called three": (
+        counted(NODES, represented(BESIDE, (1, 0)), put(ONE_END, 3, "multiplicity"), 5),
+        "rejected",
+    ),
+    "an end of three polynomials": (
+        counted((*NODES, NODES[0]), represented(BESIDE, (1, 0)), put(ONE_END, 4, "multiplicity"), 5),
+        "rejected",
+    ),
+    "ends, one more": (counted(BILINEAR, represented(PAIR, (1, 0)), put(ENDS, 3, "multiplicity"), 2), "rejected"),
+    "ends, one less": (counted(BILINEAR, represented(PAIR, (1, 0)), put(ENDS, 1, "multiplicity"), 2), "rejected"),
+    **{
+        f"ends on one polynomial alone {k}, {weight}": (
+            counted(
+                SQUARES,
+                represented(CORNERS[4 - number :], (1, 1)),
+                at_infinity([(k, 1 - k)], (1, 1), (1, 2), weight),
+                number,
+            ),
+            "rejected",
+        )
+        for k in (0, 1)
+        for weight, number in ((1, 3), (2, 2))
+    },
+    **{
+        f"an end on no polynomial, {weight}": (
+            counted(
+                SQUARES,
+                represented(CORNERS[4 - number :], (1, 1)),
+                at_infinity([(Fraction(1, 2), Fraction(1, 2))], (1, 1), (2, 0), weight),
+                number,
+            ),
+            "rejected",
+        )
+        for weight, number in ((1, 3), (2, 2))
+    },
+    **{
+        f"an end of a long coordinate {k}": (
+            put(
+                counted(BILINEAR, represented(PAIR, (1, 0)), ENDS, 2),
+                [*MADE["infinity"]["infinity"]["coordinates"][k], "0x0"],
+                "infinity",
+                "coordinates",
+                k,
+            ),
+            "malformed",
+        )
+        for k in (0, 1)
+    },
+}
+
+# Nothing listed, and witnesses
+
+FORM = [[0, 1, 0]]
+AXIS = ("x*y-y", "x*y-2*y")
+"""The line y = 0, that x cuts."""
+TILTED = ("x^2+x*y-x-y", "x^2+x*y-2*x-2*y")
+"""The line x + y = 0."""
+
+
+def _at(a: Fraction) -> tuple[Fraction, ...]:
+    return (Fraction(0), a)
+
+
+def _line(constants: Any, forms: Any = FORM) -> Content:
+    return slices(LINE, forms, constants, _at, (0, 1))
+
+
+CLAIMS: dict[str, Row] = {
+    "none, a constant": (none(("5",), "exact-elimination", elimination=[]), "accepted"),
+    "none, a constant alone": (none(("5",), "exact-elimination", "x", elimination=[]), "accepted"),
+    "none, a constant by ranks": (none(("x", "5"), "modular-rank"), "accepted"),
+    "none, a constant before, by ranks": (none(("5", "x"), "modular-rank"), "accepted"),
+    "none, by another route": (none(("x", "x-1", "y"), "refined-bezout"), "rejected"),
+    "none, by no route": (none(("x", "x-1", "y"), None), "rejected"),
+    "none, with a number": (MADE["none, rank"] | {"complex_solutions": 1}, "rejected"),
+    "none, without a number": (MADE["none, rank"] | {"complex_solutions": None}, "rejected"),
+    "none, called complete": (MADE["none, rank"] | {"claim": "complete", "complex_solutions": None}, "rejected"),
+    "none, by steps, called complete": (
+        MADE["none, elimination"] | {"claim": "complete", "complex_solutions": None},
+        "rejected",
+    ),
+    "none, by steps, called complete, 0": (MADE["none, elimination"] | {"claim": "complete"}, "rejected"),
+    "nothing, with a number": (MADE["nothing"] | {"complex_solutions": 0}, "rejected"),
+    "nothing, with three": (MADE["nothing"] | {"complex_solutions": 3}, "rejected"),
+    "nothing, distinct": (MADE["nothing"] | {"distinct_solutions": 1}, "rejected"),
+    "nothing, detected, with a number": (MADE["detected"] | {"complex_solutions": 0}, "rejected"),
+    "solutions without a representation": (
+        MADE["some"] | {"representation": None, "distinct_solutions": 0},
+        "rejected",
+    ),
+    "a claim without a route": (MADE["bezout"] | {"completeness_route": None}, "rejected"),
+    "a route without a claim": (MADE["some"] | {"completeness_route": "modular-rank"}, "rejected"),
+    "a curve beside a route": (MADE["many"] | {"completeness_route": "refined-bezout"}, "rejected"),
+    "few polynomials with solutions": (
+        MADE["few"] | {"solutions": MADE["bezout"]["solutions"][:1], "real_solutions": 1},
+        "rejected",
+    ),
+    "few polynomials with a form": (put(MADE["few"], FORM, "witness", "forms"), "rejected"),
+    "few polynomials of three": (
+        listed("x,y", ("x-1", "y-1", "x+y-2"), represented([(1, 1)], (1, 1)))
+        | {
+            "claim": "positive-dimensional-proved",
+            "solutions": [],
+            "real_solutions": 0,
+            "distinct_solutions": 0,
+            "box_exponent": 0,
+            "witness": MADE["few"]["witness"],
+        },
+        "rejected",
+    ),
+    "many solutions with solutions": (
+        MADE["many"] | {"solutions": MADE["bezout"]["solutions"][:1], "real_solutions": 1, "box_exponent": 8},
+        "rejected",
+    ),
+    "a line along x": (slices(AXIS, [[1, 0, 0]], range(3, 8), lambda a: (a, Fraction(0)), (1, 0)), "accepted"),
+    "a line cut aslant": (
+        slices(LINE, [[3, 2, 1]], range(3, 8), lambda a: (Fraction(0), (a - 1) / 2), (0, 2)),
+        "accepted",
+    ),
+    "a tilted line": (slices(TILTED, [[1, 0, -1]], range(3, 8), lambda a: (a + 1, -a - 1), (1, 0)), "accepted"),
+    "a plane, cut by a line": (
+        slices(("x*y-x",), [[1, 1, -1], [1, 2, 0]], ["1", "2"], lambda a: (2 - a, a - 1), (1, 0)),
+        "rejected",
+    ),
+    "slices twice, first": (_line([3, 3, 4, 5, 6]), "rejected"),
+    "slices twice, last": (_line([3, 4, 5, 6, 6]), "rejected"),
+    "slices that fall, first": (_line([4, 3, 5, 6, 7]), "rejected"),
+    "slices that fall, last": (_line([3, 4, 5, 7, 6]), "rejected"),
+    "slices between": (_line(["1/2", "2/3", "3/4", "4/5", "5/6"]), "accepted"),
+    "four slices": (_line([3, 4, 5, 6]), "rejected"),
+    "no slice": (_line([]), "rejected"),
+    "a form of nothing, first": (_line(range(3, 8), [[0, 0, 0], [0, 1, 0]]), "rejected"),
+    "a form of nothing, last": (_line(range(3, 8), [[0, 1, 0], [0, 0, 0]]), "rejected"),
+    "a constant form, first": (_line(range(3, 8), [[0, 0, 5], [0, 1, 0]]), "rejected"),
+    "a constant form, last": (_line(range(3, 8), [[0, 1, 0], [0, 0, 5]]), "rejected"),
+}
+
+# The format
+
+THREE = system_content("x,y,z", ("x*y-1", "z-2"))
+ALGEBRA = MADE["algebra"]
+
+
+def _groups(value: Any) -> Content:
+    return THREE | {"groups": value}
+
+
+def _steps(value: Any) -> Content:
+    return ALGEBRA | {"elimination": [[value]]}
+
+
+def _named(name: Any) -> Content:
+    return system_content("x,y", SQUARES) | {"variables": [name, "y"], "polynomials": [[f"{name}^2", "-1"]]}
+
+
+def _polynomial(*terms: Any, names: str = "x,y") -> Content:
+    return system_content(names, ("y",) if "y" in names else ("x",)) | {"polynomials": [list(terms)]}
+
+
+def _witness(**entries: Any) -> Content:
+    return MADE["many"] | {"witness": MADE["many"]["witness"] | entries}
+
+
+NINES = "9" * 3999
+TERMS: dict[str, str] = {
+    "9*x^9": "accepted",
+    "90*x^19*y^19": "accepted",
+    "19*x": "accepted",
+    "x^10": "accepted",
+    "x^63*y": "accepted",
+    "x^64": "accepted",
+    "-x": "accepted",
+    "-2*x": "accepted",
+    "-1": "accepted",
+    "1": "accepted",
+    "y^64": "accepted",
+    "109*y": "accepted",
+    "x^65": "too-large",
+    "x^99": "too-large",
+    "x^64*y": "too-large",
+    "x^100": "malformed",
+    "x^9999": "malformed",
+    "x^99999": "malformed",
+    "x^1": "malformed",
+    "x^0": "malformed",
+    "x^01": "malformed",
+    "01*x": "malformed",
+    "0": "malformed",
+    "0*x": "malformed",
+    "00": "malformed",
+    "1*x": "malformed",
+    "-1*x": "malformed",
+    "--x": "malformed",
+    "+x": "malformed",
+    "x*x": "malformed",
+    "y*x": "malformed",
+    "x*2": "malformed",
+    "2*3": "malformed",
+    "": "malformed",
+    "*": "malformed",
+    "x*": "malformed",
+    "*x": "malformed",
+    "x**y": "malformed",
+    "x^": "malformed",
+    "^2": "malformed",
+    "x^-1": "malformed",
+    "x^y": "malformed",
+    "z": "malformed",
+    "2x": "malformed",
+    "x y": "malformed",
+    " x": "malformed",
+    "x ": "malformed",
+    "1/2*x": "malformed",
+    "1.5*x": "malformed",
+    "x^2^2": "malformed",
+    "-": "malformed",
+    "-0": "malformed",
+    "2*-x": "malformed",
+    f"1{NINES}*x": "accepted",
+    f"-1{NINES}": "accepted",
+    f"11{NINES}*x": "too-large",
+    f"-11{NINES}": "too-large",
+    "\u0663": "malformed",
+    "x^\u0663": "malformed",
+    "x^2*x": "malformed",
+    "x*y*x": "malformed",
+}
+GOOD_NAMES = (
+    "A",
+    "Z",
+    "a",
+    "z",
+    "_",
+    "_0",
+    "_9",
+    "x0",
+    "x9",
+    "zz",
+    "ZA",
+    "xA",
+    "xZ",
+    "xa",
+    "xz",
+    "x_",
+    "a" * 32,
+    "AZaz_09",
+)
+BAD_NAMES = (
+    "",
+    "0",
+    "9x",
+    "a" * 33,
+    "x-",
+    "x y",
+    "x.y",
+    "\u00e9",
+    "x\u00e9",
+    "x\u0663",
+    "[",
+    "`",
+    "{",
+    "@",
+    "x/",
+    "x:",
+    "x[",
+    "x`",
+    "x{",
+    "x@",
+    "y",
+)
+STEPS_OF: dict[str, str] = {
+    **dict.fromkeys(
+        (
+            "2",
+            "9",
+            "10",
+            "18",
+            "19",
+            "90",
+            "99",
+            "100",
+            "109",
+            "190",
+            "999999",
+            "0 2",
+            "0 8",
+            "0 9",
+            "0 10",
+            "0 19",
+            "0 59",
+            "0 63",
+            "0 0 2",
+        ),
+        "rejected",
+    ),
+    **dict.fromkeys(
+        (
+            "00",
+            "01",
+            "09",
+            "1000000",
+            "0 00",
+            "0 01",
+            "0 64",
+            "0 70",
+            "0 99",
+            "0 100",
+            "0  0",
+            " 0",
+            "0 ",
+            "",
+            "x",
+            "0,0",
+            "-1",
+            "0 1 0",
+            "0 -1",
+            "0" + " 0" * 65,
+            "\u0663",
+            "0 \u0663",
+        ),
+        "malformed",
+    ),
+}
+MANY = [f"x{k}" for k in range(65)]
+FORMAT: dict[str, Row] = {
+    **{f"the term {term[:20]!r}, {len(term)}": (_polynomial(term), status) for term, status in TERMS.items()},
+    **{f"the name {name!r}": (_named(name), "accepted") for name in GOOD_NAMES},
+    **{f"the name {name!r} is none": (_named(name), "malformed") for name in BAD_NAMES},
+    **{f"the step {step[:20]!r}, {len(step)}": (_steps(step), status) for step, status in STEPS_OF.items()},
+    "a name of no text": (_named(5), "malformed"),
+    "a step of no text": (_steps(5), "malformed"),
+    "a step of 64 factors": (_steps("0" + " 0" * 64), "accepted"),
+    "steps of no list": (ALGEBRA | {"elimination": [5]}, "malformed"),
+    "5000 products": (ALGEBRA | {"elimination": [[5] * 5000]}, "malformed"),
+    "5001 products": (ALGEBRA | {"elimination": [[5] * 5001]}, "too-large"),
+    "a bad name last": (MADE["nothing"] | {"variables": ["x", "9"]}, "malformed"),
+    "64 variables": (system_content("x0", ("x0",)) | {"variables": MANY[:64]}, "accepted"),
+    "65 variables": (system_content("x0", ("x0",)) | {"variables": MANY}, "too-large"),
+    "variables of no list": (MADE["nothing"] | {"variables": 5}, "malformed"),
+    "variables in a text": (MADE["nothing"] | {"variables": "xy"}, "malformed"),
+    "a title of no text": (MADE["nothing"] | {"title": 5}, "malformed"),
+    "notes of no list": (MADE["nothing"] | {"notes": "none"}, "malformed"),
+    "a note of no text": (MADE["nothing"] | {"notes": [5]}, "malformed"),
+    "some notes": (MADE["nothing"] | {"notes": ["one", "two"]}, "accepted"),
+    "polynomials of no list": (MADE["nothing"] | {"polynomials": 5}, "malformed"),
+    "a polynomial of no list": (MADE["nothing"] | {"polynomials": ["x"]}, "malformed"),
+    "a polynomial of no term": (MADE["nothing"] | {"polynomials": [[], ["x"]]}, "malformed"),
+    "a polynomial of no term, last": (MADE["nothing"] | {"polynomials": [["x"], []]}, "malformed"),
+    "a term of no text": (_polynomial(5), "malformed"),
+    "256 polynomials": (MADE["nothing"] | {"polynomials": [["x"]] * 256}, "accepted"),
+    "257 polynomials": (MADE["nothing"] | {"polynomials": [["x"]] * 257}, "too-large"),
+    "terms that increase": (_polynomial("y", "x"), "malformed"),
+    "terms that increase, last": (_polynomial("x^2", "y", "x"), "malformed"),
+    "terms that increase, first": (_polynomial("x", "x^2", "1"), "malformed"),
+    "a term twice": (_polynomial("x", "x"), "malformed"),
+    "a term twice, last": (_polynomial("x^2", "x", "2*x"), "malformed"),
+    "terms of a degree": (_polynomial("x^2", "x*y", "y^2", "x", "y", "1"), "accepted"),
+    "x z before y^2": (_polynomial("x^2", "x*z", "y^2", names="x,y,z"), "malformed"),
+    "y^2 before x z": (_polynomial("x^2", "y^2", "x*z", names="x,y,z"), "accepted"),
+    "the greatest grid": (MADE["nothing"] | {"box_exponent": pure.MAX_BOX_EXPONENT}, "rejected"),
+    "a finer grid": (MADE["nothing"] | {"box_exponent": pure.MAX_BOX_EXPONENT + 1}, "too-large"),
+    "groups in order": (_groups([[0, 2], [1]]), "rejected"),
+    "three groups": (_groups([[0], [1], [2]]), "rejected"),
+    "a group out of order, first": (_groups([[2, 0], [1]]), "malformed"),
+    "a group out of order, last": (_groups([[0], [2, 1]]), "malformed"),
+    "groups out of order": (_groups([[1], [0, 2]]), "malformed"),
+    "groups out of order, last": (_groups([[0], [2], [1]]), "malformed"),
+    "a group of nothing": (_groups([[0, 1, 2], []]), "malformed"),
+    "a group of nothing, first": (_groups([[], [0, 1, 2]]), "malformed"),
+    "a variable in no group": (_groups([[0], [1]]), "malformed"),
+    "a variable twice": (_groups([[0], [1], [2], [2]]), "malformed"),
+    "a variable twice, in a group": (_groups([[0], [1, 2, 2]]), "malformed"),
+    "a variable more": (_groups([[0], [1, 2, 3]]), "malformed"),
+    "one group of all": (_groups([[0, 1, 2]]), "malformed"),
+    "no group": (_groups([]), "malformed"),
+    "groups of no list": (_groups(5), "malformed"),
+    "a group of no list": (_groups([5]), "malformed"),
+    "a group of true": (_groups([[False, True], [2]]), "malformed"),
+    "2000 slices": (_witness(slices=[5] * 2000), "malformed"),
+    "64 forms": (_witness(forms=[5] * 64), "malformed"),
+    "slices of no list": (_witness(slices=5), "malformed"),
+    "forms of no list": (_witness(forms=5), "malformed"),
+    "a form of two": (_witness(forms=[[0, 1]]), "malformed"),
+    "a form of four": (_witness(forms=[[0, 1, 0, 0]]), "malformed"),
+    "a cause of its own": (_witness(cause="none"), "malformed"),
+    "65 forms": (_witness(forms=[[0, 1, 0]] * 65), "too-large"),
+    "a slice of a float": (put(MADE["many"], "1.5", "witness", "slices", 0, "constant"), "malformed"),
+    "a slice not in lowest terms": (put(MADE["many"], "6/2", "witness", "slices", 0, "constant"), "malformed"),
+    "version 0": (MADE["nothing"] | {"version": 0}, "malformed"),
+    "a true version": (MADE["nothing"] | {"version": True}, "malformed"),
+    "a route of its own": (MADE["nothing"] | {"completeness_route": "proof"}, "malformed"),
+    "a claim of its own": (MADE["nothing"] | {"claim": "some"}, "malformed"),
+    **{
+        f"{key} below 0": (MADE["nothing"] | {key: -1}, "malformed")
+        for key in ("complex_solutions", "distinct_solutions", "real_solutions", "box_exponent")
+    },
+    **{
+        f"{key} true": (MADE["nothing"] | {key: True}, "malformed")
+        for key in ("complex_solutions", "distinct_solutions", "real_solutions", "box_exponent")
+    },
+    **{
+        f"a representation with {value} under {key}": (put(MADE["some"], value, "representation", key), "malformed")
+        for key, values in {
+            "separating_form": ([1], [1, 1, 1], 5, ["1", "1"], [True, 1]),
+            "eliminant": ([], ["0x1"], 5, ["1", "1"]),
+            "numerators": ([], [["0x1"]], [["0x1"]] * 3, 5),
+        }.items()
+        for value in values
+    },
+    "an infinity of nothing": (put(MADE["infinity"], ["0x1"], "infinity", "eliminant"), "malformed"),
+    "a multiplicity below 0": (put(MADE["infinity"], -1, "infinity", "multiplicity"), "malformed"),
+    "a chart of one": (put(MADE["infinity"], [1], "infinity", "chart"), "malformed"),
+    "a chart of three": (put(MADE["infinity"], [1, 1, 1], "infinity", "chart"), "malformed"),
+    "coordinates of one": (put(MADE["infinity"], [["0x1"]], "infinity", "coordinates"), "malformed"),
+    "a solution of one value": (put(MADE["some"], [["0", "1"]], "solutions", 0, "values"), "malformed"),
+    "a solution of three values": (put(MADE["some"], [["0", "1"]] * 3, "solutions", 0, "values"), "malformed"),
+    "a parameter of one end": (put(MADE["some"], ["0"], "solutions", 0, "parameter"), "malformed"),
+    "a multiplicity of a solution below 0": (put(MADE["some"], -1, "solutions", 0, "multiplicity"), "malformed"),
+    "a true multiplicity": (put(MADE["some"], True, "solutions", 0, "multiplicity"), "malformed"),
+}
+
+ROWS: dict[str, Row] = {**WEIGHTS, **BOXES, **INFINITY, **CLAIMS, **FORMAT}
