@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from handmade_mobility import REGULAR, Content, O, X, Y, Z, certificate, joint, subgroups
+from tables_of_rows import merged
 
 Row = tuple[Content, str, str]
 """A certificate without its digest, the verdict, and how its last line begins."""
@@ -519,11 +520,19 @@ CHOSEN: dict[str, Row] = {
         "rejected",
         f"{SETS}.platform: {HOLDS}",
     ),
-    "a freedom of the last set not looked at": (
-        put(_sets(FEW, "platform", [ALL[0], ALL[3]], complete=False), ["a1", "a2", "b1"], SETS, "among"),
-        "malformed",
-        f"{SETS}.platform.sets: a freedom",
-    ),
+    **{
+        f"a freedom of set {k} alone not looked at": (
+            put(
+                _sets(_sets(FEW, "mechanism", [], complete=False), "platform", [ALL[0], ALL[3]], complete=False),
+                among,
+                SETS,
+                "among",
+            ),
+            "malformed",
+            f"{SETS}.platform.sets: a freedom",
+        )
+        for k, among in ((0, ["a2", "b1", "b2"]), (1, ["a1", "a2", "b1"]))
+    },
     "no list of sets": (_sets(FEW, "platform", 5), "malformed", f"{SETS}.platform.sets"),
     "nothing to hold": (_sets(MADE["two slides apart"][0], "platform", [[]]), "accepted", NOTHING),
     "nothing to hold, held": (
@@ -649,7 +658,7 @@ FORMAT: dict[str, Row] = {
     "no joint": (put(HINGE, [], *JOINTS), "malformed", "mechanism.joints"),
     "joints in words": (put(HINGE, "joints", *JOINTS), "malformed", "mechanism.joints"),
     "a body": (put(HINGE, ["base"], MACHINE, "bodies"), "malformed", "mechanism.bodies"),
-    "a body twice": (
+    "a name of a body twice": (
         put(HINGE, ["base", "top", "top"], MACHINE, "bodies"),
         "malformed",
         "mechanism.bodies: one occurs twice",
@@ -742,6 +751,11 @@ FORMAT: dict[str, Row] = {
         "malformed",
         "mechanism: a body is not connected",
     ),
+    "a body without a joint, first": (
+        certificate(legs([PX]), bodies=["x", "base", "top"]),
+        "malformed",
+        "mechanism: a body is not connected",
+    ),
     "axes of no list": _joint("malformed", axes=5),
     "screws of no list": _joint("malformed", screws=5),
     "screws of none": _joint("malformed", type="screw", point=ZERO3, axes=[], screws=[]),
@@ -797,10 +811,5 @@ FORMAT: dict[str, Row] = {
     "a hinge, by its leg": (HINGE | {"finite": subgroups(("a1", 0))}, "accepted", FINITE),
 }
 
-ROWS: dict[str, Row] = {
-    **{f"made: {name}": (content, "accepted", line) for name, (content, line) in MADE.items()},
-    **LEGS,
-    **_proofs(),
-    **CHOSEN,
-    **FORMAT,
-}
+_HONEST = {f"made: {name}": (content, "accepted", line) for name, (content, line) in MADE.items()}
+ROWS: dict[str, Row] = merged(_HONEST, LEGS, _proofs(), CHOSEN, FORMAT)

@@ -24,6 +24,7 @@ from handmade_regions import (
     texts,
     vanishing_form,
 )
+from tables_of_rows import merged
 
 Row = tuple[Content, str, str]
 """A certificate without its digest, the verdict, and how its last line begins."""
@@ -681,13 +682,6 @@ FORMAT: dict[str, Row] = {
     "measure out of order": (word("sisuo", measure=["3/2", "1"]), "malformed", ""),
 }
 
-ROWS: dict[str, Row] = {
-    **dict(random_rows()),
-    **dict(determinant_rows()),
-    **dict(shape_rows()),
-    **dict(form_rows()),
-    **CASES,
-    **WORDS,
-    **GROUPS,
-    **FORMAT,
-}
+ROWS: dict[str, Row] = merged(
+    *map(dict, (random_rows(), determinant_rows(), shape_rows(), form_rows())), CASES, WORDS, GROUPS, FORMAT
+)

@@ -9,6 +9,7 @@ from math import isqrt
 from typing import Any
 
 from handmade_statics import Content, machine, polytopes
+from tables_of_rows import merged
 
 Row = tuple[Content, str, str]
 """A certificate without its digest, the verdict, and how its last line begins."""
@@ -557,4 +558,4 @@ FORMAT: dict[str, Row] = {
     ),
 }
 
-ROWS: dict[str, Row] = {**POLYTOPES, **list_rows(), **ELLIPSOIDS, **INDICES, **FORMAT}
+ROWS: dict[str, Row] = merged(POLYTOPES, list_rows(), ELLIPSOIDS, INDICES, FORMAT)

@@ -22,6 +22,7 @@ from handmade_systems import (
     represented,
     system_content,
 )
+from tables_of_rows import merged
 
 from pkm_exact.certify import pure
 from pkm_exact.certify.checker.solutions import PRIMES
@@ -706,4 +707,4 @@ FORMAT: dict[str, Row] = {
     "a true multiplicity": (put(MADE["some"], True, "solutions", 0, "multiplicity"), "malformed"),
 }
 
-ROWS: dict[str, Row] = {**WEIGHTS, **BOXES, **INFINITY, **CLAIMS, **FORMAT}
+ROWS: dict[str, Row] = merged(WEIGHTS, BOXES, INFINITY, CLAIMS, FORMAT)
