@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from copy import deepcopy
 from fractions import Fraction
+from math import isqrt
 from random import Random
 from typing import Any
 
@@ -16,6 +17,7 @@ from handmade_regions import (
     cone,
     leg,
     limits_of,
+    make_singular,
     part,
     point_of,
     put,
@@ -23,6 +25,7 @@ from handmade_regions import (
     region,
     texts,
     vanishing_form,
+    vector,
 )
 from tables_of_rows import merged
 
@@ -168,6 +171,49 @@ def far_rows(seed: int, content: Content, points: list[list[Fraction]]) -> Itera
     yield f"determinant {seed}: one sign", (alike, "rejected", ONE_SIGN)
     yield f"determinant {seed}: two signs", (apart, "accepted", TWO_SIGNS)
 
+
+EXACT = (
+    ("spatial", 5, "turns z", 1),
+    ("spatial", 4, "yaw", 2),
+    ("spatial", 4, "roll", 2),
+    ("spatial", 4, "pitch", 2),
+    ("spatial", 6, "turns x", 0),
+    ("planar", 2, "turns y", 1),
+    ("planar", 2, "yaw", 1),
+    ("schoenflies", 3, "yaw", 1),
+    ("schoenflies", 3, "turns z", 1),
+    ("translation", 2, "turns z", 1),
+    ("spherical", 2, "yaw", 1),
+    ("spherical", 2, "roll", 1),
+    ("spherical", 3, "pitch", 0),
+)
+
+
+def singular_rows() -> Iterator[tuple[str, Row]]:
+    """Legs of own length and forms that are exactly singular at one pose, and not at another."""
+    for seed, (motion, legs, kind, number) in enumerate(EXACT):
+        random = Random(2000 + seed)
+        content = region(metric=[2, 3, 5], **_chart(kind, motion, random))
+        content["conditions"] = ["no_type_2"]
+        content["robot"]["legs"] = [leg(vector(random), vector(random)) for _ in range(legs)]
+        content["modes"] = [0] * legs
+        content["robot"]["forms"] = [texts(vanishing_form(content, random)) for _ in range(number)]
+        content["chart"]["box"] = [["-9", "9"]]
+        make_singular(content, Fraction(random.randint(-9, 9), 4))
+        at = content.pop("singular")
+        base = content | {"claim": "not-all", "paving": "", "inside": 0}
+        yield f"singular {seed}", (base | {"counterexample": [[str(at)]]}, "accepted", BROKEN)
+        yield (
+            f"singular {seed}: a little aside",
+            (
+                base | {"counterexample": [[str(at + SMALL_STEP)]]},
+                "rejected",
+                NO_FAILURE,
+            ),
+        )
+
+
+SMALL_STEP = Fraction(1, 1 << 20)
 
 # Shapes, forms and cranks
 
@@ -397,10 +443,153 @@ CASES: dict[str, Row] = {
     "three poses": (region(COPLANAR, **PUSHED, points=[[-2], [0], [1]]), "malformed", "counterexample: neither"),
 }
 
-# Words, counts and measures: x from 3 to 4 is in the limits up to 7/2
+# Bounds of roots, and signs with roots in them
 
 PLANE = {"place": ["x", "y", 0], "variables": ["x", "y"], "box": [[3, 4], [0, 2]], "position": [[3, "7/2"]]}
 FREELY = [leg((0, 0, 0), (0, 0, 0))]
+AROUND = {"place": ["x", 1, 2], "modes": [1]}
+
+IRRATIONAL = (Fraction(7, 2), Fraction(9, 2))
+"""Between these y^2 = 25 - x^2 falls from 51/4 to 19/4."""
+NEXT = 1 << 120
+
+
+def _root(square: Fraction, up: bool) -> Fraction:
+    """The root, off by less than 2^-120."""
+    return Fraction(isqrt(int(square * NEXT * NEXT)) + up, NEXT)
+
+
+FAR, NEAR = Fraction(51, 4), Fraction(19, 4)
+SLACK = Fraction(1, 1 << 70)
+
+
+def _rounded(low: Fraction, high: Fraction, mode: int = 1) -> Content:
+    return slide(low, high, box=[IRRATIONAL], modes=[mode])
+
+
+def _short(*reach: Any, **entries: Any) -> Content:
+    """y^2 = 1/4 - x^2, x from 3/10 to 4/10: y from 3/10 to 4/10."""
+    driven = leg((0, 0, 0), (0, 3, 0), reach or None, direction=(0, 1, 0), rod="1/4")
+    return region([driven], **{"modes": [1], "box": [["3/10", "2/5"]], **entries})
+
+
+TOUCHING = leg((0, 0, 0), (0, 3, 0), (3, 4), direction=(1, 0, 0), rod=9)
+"""The rod is at right angles to its slide: D is 0 at all poses."""
+
+
+def _mixed(*rods: int, points: Any, modes: Any = None, **entries: Any) -> Content:
+    """x (1 + s y) times what is alike for further slides, y^2 = rod - x^2; at rod 25 it is x (1 - y) with s = -1."""
+    slides = [leg((0, 0, 0), (0, 3, 0), direction=(0, 1, 0), rod=rod) for rod in rods]
+    others = [leg((0, 0, 0), (0, 1, 0)), leg((0, 0, 0), (0, 0, 1))][len(rods) - 1 :]
+    motion = {"motion": "translation", "conditions": ["no_type_2"], "box": [[-9, 9]]}
+    return region(
+        [*slides, *others], **motion, modes=modes or [-1] * len(rods) + [0] * len(others), points=points, **entries
+    )
+
+
+def _even(points: Any) -> Content:
+    """2 x - y z in the plane z = 0, y^2 = 3 - x^2 and z^2 = 2: it is 0 at x = 1, by roots that are not rational."""
+    one = leg((0, 0, 0), (0, 3, 0), direction=(0, 1, 0), rod=3)
+    other = leg((0, 0, 0), (0, 2, 0), direction=(1, 0, 0), rod=6)
+    form = [0] * 17
+    form[6] = 1
+    motion = {"motion": "translation", "conditions": ["no_type_2"], "box": [[-1, 1]]}
+    return region([one, other], forms=[form], **motion, modes=[1, 1], points=points)
+
+
+ROOTS: dict[str, Row] = {
+    "roots, with room": (_rounded(3 + _root(NEAR, False) - SLACK, 3 + _root(FAR, True) + SLACK), "accepted", GOOD),
+    "roots, too low": (_rounded(3 + _root(NEAR, True), 9), "rejected", INSIDE),
+    "roots, too high": (_rounded(Fraction(1), 3 + _root(FAR, False)), "rejected", INSIDE),
+    "other roots, with room": (
+        _rounded(3 - _root(FAR, True) - SLACK, 3 - _root(NEAR, False) + SLACK, -1),
+        "accepted",
+        GOOD,
+    ),
+    "other roots, too low": (_rounded(3 - _root(FAR, False), Fraction(3), -1), "rejected", INSIDE),
+    "other roots, too high": (_rounded(Fraction(-9), 3 - _root(NEAR, True), -1), "rejected", INSIDE),
+    "small roots": (_short(Fraction(33, 10) - SLACK, Fraction(34, 10) + SLACK), "accepted", GOOD),
+    "small roots, too high": (_short(3, Fraction(34, 10) - SLACK), "rejected", INSIDE),
+    "small roots, much too high": (_short(3, Fraction(31, 10)), "rejected", INSIDE),
+    "small roots, too low": (_short(Fraction(33, 10) + SLACK, 4), "rejected", INSIDE),
+    "small roots outside": (as_map(_short(3, "13/4"), "o"), "accepted", ""),
+    "a rod that touches": (region([TOUCHING], modes=[1]), "accepted", GOOD),
+    "a rod that touches, the other way": (region([TOUCHING], modes=[-1]), "accepted", GOOD),
+    "a slide outside of its end": (as_map(slide(0, Fraction(29, 10), box=[[4, 6]]), "o"), "accepted", ""),
+    "a slide not outside of its end": (as_map(slide(0, Fraction(7, 2), box=[[4, 6]]), "o"), "rejected", OUTSIDE),
+    "signs with a root of 0": (_mixed(25, points=[[3], [5]]), "accepted", TWO_SIGNS),
+    "signs with a small root": (_mixed(25, points=[[3], ["49/10"]]), "accepted", TWO_SIGNS),
+    "signs with a root, one sign": (_mixed(25, points=[[3], [4]]), "rejected", ONE_SIGN),
+    "signs with a root, not reached": (_mixed(25, points=[[3], [6]]), "rejected", ONE_SIGN),
+    "signs with a root, hardly reached": (_mixed(25, points=[[3], ["501/100"]]), "rejected", ONE_SIGN),
+    "signs with two roots, the first not reached": (_mixed(25, 36, points=[[3], ["11/2"]]), "rejected", ONE_SIGN),
+    "signs with two roots, the last not reached": (_mixed(36, 25, points=[[3], ["11/2"]]), "rejected", ONE_SIGN),
+    "a mode of determinants, unnamed": (_mixed(25, points=[[3], [5]], modes=[0, 0, 0]), "malformed", "modes"),
+    "a sign that is 0 by roots": (_even([[1], ["1/2"]]), "rejected", ONE_SIGN),
+    "a sign that is 0 by roots, last": (_even([["1/2"], [1]]), "rejected", ONE_SIGN),
+    "a determinant that is 0 by roots": (_even([[1]]), "rejected", NO_FAILURE),
+    "(+, 0)": (region(COPLANAR, **PUSHED, points=[[0], [-1]]), "rejected", ONE_SIGN),
+    "(0, -)": (region(COPLANAR, **PUSHED, points=[[-1], [-2]]), "rejected", ONE_SIGN),
+    "not singular there, negative": (region(COPLANAR, **PUSHED, points=[[-1 - SMALL]]), "rejected", NO_FAILURE),
+    "singular everywhere": (region([COPLANAR[0], *COPLANAR[:2]], **PUSHED, points=[[1]]), "accepted", BROKEN),
+    "nowhere singular": (region(COPLANAR, **PUSHED, points=[]), "malformed", "counterexample: neither"),
+    "beyond a shape that is empty": (region(box=[[3, 5]], points=[[5]], shape=[part(-1)]), "rejected", BEYOND),
+    "beyond the box in y": (
+        region(FREELY, **{**PLANE, "position": [[3, "7/2"]]}, points=[[4, 9]]),
+        "rejected",
+        BEYOND,
+    ),
+    "a leg that is not outside": (
+        as_map(region([leg((0,) * 3, (0,) * 3)], box=[[0, 1]], conditions=["no_type_1"]), "o"),
+        "rejected",
+        OUTSIDE,
+    ),
+    "a position a unit below": (region(FREELY, box=[[2, 3]], position=[[3, 9]]), "rejected", INSIDE),
+    "a position a unit above": (region(FREELY, box=[[9, 10]], position=[[3, 9]]), "rejected", INSIDE),
+    "a lower half beyond": (
+        region(FREELY, position=[[3, "349/100"]], paving="siu", claim="undecided"),
+        "rejected",
+        "paving: the part of letter 2",
+    ),
+    "an upper half beyond": (
+        region(FREELY, position=[["351/100", 4]], paving="sui", claim="undecided"),
+        "rejected",
+        "paving: the part of letter 3",
+    ),
+    "a wide map": (
+        region(FREELY, box=[[2, 4]], position=[[2, 3]], paving="siu", claim="map", measure=["1", "2"]),
+        "accepted",
+        "measure: between",
+    ),
+    "a wide map, narrow": (
+        region(FREELY, box=[[2, 4]], position=[[2, 3]], paving="siu", claim="map", measure=["1/2", "1"]),
+        "rejected",
+        "measure: not that",
+    ),
+    "a joint that forbids all": (region(forms=[[0] * 16 + [1]]), "rejected", "chart: its poses are not all"),
+    "an obtuse cone": (region(base_cones=[cone((-1, 6, 0), 120)]), "accepted", GOOD),
+    "an obtuse cone, there": (region(base_cones=[cone((-1, 6, 0), 120)], points=[[3]]), "rejected", NO_FAILURE),
+    "an obtuse cone along its axis": (region(base_cones=[cone((1, 0, 0), 120)], points=[[3]]), "rejected", NO_FAILURE),
+    "an obtuse cone from behind": (region(base_cones=[cone((-1, 0, 0), 120)], points=[[3]]), "accepted", BROKEN),
+    "a right cone, which corners do not prove": (
+        slide(box=[[4, 5]], base_cones=[cone((1, 1, 0), 90)]),
+        "rejected",
+        INSIDE,
+    ),
+    "a crank all around": (
+        region([leg((0, 0, 0), (0, 0, 0), (0, 360), **CRANK, rod=5)], **{**AROUND, "box": [["-11/10", "-9/10"]]}),
+        "accepted",
+        GOOD,
+    ),
+    "a crank half around": (
+        region([leg((0, 0, 0), (0, 0, 0), (90, 270), **CRANK, rod=5)], **{**AROUND, "box": [["-11/10", "-9/10"]]}),
+        "accepted",
+        GOOD,
+    ),
+}
+
+# Words, counts and measures: x from 3 to 4 is in the limits up to 7/2
+
 LETTERS = "paving: the part of letter"
 
 
@@ -665,6 +854,30 @@ FORMAT: dict[str, Row] = {
     "a condition twice": (region(conditions=["limits", "limits"]), "malformed", ""),
     "no condition": (region(conditions=[]), "malformed", ""),
     "two conditions": (region(conditions=["reachable", "limits"]), "accepted", GOOD),
+    "a crank of weight 3/2 on a circle": _crank("malformed", weight="3/2"),
+    "a leg of its own length and more": _with("malformed", {"type": "length", "more": 1}, ROBOT, "legs", 0, "actuator"),
+    "a cone about nothing": (region(base_cones=[cone((0, 0, 0), 30)]), "malformed", ""),
+    "a cone of the platform about nothing": (region(platform_cones=[cone((0, 0, 0), 30)]), "malformed", ""),
+    "x in the place of y": (region(place=[0, "x", 0]), "malformed", ""),
+    "y in the place of x": (region(variables=["y"], place=["y", 0, 0]), "malformed", ""),
+    "roll in the place of yaw": (
+        region(variables=["roll"], place=[3, 0, 0], turns=[[1, 0], [1, 0], ["roll"]], box=[[0, 1]]),
+        "malformed",
+        "",
+    ),
+    "yaw in the place of roll": (
+        region(variables=["yaw"], place=[3, 0, 0], turns=[["yaw"], [1, 0], [1, 0]], box=[[0, 1]]),
+        "malformed",
+        "",
+    ),
+    "the first variable without a place": (
+        region(variables=["x", "y"], place=[0, "y", 0], box=[[3, 4]] * 2),
+        "malformed",
+        "",
+    ),
+    "a turn of no list": _with("malformed", 5, CHART, "turns", 0, turns=UNTURNED),
+    "a turn of an empty list": _with("malformed", [], CHART, "turns", 0, turns=UNTURNED),
+    "a turn of three": _with("malformed", ["1", "0", "0"], CHART, "turns", 0, turns=UNTURNED),
     "a pose of two numbers": (region(points=[[3, 4]]), "malformed", ""),
     "letters of another alphabet": _with("malformed", "j", "paving"),
     "a list of letters": _with("malformed", ["i"], "paving"),
@@ -683,5 +896,10 @@ FORMAT: dict[str, Row] = {
 }
 
 ROWS: dict[str, Row] = merged(
-    *map(dict, (random_rows(), determinant_rows(), shape_rows(), form_rows())), CASES, WORDS, GROUPS, FORMAT
+    *map(dict, (random_rows(), determinant_rows(), singular_rows(), shape_rows(), form_rows())),
+    CASES,
+    ROOTS,
+    WORDS,
+    GROUPS,
+    FORMAT,
 )

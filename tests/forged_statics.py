@@ -48,6 +48,9 @@ MACHINES = {
     "legs alike": ALIKE,
     "sides that are none": BROAD,
     "a line": LINE,
+    "roots of 3, 2 and 1": machine(FLAT, [(1, 1, 1), (1, -1, 0), (1, 0, 0)], speeds=["7/10", "7/10", "1"]),
+    "roots of 1, 2 and 3": machine(FLAT, [(1, 0, 0), (1, -1, 0), (1, 1, 1)], speeds=["1", "7/10", "7/10"]),
+    "roots of 3 and 4": machine(FLAT, [(1, 1, 1), (0, 2, 0), (1, -1, 1)], speeds=["1", "1", "1"]),
     "opposite legs": machine(FLAT, [(1, 0, 0), (0, 1, 0), (0, -1, 0)]),
     "a line turned": machine(
         [5], [(1, 2, 0)], legs=[{"base": ["0", "0", "0"], "platform": ["1", "2", "0"]}], position=["1", "0", "0"]
@@ -156,6 +159,38 @@ POLYTOPES: dict[str, Row] = {
         ),
         "rejected",
         "wrench_polytope",
+    ),
+    "a vertex in the middle": (
+        _put(HEX, [*HEX["velocity_polytope"]["vertices"], [["0"] * 3] * 2], "velocity_polytope", "vertices"),
+        "rejected",
+        "velocity_polytope: not all vertices",
+    ),
+    "a vertex on a side": (
+        _put(
+            HEX,
+            [*HEX["velocity_polytope"]["vertices"], [["1", "0", "0"], ["0", "0", "0"]]],
+            "velocity_polytope",
+            "vertices",
+        ),
+        "rejected",
+        "velocity_polytope: not all vertices",
+    ),
+    "a vertex of wrenches more": (
+        _put(HEX, [*HEX["wrench_polytope"]["vertices"], [1, 1, -1]], "wrench_polytope", "vertices"),
+        "rejected",
+        "wrench_polytope",
+    ),
+    "an idle leg, with another sign": (
+        machine(
+            [0],
+            [(1, 1, 0), (0, 1, 0)],
+            wrench_polytope={
+                "facets": [{"normal": [s], "offset": ["1", "0"]} for s in ("1", "-1")],
+                "vertices": [[1, -1], [-1, 1]],
+            },
+        ),
+        "rejected",
+        "wrench_polytope: a leg exerts nothing",
     ),
     "a facet of wrenches more": (
         _put(
@@ -388,6 +423,17 @@ FORMAT: dict[str, Row] = {
     "words for a number": _with("malformed", "one", "speeds", 0),
     "a number that is not in lowest terms": _with("malformed", "2/2", "speeds", 0),
     "a number that is not in lowest terms, 4/2": _with("malformed", "4/2", "speeds", 0),
+    "a number that is not in lowest terms, 12/8": _with("malformed", "12/8", "speeds", 0),
+    "a rotation by a right angle": (
+        machine([0], [(1, 2, 3)], rotation=[["0", "-1", "0"], ["1", "0", "0"], ["0", "0", "1"]]),
+        "accepted",
+        "machine",
+    ),
+    "a rotation by another right angle": (
+        machine([0], [(1, 2, 3)], rotation=[["0", "0", "1"], ["1", "0", "0"], ["0", "1", "0"]]),
+        "accepted",
+        "machine",
+    ),
     "a number that is not in lowest terms, 2/4": _with("malformed", "2/4", "speeds", 0),
     "a name of no text": _with("malformed", 5, "name"),
     "a unit of no text": _with("malformed", 5, "unit"),

@@ -479,3 +479,79 @@ def _solved(rows: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> li
             if r != column:
                 left[r] = [x - left[r][column] * y for x, y in zip(left[r], left[column], strict=True)]
     return [row[-1] for row in left]
+
+
+# Exactly singular poses
+
+
+def make_singular(content: Content, at: Fraction) -> None:
+    """Move the base of the first leg, along some axis, to where the rows are dependent at a value of the variable."""
+    g = [int(x) for x in content["robot"]["metric"]]
+    c, columns = exact_pose(content["chart"], g, at)
+    kept = FREEDOMS[content["robot"]["motion"]]
+    first, *others = content["robot"]["legs"]
+    rows = [exact_row(c, columns, exact(entry["base"]), exact(entry["platform"]), g) for entry in others]
+    rows += [exact_slope(exact(form), c, columns, g) for form in content["robot"]["forms"]]
+
+    def value(base: Sequence[Fraction]) -> Fraction:
+        row = exact_row(c, columns, base, exact(first["platform"]), g)
+        return exact_determinant([[line[k] for k in kept] for line in [row, *rows]])
+
+    base = exact(first["base"])
+    for axis in range(3):
+        moved = [x + (k == axis) for k, x in enumerate(base)]
+        there, slope = value(base), value(moved) - value(base)
+        if slope:
+            first["base"] = texts([x - (k == axis) * there / slope for k, x in enumerate(base)])
+            break
+    else:
+        raise AssertionError("no place of the joint makes the rows dependent")
+    content["singular"] = at
+
+
+def exact_row(
+    c: Sequence[Fraction], columns: Sequence[Numbers], base: Numbers, platform: Numbers, g: Sequence[int]
+) -> list[Fraction]:
+    """The derivatives of half of the squared length."""
+    arm = [sum((columns[j][i] * platform[j] for j in range(3)), Fraction(0)) for i in range(3)]
+    rod = [x + y - a for x, y, a in zip(c, arm, base, strict=True)]
+    moves = [[Fraction(int(i == j)) for j in range(3)] for i in range(3)] + [exact_turn(k, arm, g) for k in range(3)]
+    return [sum((w * x * y for w, x, y in zip(g, move, rod, strict=True)), Fraction(0)) for move in moves]
+
+
+def exact_turn(k: int, vector_: Numbers, g: Sequence[int]) -> list[Fraction]:
+    i, j = (k + 1) % 3, (k + 2) % 3
+    found = [Fraction(0)] * 3
+    found[i], found[j] = -g[j] * vector_[j], g[i] * vector_[i]
+    return found
+
+
+def exact_slope(form: Numbers, c: Sequence[Fraction], columns: Sequence[Numbers], g: Sequence[int]) -> list[Fraction]:
+    """The derivatives of a form, which is quadratic along each of these."""
+    found = []
+    for k in range(6):
+        ends = []
+        for step in (1, -1):
+            place, turned = list(c), [list(column) for column in columns]
+            if k < 3:
+                place[k] += step
+            else:
+                moves = [exact_turn(k - 3, column, g) for column in turned]
+                turned = [
+                    [x + step * y for x, y in zip(column, move, strict=True)]
+                    for column, move in zip(turned, moves, strict=True)
+                ]
+            ends.append(form_at(form, place, turned, g))
+        found.append((ends[0] - ends[1]) / 2)
+    return found
+
+
+def exact_determinant(rows: list[list[Fraction]]) -> Fraction:
+    if not rows:
+        return Fraction(1)
+    first, *others = rows
+    total = Fraction(0)
+    for k, x in enumerate(first):
+        if x:
+            total += (-1) ** k * x * exact_determinant([row[:k] + row[k + 1 :] for row in others])
+    return total
