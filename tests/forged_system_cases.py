@@ -21,6 +21,7 @@ from handmade_systems import (
     listed,
     represented,
     system_content,
+    trimmed,
 )
 from tables_of_rows import merged
 
@@ -115,6 +116,140 @@ def _beside(name: str, prime: int) -> dict[str, Row]:
     }
 
 
+def _triple(prime: int) -> Row:
+    """Three times the roots of a prime, where h has a double root modulo the prime."""
+    texts = (f"x^6-{3 * prime}*x^4+{3 * prime**2}*x^2-{prime**3}", "y-1")
+    h = {"separating_form": [1, 0], "eliminant": hexadecimal([-prime, 0, 1])}
+    h["numerators"] = [hexadecimal([2 * prime]), hexadecimal([0, 2])]
+    return listed("x,y", texts, h, multiplicities=3) | complete("exact-elimination", 6, elimination=[]), "accepted"
+
+
+def _many_forms(number: int) -> Content:
+    return MADE["many"] | {"witness": MADE["many"]["witness"] | {"forms": [[0, 1, 0]] * number}}
+
+
+def one(*coefficients: int) -> Content:
+    """The representation of all roots of a polynomial in x."""
+    degree = len(coefficients) - 1
+    numerator = trimmed([(k - degree) * c for k, c in enumerate(coefficients[:-1])])
+    return {"separating_form": [1], "eliminant": hexadecimal(coefficients), "numerators": [hexadecimal(numerator)]}
+
+
+def ranked(
+    names: str, texts: tuple[str, ...], points: Content, multiplicities: Any, total: int, **options: Any
+) -> Content:
+    """Complete by ranks."""
+    return listed(names, texts, points, multiplicities=multiplicities, **options) | complete("modular-rank", total)
+
+
+P = (1 << pure.MERSENNE[0]) - 1
+BITS = pure.MERSENNE[0] + 9
+LINED = represented([(0, 0), (1, 0)], (1, 0))
+MIXED: dict[str, Row] = {
+    "double roots of 2": (ranked("x", ("x^6-7*x^4+16*x^2-12",), one(6, 0, -5, 0, 1), [1, 2, 2, 1], 6), "accepted"),
+    "double roots of 2, called simple": (
+        ranked("x", ("x^6-7*x^4+16*x^2-12",), one(6, 0, -5, 0, 1), [2, 1, 1, 2], 6),
+        "rejected",
+    ),
+    "double roots of 3": (ranked("x", ("x^6-8*x^4+21*x^2-18",), one(6, 0, -5, 0, 1), [2, 1, 1, 2], 6), "accepted"),
+    "a double root of 0": (ranked("x", ("x^4-2*x^2",), one(0, -2, 0, 1), [1, 2, 1], 4), "accepted"),
+    "a simple root of 0": (ranked("x", ("x^5-4*x^3+4*x",), one(0, -2, 0, 1), [2, 1, 2], 5), "accepted"),
+    "a double and a simple root": (ranked("x", ("x^3-x^2",), one(0, -1, 1), [2, 1], 3), "accepted"),
+    "a double and a simple root, the other way": (ranked("x", ("x^3-x^2",), one(0, -1, 1), [1, 2], 3), "rejected"),
+    "a double root, times a prime": (ranked("x", (f"{P}*x^3-{P}*x^2",), one(0, -1, 1), [2, 1], 3), "accepted"),
+    "a double root, a prime, another": (
+        ranked("x", (f"{P}*x^3-{P}*x^2", "x^4-2*x^3+x^2"), one(0, -1, 1), [2, 1], 3),
+        "accepted",
+    ),
+    "a double root, another, a prime": (
+        ranked("x", ("x^4-2*x^3+x^2", f"{P}*x^3-{P}*x^2"), one(0, -1, 1), [2, 1], 3),
+        "accepted",
+    ),
+    "double points, a prime before": (ranked("x,y", (f"{P}*x^2-{P}*x", "y^2"), LINED, 2, 4), "accepted"),
+    "double points, a prime behind": (
+        ranked("x,y", ("x^2", f"{P}*y^2-{P}*y"), represented([(0, 0), (0, 1)], (0, 1)), 2, 4),
+        "accepted",
+    ),
+    "a double root at a fraction of a prime": (
+        ranked("x", (f"{P**2}*x^3-{2 * P}*x^2+x",), one(0, -1, P), [1, 2], 3, exponent=BITS),
+        "accepted",
+    ),
+    "a double root at a prime": (
+        ranked("x", (f"x^3-{2 * P}*x^2+{P**2}*x",), one(0, -P, 1), [1, 2], 3),
+        "accepted",
+    ),
+    "lines that touch": (
+        ranked("x,y", ("2*x+2*y", "x^2+2*x+2*y"), represented([(0, 0)], (1, 1)), 2, 2),
+        "accepted",
+    ),
+    "planes that touch": (
+        ranked("x,y,z", ("x+y+3*z", "y+2*z", "z^2+x+2*y+5*z"), represented([(0, 0, 0)], (1, 1, 1)), 2, 2),
+        "accepted",
+    ),
+    "planes that touch, in another order": (
+        ranked("x,y,z", ("z^2+x+2*y+5*z", "y+2*z", "3*x+4*y+11*z"), represented([(0, 0, 0)], (1, 1, 1)), 2, 2),
+        "accepted",
+    ),
+    **{f"triple roots of a prime, {n}": _triple((1 << n) - 1) for n in pure.MERSENNE[:2]},
+    **{
+        f"a triple root at a fraction of a prime, {n}": (
+            listed(
+                "x",
+                (f"{((1 << n) - 1) ** 3}*x^4-{3 * ((1 << n) - 1) ** 2}*x^3+{3 * ((1 << n) - 1)}*x^2-x",),
+                one(0, -1, (1 << n) - 1),
+                multiplicities=[1, 3],
+                exponent=n + 9,
+            )
+            | complete("exact-elimination", 4, elimination=[]),
+            "accepted",
+        )
+        for n in pure.MERSENNE[:1]
+    },
+    "large and small polynomials": (
+        listed("x", ("x^2-1", f"{10**60}*x^2-{10**60}"), one(-1, 0, 1), **complete("refined-bezout", 2)),
+        "accepted",
+    ),
+    "small and large polynomials": (
+        listed("x", (f"{10**60}*x^2-{10**60}", "x^2-1"), one(-1, 0, 1), **complete("refined-bezout", 2)),
+        "accepted",
+    ),
+    "close roots": (
+        listed("x", (f"{1 << 90}*x^2-x",), one(0, -1, 1 << 90), exponent=100, **complete("refined-bezout", 2)),
+        "accepted",
+    ),
+    "groups of a line": (
+        listed(
+            "x,y",
+            LINE,
+            represented([(0, 0), (0, 1)], (0, 1)),
+            **complete("multihomogeneous-bezout", 2, groups=[[0], [1]]),
+        ),
+        "rejected",
+    ),
+    "another parameter": (put(MADE["bezout"], ["-2", "-2"], "solutions", 0, "parameter"), "rejected"),
+    "a line, cut twice": (
+        slices(("x*y-x",), [[1, 0, 0], [0, 1, 0]], [3, 4, 5], lambda a: (Fraction(0), a), (0, 1)),
+        "accepted",
+    ),
+    "a line, cut twice, two points": (
+        slices(("x*y-x",), [[1, 0, 0], [0, 1, 0]], [3, 4], lambda a: (Fraction(0), a), (0, 1)),
+        "rejected",
+    ),
+    "64 forms that are read": (_many_forms(64), "rejected"),
+    "a long name that does not occur": (
+        MADE["nothing"] | {"variables": ["a" * 33, "y"], "polynomials": [["y"]]},
+        "malformed",
+    ),
+    "a bad name that does not occur": (
+        MADE["nothing"] | {"variables": ["9", "y"], "polynomials": [["y"]]},
+        "malformed",
+    ),
+    "a bad name that does not occur, last": (
+        MADE["nothing"] | {"variables": ["y", "9"], "polynomials": [["y"]]},
+        "malformed",
+    ),
+}
+
 WEIGHTS: dict[str, Row] = {
     "a fat point": (
         listed("x,y", FAT, represented([(0, 0)], (1, 1)), multiplicities=3) | complete("modular-rank", 3),
@@ -164,6 +299,32 @@ WEIGHTS: dict[str, Row] = {
         listed("x,y", CONICS, represented(MEETINGS[1:], (1, 0)), **complete("exact-elimination", 3, elimination=[])),
         "rejected",
     ),
+    "three of four, called four": (
+        listed("x,y", SQUARES, represented(CORNERS[1:], (1, 1)), **complete("exact-elimination", 4, elimination=[])),
+        "rejected",
+    ),
+    "a triple and a double solution": (
+        listed("x", ("x^5-2*x^4+x^3",), represented([(0,), (1,)], (1,)), multiplicities=[3, 2])
+        | complete("exact-elimination", 5, elimination=[]),
+        "accepted",
+    ),
+    "a triple and a double solution, called alike": (
+        listed("x", ("x^5-2*x^4+x^3",), represented([(0,), (1,)], (1,)), multiplicities=[3, 3])
+        | complete("exact-elimination", 5, elimination=[]),
+        "rejected",
+    ),
+    "a linear polynomial among others": (
+        listed(
+            "x,y",
+            ("x-y", "2*x*y-y^2-1", "2*x^2*y-x*y^2-x"),
+            represented([(1, 1), (-1, -1)], (1, 0)),
+            **complete("modular-rank", 2),
+        ),
+        "accepted",
+    ),
+    **{
+        f"a triple root of {name}": _triple(prime) for name, prime in (("the first prime", FIRST), ("the other", PLAIN))
+    },
     "half of the corners": (
         listed("x,y", (*SQUARES, "x-1"), represented(CORNERS[2:], (0, 1)), **complete("refined-bezout", 2)),
         "rejected",
@@ -417,6 +578,7 @@ CLAIMS: dict[str, Row] = {
     "slices between": (_line(["1/2", "2/3", "3/4", "4/5", "5/6"]), "accepted"),
     "four slices": (_line([3, 4, 5, 6]), "rejected"),
     "no slice": (_line([]), "rejected"),
+    "a constant form, cut where it is": (_line([5], [[0, 0, 5]]), "rejected"),
     "a form of nothing, first": (_line(range(3, 8), [[0, 0, 0], [0, 1, 0]]), "rejected"),
     "a form of nothing, last": (_line(range(3, 8), [[0, 1, 0], [0, 0, 0]]), "rejected"),
     "a constant form, first": (_line(range(3, 8), [[0, 0, 5], [0, 1, 0]]), "rejected"),
@@ -576,6 +738,8 @@ STEPS_OF: dict[str, str] = {
             "0 10",
             "0 19",
             "0 59",
+            "0 60",
+            "0 61",
             "0 63",
             "0 0 2",
         ),
@@ -615,6 +779,7 @@ FORMAT: dict[str, Row] = {
     **{f"the name {name!r}": (_named(name), "accepted") for name in GOOD_NAMES},
     **{f"the name {name!r} is none": (_named(name), "malformed") for name in BAD_NAMES},
     **{f"the step {step[:20]!r}, {len(step)}": (_steps(step), status) for step, status in STEPS_OF.items()},
+    "a term of a long name": (_polynomial("x" * 4001), "malformed"),
     "a name of no text": (_named(5), "malformed"),
     "a step of no text": (_steps(5), "malformed"),
     "a step of 64 factors": (_steps("0" + " 0" * 64), "accepted"),
@@ -650,6 +815,7 @@ FORMAT: dict[str, Row] = {
     "groups in order": (_groups([[0, 2], [1]]), "rejected"),
     "three groups": (_groups([[0], [1], [2]]), "rejected"),
     "a group out of order, first": (_groups([[2, 0], [1]]), "malformed"),
+    "a group alone out of order": (_groups([[1, 0], [2]]), "malformed"),
     "a group out of order, last": (_groups([[0], [2, 1]]), "malformed"),
     "groups out of order": (_groups([[1], [0, 2]]), "malformed"),
     "groups out of order, last": (_groups([[0], [2], [1]]), "malformed"),
@@ -664,7 +830,7 @@ FORMAT: dict[str, Row] = {
     "groups of no list": (_groups(5), "malformed"),
     "a group of no list": (_groups([5]), "malformed"),
     "a group of true": (_groups([[False, True], [2]]), "malformed"),
-    "2000 slices": (_witness(slices=[5] * 2000), "malformed"),
+    "5000 slices": (_witness(slices=[5] * 5000), "malformed"),
     "64 forms": (_witness(forms=[5] * 64), "malformed"),
     "slices of no list": (_witness(slices=5), "malformed"),
     "forms of no list": (_witness(forms=5), "malformed"),
@@ -707,4 +873,4 @@ FORMAT: dict[str, Row] = {
     "a true multiplicity": (put(MADE["some"], True, "solutions", 0, "multiplicity"), "malformed"),
 }
 
-ROWS: dict[str, Row] = merged(WEIGHTS, BOXES, INFINITY, CLAIMS, FORMAT)
+ROWS: dict[str, Row] = merged(MIXED, WEIGHTS, BOXES, INFINITY, CLAIMS, FORMAT)

@@ -59,7 +59,6 @@ _WITNESS: Final = ("cause", "forms", "slices")
 _SOLUTION: Final = ("parameter", "values", "multiplicity")
 
 _PRODUCT: Final = re.compile(r"(?:0|[1-9][0-9]{0,5})(?: (?:[0-9]|[1-5][0-9]|6[0-3])){0,64}", re.ASCII)
-_MOST_SLICES: Final = 2000
 
 
 @dataclass(frozen=True)
@@ -192,8 +191,6 @@ def _product(value: Any, where: str) -> Row:
 
 def _witness(value: Any, size: int) -> Witness:
     cause, forms, slices = entries(value, "witness", _WITNESS)
-    if isinstance(slices, list) and len(slices) > _MOST_SLICES:
-        raise too_large(f"witness.slices: more than {_MOST_SLICES}")
     if isinstance(forms, list) and len(forms) > MAX_VARIABLES:
         raise too_large(f"witness.forms: more than {MAX_VARIABLES}")
     return Witness(
