@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from copy import deepcopy
 from fractions import Fraction
-from math import isqrt
+from math import cos, isqrt, radians, sin
 from random import Random
 from typing import Any
 
 from handmade_regions import (
     ALONG,
+    ANGLES,
     Content,
     Placed,
     chart_of,
@@ -34,6 +35,7 @@ Row = tuple[Content, str, str]
 
 INSIDE = "paving: the part of letter 1 is not proved to be inside"
 OUTSIDE = "paving: the part of letter 1 is not proved to be outside"
+EMPTY = "shape: the middle of the box is not in it"
 BEYOND = "counterexample: a pose is not one of the region"
 GOOD = "claim: all poses of the region are good"
 NO_FAILURE = "counterexample: no condition is proved to fail there"
@@ -235,10 +237,10 @@ def shape_rows() -> Iterator[tuple[str, Row]]:
                 wrong = content | {"shape": [part(9), part(-value + Fraction(step, 500), linear, weights), part(8)]}
                 yield f"shape {seed}, {number}, {step}", (pointed(wrong), status, line)
             wide = part(-value + Fraction(1, 50), linear, weights), part(-value - Fraction(1, 50), linear, weights)
-            for shape, all_of, outside in ((wide[0], "rejected", "accepted"), (wide[1], "accepted", "accepted")):
+            for shape, line in ((wide[0], INSIDE), (wide[1], EMPTY)):
                 both = content | {"shape": [part(9), shape]}
-                yield f"shape {seed}, {number}, all, {all_of}", (both, all_of, GOOD if all_of == "accepted" else INSIDE)
-                yield f"shape {seed}, {number}, out, {all_of}", (as_map(both, "o"), outside, "")
+                yield f"shape {seed}, {number}, all, {line[:5]}", (both, "rejected", line)
+                yield f"shape {seed}, {number}, out, {line[:5]}", (as_map(both, "o"), "accepted", "")
             near = deepcopy(content) | {"shape": [wide[1]]}
             near["robot"]["legs"][0]["reach"] = None
             yield f"shape {seed}, {number}, out of it", (as_map(near, "o"), "accepted", "")
@@ -497,6 +499,12 @@ def _even(points: Any) -> Content:
     return region([one, other], forms=[form], **motion, modes=[1, 1], points=points)
 
 
+def _cut(least: str) -> Content:
+    """x up to a number, where lengths up to 9/2 are allowed; the last quarter is beyond the shape, or not."""
+    bounded = leg((0, 0, 0), (0, 0, 0), (3, "9/2"))
+    return region([bounded], box=[[3, 5]], shape=[part(least, (-1, 0, 0))], paving="sisii", axes=[0, 0])
+
+
 ROOTS: dict[str, Row] = {
     "roots, with room": (_rounded(3 + _root(NEAR, False) - SLACK, 3 + _root(FAR, True) + SLACK), "accepted", GOOD),
     "roots, too low": (_rounded(3 + _root(NEAR, True), 9), "rejected", INSIDE),
@@ -556,6 +564,8 @@ ROOTS: dict[str, Row] = {
         "rejected",
         "paving: the part of letter 3",
     ),
+    "beyond a shape": (_cut("449/100"), "accepted", GOOD),
+    "not beyond a shape": (_cut("23/5"), "rejected", "paving: the part of letter 5"),
     "a wide map": (
         region(FREELY, box=[[2, 4]], position=[[2, 3]], paving="siu", claim="map", measure=["1", "2"]),
         "accepted",
@@ -656,6 +666,59 @@ WORDS: dict[str, Row] = {
         for key, value in {"paving": "i", "inside": 1, "undecided": 1, "measure": ["0", "0"]}.items()
     },
     "a pose beside parts": (region(counterexample=[["3"]]), "malformed", "counterexample: there is one"),
+}
+
+# Cones and cranks, angle by angle
+
+
+def _cosines() -> dict[str, Row]:
+    """A leg along x, and axes one degree within the angle of a cone or beyond it."""
+    found: dict[str, Row] = {}
+    for angle in ANGLES:
+        for step, status, line in ((-1, "accepted", GOOD), (1, "rejected", INSIDE)):
+            if angle + step <= 180:
+                turned = radians(angle + step)
+                axis = [Fraction(x).limit_denominator(10**6) for x in (cos(turned), sin(turned), 0)]
+                content = region(base_cones=[cone(axis, angle)])
+                found[f"a cone of {angle} degrees, {step}"] = (content, status, line)
+                if step > 0:
+                    found[f"a cone of {angle} degrees, there"] = (pointed(content), "accepted", BROKEN)
+    return found
+
+
+def _quadrants() -> dict[str, Row]:
+    """A crank that is somewhere in each quadrant, and ranges of all of them."""
+    found: dict[str, Row] = {}
+    for angle in (15, 40, 75, 105, 130, 165, 195, 220, 255, 285, 310, 345):
+        c, s = (Fraction(x).limit_denominator(100) for x in (cos(radians(angle)), sin(radians(angle))))
+        place = {"place": ["x", 2 * s, 2], "box": [[2 * c, 2 * c + Fraction(1, 1 << 14)]], "modes": [1]}
+        for start in (0, 90, 180, 270):
+            crank = leg((0, 0, 0), (0, 0, 0), (start, start + 90), **CRANK, rod="5001/1000")
+            content = region([crank], **place)
+            margin = min(Placed(content, point_of(content)).margins())
+            assert abs(margin) > 1
+            good = margin > 0
+            name = f"a crank at {angle} degrees from {start} on"
+            found[name] = (content, "accepted" if good else "rejected", GOOD if good else INSIDE)
+            found[f"{name}, there"] = (
+                pointed(content),
+                "rejected" if good else "accepted",
+                NO_FAILURE if good else BROKEN,
+            )
+    return found
+
+
+WIDE_CRANK = leg((0, 0, 0), (0, 0, 0), u=(1, 0, 0), v=(0, 2, 0), weight=4, rod="361/100")
+UNREACHED = {"place": ["x", 3, 0], "box": [[0, "1/100"]], "modes": [1], "conditions": ["reachable"]}
+TALL = leg((0, 0, 0), (0, 1, 0), ("1/2", 9))
+ANGLED: dict[str, Row] = {
+    **_cosines(),
+    **_quadrants(),
+    "a crank of weight 4 too far away": (region([WIDE_CRANK], **UNREACHED), "rejected", INSIDE),
+    "a crank of weight 4 too far away, there": (pointed(region([WIDE_CRANK], **UNREACHED)), "accepted", BROKEN),
+    "no leg": (region([], modes=[]), "malformed", ""),
+    "proved by no coefficients of its degree": (region([TALL], box=[[-1, 1]]), "rejected", INSIDE),
+    "proved in halves": (region([TALL], box=[[-1, 1]], paving="sii"), "accepted", GOOD),
 }
 
 # The format
@@ -899,6 +962,7 @@ ROWS: dict[str, Row] = merged(
     *map(dict, (random_rows(), determinant_rows(), singular_rows(), shape_rows(), form_rows())),
     CASES,
     ROOTS,
+    ANGLED,
     WORDS,
     GROUPS,
     FORMAT,
