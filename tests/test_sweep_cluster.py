@@ -195,3 +195,18 @@ def test_without_distributed_it_says_what_to_install(
     monkeypatch.setitem(sys.modules, "distributed", None)
     assert main(words(tmp_path, rows(tmp_path, 5), "out", "--scheduler", "tcp://127.0.0.1:8786")) == 2
     assert 'pip install "pkm_exact[distributed]"' in capsys.readouterr().err
+
+
+@needs_distributed
+def test_a_region_on_a_cluster_gives_the_same_bytes(tmp_path: Path, dask: Cluster) -> None:
+    question = tmp_path / "question.toml"
+    lines = "[region]\nposition = [[0, 9], [0, 9]]\ndegrees = 0\n[conditions]\nreachable = true\n[answer]\n"
+    question.write_text(f"{lines}kind = 'map'\nsteps = 11\n")
+    command = ["region", str(Path(__file__).parent.parent / "models" / "3-rrr.toml"), str(question), "-o"]
+    assert main([*command, str(tmp_path / "a.json")]) == 0
+    done = in_process([*command, str(tmp_path / "b.json"), "--scheduler", dask.address])
+    error = done.communicate(timeout=120)[1]
+    assert done.returncode == 0, error
+    assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
+    assert main([*command, str(tmp_path / "c.json"), "--scheduler", dask.address, "--workers", "2"]) == 2
+    assert not (tmp_path / "c.json").exists()

@@ -29,12 +29,20 @@ if TYPE_CHECKING:
 @click.option(
     "--workers", type=click.IntRange(1, 256), default=1, show_default=True, help="Processes; the answer is the same."
 )
+@click.option("--scheduler", metavar="ADDRESS", help="Use the Dask cluster with this scheduler, as tcp://host:8786.")
 @click.option(
     "--picture", type=arguments.FilePath(), metavar="FILE", help="Draw the paving: a .png, .svg or .pdf file."
 )
 @click.option("-v", "--verbose", is_flag=True, help="Say more: the share of the work that is done.")
 def region(
-    model: str, question: str, output: str | None, layout: str, workers: int, picture: str | None, verbose: bool
+    model: str,
+    question: str,
+    output: str | None,
+    layout: str,
+    workers: int,
+    scheduler: str | None,
+    picture: str | None,
+    verbose: bool,
 ) -> int:
     """Answer a question about all poses of a region of the robot in the file MODEL.
 
@@ -55,6 +63,8 @@ def region(
     from pkm_exact.regions.question_reader import read_question
     from pkm_exact.regions.region_legs import region_machine
 
+    if scheduler is not None and workers > 1:
+        raise click.UsageError("--workers and --scheduler exclude each other: a cluster has its own workers.")
     robot = announced_model(model)
     try:
         machine = region_machine(robot)
@@ -72,7 +82,7 @@ def region(
 
     try:
         with Progress(verbose=verbose) as progress:
-            answer = _answer(machine, asked, workers, output, progress)
+            answer = _answer(machine, asked, scheduler or workers, output, progress)
     except InputError as error:
         raise InputError(f"{question}: {error}") from None
     from pkm_exact.cli import region_report
@@ -170,7 +180,7 @@ def _extremes(machine: RegionMachine, asked: RegionQuestion, question: str, layo
 
 
 def _answer(
-    machine: RegionMachine, asked: RegionQuestion, count: int, output: str | None, progress: Progress
+    machine: RegionMachine, asked: RegionQuestion, by: int | str, output: str | None, progress: Progress
 ) -> RegionAnswer | LargestAnswer:
     from pkm_exact.regions.question_reader import of_size
     from pkm_exact.regions.region_solver import answered, largest
@@ -179,7 +189,13 @@ def _answer(
     def shown(size: Fraction, proved: bool) -> None:
         progress(f"size {float(size):.6g}: {'proved' if proved else 'not proved'}")
 
-    with workers(machine, count) as run:
+    if isinstance(by, str):
+        from pkm_exact.sweep.region_cluster import cluster_run
+
+        chosen = cluster_run(machine, by)
+    else:
+        chosen = workers(machine, by)
+    with chosen as run:
         if asked.answer.kind == "largest":
             answer = largest(machine, asked, lambda size: of_size(asked, machine, size), run=run, progress=shown)
             if output is not None and answer.proved is not None:

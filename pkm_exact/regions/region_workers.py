@@ -33,7 +33,7 @@ def workers(machine: RegionMachine, count: int) -> Iterator[Run]:
     pool = ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=_begin)
 
     def run(ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
-        return pool.map(_paved, [(machine, ready.question, part) for part in parts], chunksize=_PARTS_AT_ONCE)
+        return pool.map(paved_part, [(machine, ready.question, part) for part in parts], chunksize=_PARTS_AT_ONCE)
 
     try:
         yield run
@@ -46,7 +46,8 @@ def _begin() -> None:
     end_with_parent()
 
 
-def _paved(job: tuple[RegionMachine, RegionQuestion, Part]) -> Paved:
+def paved_part(job: tuple[RegionMachine, RegionQuestion, Part]) -> Paved:
+    """The paving of a part of a question about a robot; what is ready for the question is kept for the next part."""
     machine, question, part = job
     key = repr((machine, question))
     if key not in _READY:

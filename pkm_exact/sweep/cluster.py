@@ -47,9 +47,22 @@ def cluster_workers(job: SweepJob, address: str) -> Iterator[ClusterWorkers]:
     Raises
     ------
     InputError
-        If distributed is not installed, the scheduler cannot be reached, or it has no worker with this version.
+        As ``connected_cluster``.
     PkmExactError
         If the cluster fails.
+    """
+    with connected_cluster(address) as (distributed, client):
+        yield ClusterWorkers(distributed, client, job)
+
+
+@contextmanager
+def connected_cluster(address: str) -> Iterator[tuple[Any, Any]]:
+    """The package distributed, and a client of the cluster; what it still has to do is cancelled at the end.
+
+    Raises
+    ------
+    InputError
+        If distributed is not installed, the scheduler cannot be reached, or it has no worker with this version.
     """
     try:
         import distributed
@@ -64,7 +77,7 @@ def cluster_workers(job: SweepJob, address: str) -> Iterator[ClusterWorkers]:
         client = _connected(distributed, address)
         try:
             _require_same_version(client, address)
-            yield ClusterWorkers(distributed, client, job)
+            yield distributed, client
         finally:
             client.close(timeout=SECONDS)
     finally:
@@ -131,7 +144,7 @@ class ClusterWorkers:
         except TimeoutError:
             return []
         except (Exception, self._distributed.CancelledError) as error:
-            raise _failure(error) from None
+            raise cluster_failure(error) from None
         for future, _ in found:
             del self._rows[future]
         return [answer for _, answer in found]
@@ -147,7 +160,7 @@ class ClusterWorkers:
         return answer
 
 
-def _failure(error: BaseException) -> PkmExactError:
+def cluster_failure(error: BaseException) -> PkmExactError:
     return PkmExactError(f"the cluster failed ({_reason(error)}); the same command goes on from here")
 
 
