@@ -296,3 +296,11 @@ def test_positions_are_those_of_the_tool_point(name: str) -> None:
         robot_from_toml(text.replace(f"tool = [{words}]", "tool = [1]"))
     with pytest.raises(InputError, match="tool"):
         robot_from_toml(text.replace(f"tool = [{words}]", "").replace("[base]\n", f"[base]\ntool = [{words}]\n"))
+
+
+@pytest.mark.parametrize(
+    ("text", "part"), [('{"format": 1}', "is JSON, as certificates"), ("# a\nname: x\n", "is YAML")]
+)
+def test_files_of_other_sorts_are_named(text: str, part: str) -> None:
+    with pytest.raises(InputError, match=part):
+        robot_from_toml(text)

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from math import atan2, degrees
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -361,8 +362,10 @@ def words(tmp_path: Path) -> list[str]:
 
 
 def test_the_command_writes_csv_and_json(words: list[str], tmp_path: Path, capsys: Capture) -> None:
-    assert main([*words, str(tmp_path / "out.csv")]) == 0
+    assert main([*words, str(tmp_path / "out.csv"), "--exact"]) == 0
     assert "31 of 31 rows" in capsys.readouterr().out
+    assert main([*words, str(tmp_path / "decimals.csv")]) == 0
+    decimals = list(csv.DictReader((tmp_path / "decimals.csv").read_text().splitlines()))
     assert main([*words, str(tmp_path / "out.json")]) == 0
     rows = list(csv.DictReader((tmp_path / "out.csv").read_text().splitlines()))
     content = json.loads((tmp_path / "out.json").read_text())
@@ -372,6 +375,11 @@ def test_the_command_writes_csv_and_json(words: list[str], tmp_path: Path, capsy
         bounds = sample.pose.position[0]
         assert [row["x_lo"], row["x_hi"]] == entry["position"][0] == [str(bounds.lo), str(bounds.hi)]
         assert int(row["steps"]) == entry["steps"] == sample.steps
+        plain = decimals[int(row["row"]) - 1]
+        digits = len(plain["x"].partition(".")[2])
+        assert abs(Fraction(plain["x"]) - bounds.midpoint) <= Fraction(1, 10**digits)
+        turned = atan2(float(sample.pose.rotation[1][0].midpoint), float(sample.pose.rotation[0][0].midpoint))
+        assert float(plain["degrees"]) == pytest.approx(degrees(turned), abs=1e-6)
         assert int(row["det_sign"]) == entry["det_sign"] == sample.det_sign
         assert int(row["row"]) == entry["row"] == sample.row + 1
         assert row["time"] == entry["time"]

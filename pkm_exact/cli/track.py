@@ -58,9 +58,17 @@ _SECONDS_PER_LINE: Final = 0.1
     metavar="OUT",
     help="Write the samples to OUT.csv or OUT.json.",
 )
+@click.option("--exact", is_flag=True, help="In a .csv file exact bounds, not decimals; a .json file has them always.")
 @click.option("-v", "--verbose", is_flag=True, help="Say more: stages and rows on a terminal.")
 def track(
-    model: str, path: str, number: int | None, modes: str | None, width: Fraction, output: str, verbose: bool
+    model: str,
+    path: str,
+    number: int | None,
+    modes: str | None,
+    width: Fraction,
+    output: str,
+    exact: bool,
+    verbose: bool,
 ) -> int:
     """Follow one pose of the robot in the file MODEL along a path of joint values, and prove that it is one branch.
 
@@ -99,11 +107,18 @@ def track(
     if number is None or modes is not None:
         what = "--working-modes: is for a path of poses" if modes is not None else "--start: is missing"
         raise click.UsageError(f"{what}; a path of joint values needs --start and nothing else.")
-    return _track_joints(robot, (model, path), number, width, target, verbose=verbose)
+    return _track_joints(robot, (model, path), number, width, target, exact=exact, verbose=verbose)
 
 
 def _track_joints(
-    robot: Robot | Mechanism, files: tuple[str, str], number: int, width: Fraction, target: Path, *, verbose: bool
+    robot: Robot | Mechanism,
+    files: tuple[str, str],
+    number: int,
+    width: Fraction,
+    target: Path,
+    *,
+    exact: bool,
+    verbose: bool,
 ) -> int:
     """Follow a pose along a path of joint values, and write the samples; files are those of model and path."""
     from pkm_exact.cli.track_report import start_line, written
@@ -126,7 +141,7 @@ def _track_joints(
             click.echo(f"{PROGRAM}: interrupted after row {len(store.records)}; the same command goes on", err=True)
             raise
         try:
-            written(target, robot, joints, number, store.records, stopped)
+            written(target, robot, joints, number, store.records, stopped, exact=exact)
         except OSError as error:
             raise InputError(f"{target}: cannot be written ({error.strerror}); give another path to -o") from None
         store.remove()

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from pkm_exact.cli.report import robot_object
 from pkm_exact.files import write_whole
 from pkm_exact.geometry.path_reader import TIME, joint_names
+from pkm_exact.geometry.rational import finite_decimal
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
@@ -90,12 +91,20 @@ def start_line(number: int, *, proved: bool) -> str:
 
 
 def written(
-    target: Path, robot: Machine, joints: JointPath, number: int, records: Sequence[Record], stopped: Record | None
+    target: Path,
+    robot: Machine,
+    joints: JointPath,
+    number: int,
+    records: Sequence[Record],
+    stopped: Record | None,
+    *,
+    exact: bool,
 ) -> None:
-    """Write the output, CSV or JSON by its suffix; it appears whole or not at all."""
+    """Write the output, CSV or JSON by its suffix; it appears whole or not at all. JSON is always exact."""
     if target.suffix.lower() == ".csv":
         text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows(_rows(robot, joints, records))
+        rows = _rows if exact else _decimal_rows
+        csv.writer(text, lineterminator="\n").writerows(rows(robot, joints, records))
         write_whole(target, text.getvalue().encode())
         return
     content = {
@@ -151,6 +160,31 @@ def _rows(robot: Machine, joints: JointPath, records: Sequence[Record]) -> Itera
             str(record["row"]),
             *map(str, (*when, *joints.rows[place])),
             *(end for entry in entries for end in entry),
+            str(record["point"]["det_sign"]),
+            str(record["steps"]),
+            *_limit_fields(robot, joints, record),
+        ]
+
+
+def _decimal_rows(robot: Machine, joints: JointPath, records: Sequence[Record]) -> Iterator[list[str]]:
+    """The same in decimals, right to one unit of the last digit, with angles in degrees."""
+    from pkm_exact.poses.pose_spelling import pose_of
+    from pkm_exact.poses.roll_pitch_yaw import roll_pitch_yaw
+
+    planar = robot.motion.is_planar
+    names = ["x", "y", "degrees"] if planar else ["x", "y", "z", "roll", "pitch", "yaw", "q0", "q1", "q2", "q3"]
+    time = [] if joints.times is None else [TIME]
+    limits = () if robot.limits is None else ("feasible", *(f"limit_{name}" for name in robot.limits.names))
+    yield ["row", *time, *(f"joint_{name}" for name in joint_names(robot)), *names, "det_sign", "steps", *limits]
+    for record in records:
+        place, pose = record["row"] - 1, pose_of(record)
+        when: list[Fraction] = [] if joints.times is None else [joints.times[place]]
+        angles = roll_pitch_yaw(pose)
+        values = [*pose.position[:2], angles[2]] if planar else [*pose.position, *angles, *pose.quaternion]
+        yield [
+            str(record["row"]),
+            *(finite_decimal(value) or repr(float(value)) for value in (*when, *joints.rows[place])),
+            *("" if value is None else str(value) for value in values),
             str(record["point"]["det_sign"]),
             str(record["steps"]),
             *_limit_fields(robot, joints, record),

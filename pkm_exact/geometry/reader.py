@@ -50,6 +50,7 @@ MAX_BYTES: Final = 1 << 16
 _MAX_RUN: Final = 640  # digits in a row; below every limit that Python can be set to
 _MAX_DOTS: Final = 200  # dots in a line; the parser's time grows steeply with the parts of a dotted key
 _MAX_TEXT: Final = 2000
+_YAML: Final = re.compile(r"[A-Za-z_][\w-]*:(\s|$)", re.ASCII)
 _DECLARED: Final = (CONSTRAINTS_KIND, LINKS_KIND, CHAINS_KIND)
 _TOP: Final = (
     "schema",
@@ -366,9 +367,24 @@ def _parse(text: str) -> dict[str, Any]:
     except RecursionError:
         raise InputError("brackets are nested too deeply; a model file needs at most three levels") from None
     except ValueError as error:
-        raise InputError(f"not valid TOML: {printable(str(error))[:200]}; correct the file") from None
+        known = _what_it_is(text)
+        raise InputError(known or f"not valid TOML: {printable(str(error))[:200]}; correct the file") from None
 
 
 def parsed_toml(text: str) -> dict[str, Any]:
     """The tables of another file with numbers as exact as in models, its size bounded likewise."""
     return _parse(text)
+
+
+def _what_it_is(text: str) -> str | None:
+    """What a file that is no TOML looks like, and what to do with it.
+
+    >>> _what_it_is("name: robot")
+    'is YAML, it seems; a model file is TOML, with name = ".." in place of name: ..; `new` makes a first one'
+    """
+    first = next((line.strip() for line in text.split("\n") if line.strip() and not line.lstrip().startswith("#")), "")
+    if first.startswith("{"):
+        return "is JSON, as certificates are; use check, plot or report for it, and give the path of a model file here"
+    if first == "---" or _YAML.match(first):
+        return 'is YAML, it seems; a model file is TOML, with name = ".." in place of name: ..; `new` makes a first one'
+    return None
