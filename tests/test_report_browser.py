@@ -380,6 +380,15 @@ def test_the_picture_comes_before_the_proof(rolland: Tab) -> None:
     assert found.index("claim") < found.index("poses") < found.index("reasons")
 
 
+def test_a_pose_is_not_called_the_third_of_one(chromium: WebDriver, tmp_path: Path) -> None:
+    """Where only one pose has a box, its number is that of the whole list."""
+    certificate, page = tmp_path / "one.json", tmp_path / "one.html"
+    words = ["solve", "models/3-rrr.toml", "--method", "krawczyk", "--near", "6.2,-3.8,-8", "--nearest"]
+    assert main([*words, "--tolerance", "0.001", "-o", str(certificate)]) == 0
+    assert main(["report", str(certificate), "-o", str(page)]) == 0
+    assert Tab(chromium, page).element("#pose-title").text == "Pose 3 (listed: 1)"
+
+
 def test_columns_are_sorted_both_ways(rolland: Tab) -> None:
     data = data_of(page("rolland-6-6"))
     column = data["columns"].index("condition")

@@ -16,9 +16,15 @@ function tableRow(cells, heading) {
   return row;
 }
 
+/** A pose by its number, which is not its place in the list if others are not listed. */
+function named(data, number) {
+  const count = data.poses.length;
+  return data.poses.some((pose) => pose.number > count) ? `Pose ${number} (listed: ${count})` : `Pose ${number} of ${count}`;
+}
+
 /** Position, quaternion, matrix and exact box of one pose. */
 function showNumbers(data, pose) {
-  byId("pose-title").textContent = `Pose ${pose.number} of ${data.poses.length}`;
+  byId("pose-title").textContent = named(data, pose.number);
   const lines = pose.lines.flatMap(([name, value]) => [make("dt", name), make("dd", value, { class: "number" })]);
   byId("pose-lines").replaceChildren(...lines);
   byId("pose-matrix").replaceChildren(...pose.rotation.map((row, i) => tableRow(row, `row ${i + 1}`)));
@@ -95,7 +101,7 @@ function startPoses(data) {
   };
   const choose = (number) => {
     show(number);
-    announce(`Pose ${number} of ${data.poses.length} is shown. ${data.poses[withNumber.get(number)].summary}`);
+    announce(`${named(data, number)} is shown. ${data.poses[withNumber.get(number)].summary}`);
   };
   const step = (by) => {
     const place = table.order.indexOf(shown) + by;
