@@ -45,7 +45,7 @@ def test_first_order_is_the_limit_of_certified_boxes(name: str) -> None:
         assert 0 < before[0] < 0.01
         assert 0 < before[1] < 0.01
         assert 15 * after[0] < before[0] < 17 * after[0]
-        assert after[1] - (MARGIN - 1) < (before[1] - (MARGIN - 1)) / 15
+        assert after[1] - (MARGIN - 1) < (before[1] - (MARGIN - 1)) / 15 + 1e-8  # radii have 30 bits
 
 
 def test_what_cannot_be_compared_is_refused() -> None:

@@ -53,7 +53,7 @@ def _page(solution: Solution, robot: Robot) -> str:
 
 
 def _sweep(solution: Solution, robot: Robot) -> str:
-    return solution_line(LengthRow(1, 2, ("1", "1", "1")), robot, solution, b"").decode()
+    return solution_line(LengthRow(1, 2, ("1", "1", "1")), robot, None, solution, b"").decode()
 
 
 SHOWN: dict[Output, Callable[[Solution, Robot], str]] = {

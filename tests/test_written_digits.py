@@ -194,7 +194,7 @@ def test_rows_of_a_batch_say_it_too() -> None:
     solution = solve_krawczyk(problem_at(robot, tuple(map(Fraction, row))))
     read = LengthRow(1, 1, tuple(row), None)
     notes = [
-        json.loads(solution_line(read, replace(robot, written_digit=digit), solution, b""))["notes"]
+        json.loads(solution_line(read, replace(robot, written_digit=digit), None, solution, b""))["notes"]
         for digit in (None, Fraction(1))
     ]
     assert "the data do not have" in " ".join(notes[1])

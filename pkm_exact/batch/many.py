@@ -77,7 +77,7 @@ class ManySolutions:
     Examples
     --------
     >>> from pkm_exact import solve_many
-    >>> found = solve_many("models/3-rpr-merlet-p.toml", [[7, 5, 5], [7.1, 5, 5]])
+    >>> found = solve_many("models/3-rpr-merlet-p.toml", [[7, 5, 5], ["7.1", 5, 5]])
     >>> [int(count) for count in found.rows["count"]], found.poses["position"].shape
     ([2, 2], (4, 3))
     """

@@ -121,10 +121,11 @@ def write_certificate(path: str | os.PathLike[str], content: dict[str, Any]) -> 
     --------
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
-    >>> from pkm_exact import Robot, check_bytes
-    >>> content = Robot.load("models/3-rpr-merlet-p.toml").solve().certificate()
+    >>> from pkm_exact import Robot, certificate, check_bytes, solve
+    >>> robot = Robot.load("models/3-rpr-merlet-p.toml")
+    >>> content = certificate(robot, None, solve(robot.problem(robot.configuration())))
     >>> with TemporaryDirectory() as folder:
-    ...     write_certificate(content, Path(folder) / "it.json")
+    ...     write_certificate(Path(folder) / "it.json", content)
     ...     str(check_bytes((Path(folder) / "it.json").read_bytes()).status)
     'accepted'
     """

@@ -43,8 +43,8 @@ def unit_quaternion(
     Examples
     --------
     >>> quarter = ((_ZERO, Interval(Fraction(-1), Fraction(-1)), _ZERO), (_ONE, _ZERO, _ZERO), (_ZERO, _ZERO, _ONE))
-    >>> [str(value) for value in unit_quaternion(quarter, 20)]
-    ['0.707107', '0.000000', '0.000000', '0.707107']
+    >>> [round(float(value.midpoint), 6) for value in unit_quaternion(quarter, 20)]
+    [0.707107, 0.0, 0.0, 0.707107]
     """
     with working_precision(2 * exponent + GUARD_BITS):
         r = [[hull(value.lo, value.hi) for value in row] for row in rotation]

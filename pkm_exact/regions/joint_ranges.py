@@ -70,8 +70,8 @@ def common_range(ranges: Sequence[JointRange]) -> JointRange | None:
     --------
     >>> ends = [Interval(Fraction(k), Fraction(k)) for k in (1, 2, 3, 5)]
     >>> ranges = [JointRange("a", "m", ends[0], ends[2], True), JointRange("b", "m", ends[1], ends[3], True)]
-    >>> print(common_range(ranges).stroke)
-    4
+    >>> str(common_range(ranges).stroke)
+    '4.000000000000000'
     """
     if len({found.unit for found in ranges}) != 1:
         return None
