@@ -83,5 +83,5 @@ figure  # noqa: B018
 # %% [markdown]
 # ## Answer
 #
-# No. Of the printed designs every pose of the cube is proved to be reached. Of the better one all corners are, and yet an
-# exact pose in it is not: about a sixth of the cube cannot be reached, which no sample of corners shows.
+# No. Of the printed designs every pose of the cube is proved to be reached. Of the better one all corners are, and yet
+# an exact pose in it is not, nor are between 14 and 19 percent of the cube: no sample of corners shows that.
