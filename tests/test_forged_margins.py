@@ -3,15 +3,16 @@
 import pytest
 from certificate_tools import both_resealed, last_line
 from forged_margins import MARGINS, huge
+from forged_sections import SECTIONS
 from forged_tolerances import TIGHT
 
 from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 
 
-@pytest.mark.parametrize("name", [*MARGINS, *TIGHT])
+@pytest.mark.parametrize("name", [*MARGINS, *SECTIONS, *TIGHT])
 def test_a_margin(name: str) -> None:
-    make, status = (MARGINS | TIGHT)[name]
+    make, status = (MARGINS | SECTIONS | TIGHT)[name]
     answer = both_resealed(make())
     assert answer.status == status, last_line(answer)
 

@@ -1,0 +1,178 @@
+"""Certificates of mechanisms with cylinders in their sections, points at infinity, slices, and unlucky primes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+from math import prod
+from typing import Any
+
+from certificate_subjects import Content
+from flint import fmpz_poly
+from forged_margins import ACCEPTED, NO_POSE, REJECTED, Case
+from held_mechanisms import Numbers, Pose, listing, moving
+
+from pkm_exact.certify import pure
+from pkm_exact.certify.checker.solutions import primes_for
+from pkm_exact.constraints.constraint import Constraint
+
+
+def _without_pose(kind: str, constraints: Callable[[Pose], list[Constraint]]) -> Content:
+    """Constraints that no pose is to have, by an elimination without steps."""
+    at = Pose((1, 0, 0, 0), (0, 1, 2, 5))
+    return listing(kind, [at], constraints(at), None) | NO_POSE | EMPTY_ELIMINATION
+
+
+EMPTY_ELIMINATION: Content = {"completeness_route": "exact-elimination", "elimination": []}
+
+
+def _along_an_axis(at: Pose, wider: int) -> list[Constraint]:
+    """Planes keep a point on a line that is parallel to the axis of a cylinder."""
+    point, axis = (1, 1, 2), (1, 2, 2)
+    cylinder = at.axis_distance((3, 1, 2), axis, point)
+    around = replace(cylinder, radius_squared=cylinder.radius_squared + wider)
+    return [at.in_plane((2, -1, 0), point), at.in_plane((0, 1, -1), point), around]
+
+
+SPHERE, LEVEL, UPRIGHT = ([int(k == place) for k in range(16)] for place in (0, 4, 6))
+"""|C|^2, C1 and C3."""
+
+
+def _circle_in_slices(
+    points: Sequence[tuple[int, int]], forms: Sequence[Numbers], planes: Sequence[Numbers], *, real: bool
+) -> Content:
+    """Poses of a translation with C3 = 0, the first of them with |C| = 5, in slices of constant C1."""
+    poses = [Pose((1, 0, 0, 0), (0, x, y, 0)) for x, y in points]
+    constraints = [poses[0].linear(plane) for plane in planes]
+    slices = [
+        {
+            "constant": str(pose.quantities()[0][0]),
+            "representation": listing("translation", [pose], constraints, None)["representation"],
+        }
+        for pose in poses
+    ]
+    square = poses[0].distance((0, 0, 0), (0, 0, 0)).length_squared
+    spelled = [[*map(str, form), str(-square * form[0])] for form in forms]
+    content = moving(listing("translation", poses[:1], constraints, None), "more-poses-than-bound", real=real)
+    motion = content["self_motion"] | {"forms": spelled, "slices": slices}
+    return content | {"representation": None, "self_motion": motion}
+
+
+def _complex_sphere(*, real: bool) -> Content:
+    """A leg lets a platform move that is not turned; it is shown with C = (i, 3, 0) and its conjugate."""
+    at = Pose((1, 0, 0, 0), (0, 2, 2, 0))
+    content = listing("translation", [at], [at.distance((0, 0, 0), (0, 0, 0))], None)
+    content["representation"] = {
+        "chart": [1, 0, 0, 0],
+        "separating_form": [0, 0, 0, 0, 0, 1, 0, 0],
+        "eliminant": ["0x1", "0x0", "0x1"],
+        "quaternion": [["0x0", "0x2"], [], [], []],
+        "translation": [[], ["-0x2"], ["0x0", "0x6"], []],
+    }
+    return moving(content, "dependent-forms", real=real)
+
+
+def _nearly_dependent(**entries: Any) -> Content:
+    """Three planes whose normals are dependent modulo all primes that either checker tries."""
+    at = Pose((1, 0, 0, 0), (0, 1, 2, 5))
+    p = prod({*primes_for(fmpz_poly([0, 1])), *pure.good_primes([0, 1])})
+    planes = [at.in_plane(n, (1, 1, 2)) for n in ((1, 0, 0), (0, 1, 0), (1, 1, p))]
+    return listing("translation", [at], planes) | entries
+
+
+def _planar_infinity(**entries: Any) -> Content:
+    """A double pose of a planar robot, and two points at infinity that would count twice on spatial motions."""
+    at = Pose((1, 0, 0, 0), (0, 1, 0, 0))
+    legs = [at.distance((a, 0, 0), (b, 0, 0)) for a, b in ((0, 0), (5, 3), (11, 1))]
+    coordinates: list[list[str]] = [[] for _ in range(16)]
+    coordinates[5], coordinates[6] = ["0x0", "0x2"], ["-0x2"]  # C = (0, 1, t), t^2 + 1 = 0
+    chart, form = ([int(k == place) for k in range(16)] for place in (5, 6))
+    infinity = {"chart": chart, "separating_form": form, "eliminant": ["0x1", "0x0", "0x1"]}
+    return listing("planar", [at], legs, 2, 2) | {
+        "claim": "complete",
+        "completeness_route": "counting-at-infinity",
+        "infinity": infinity | {"coordinates": coordinates, "multiplicity": 4} | entries,
+    }
+
+
+def _beside_a_point() -> Content:
+    """A pose that is not at the point where it is held, in one coordinate alone."""
+    at, held = (Pose((1, 0, 0, 0), (0, 1, 2, z)) for z in (5, 6))
+    content = listing("translation", [at], [held.at_point((1, 1, 2))])
+    return content | {"claim": "complete", "completeness_route": "product-bound"}
+
+
+def _doubled() -> Content:
+    """A true representation, all polynomials of it times 2."""
+    at = Pose((1, 0, 0, 0), (0, 1, 2, 5))
+    content = listing("translation", [at], [at.at_point((1, 1, 2))])
+    shown = content["representation"]
+
+    def twice(polynomial: list[str]) -> list[str]:
+        return [hex(2 * int(c, 16)) for c in polynomial]
+
+    doubled = {key: [twice(polynomial) for polynomial in shown[key]] for key in ("quaternion", "translation")}
+    representation = shown | doubled | {"eliminant": twice(shown["eliminant"])}
+    complete = {"claim": "complete", "completeness_route": "product-bound"}
+    return content | complete | {"representation": representation}
+
+
+def _free_in_the_plane() -> Content:
+    """A planar mechanism whose only constraint holds for all planar motions."""
+    at = Pose((1, 0, 0, 0), (0, 1, 2, 0))
+    return moving(listing("planar", [at], [at.linear(UPRIGHT)], None), "dependent-forms")
+
+
+SECTIONS: dict[str, Case] = {
+    "a pose beside the point where it is held": (_beside_a_point, REJECTED),
+    "a representation that is not in lowest terms": (_doubled, REJECTED),
+    "a constraint that holds for all motions": (_free_in_the_plane, ACCEPTED),
+    "a line beside the axis of a cylinder, at another distance": (
+        lambda: _without_pose("translation", lambda at: _along_an_axis(at, 7)),
+        ACCEPTED,
+    ),
+    "a line on a cylinder, said to have no pose there": (
+        lambda: _without_pose("translation", lambda at: _along_an_axis(at, 0)),
+        REJECTED,
+    ),
+    "a cylinder alone, said to have no pose": (
+        lambda: _without_pose("spatial", lambda at: [at.axis_distance((3, 1, 2), (1, 2, 2), (1, 1, 2))]),
+        REJECTED,
+    ),
+    **{
+        f"a motion shown with complex poses alone, real: {real}": (
+            partial(_complex_sphere, real=real),
+            REJECTED if real else ACCEPTED,
+        )
+        for real in (True, False)
+    },
+    **{
+        f"as many real poses in slices as can be isolated, and one that is not held, real: {real}": (
+            partial(_circle_in_slices, [(3, 4), (4, 3), (5, 0)], [LEVEL], [SPHERE, UPRIGHT], real=real),
+            REJECTED if real else ACCEPTED,
+        )
+        for real in (True, False)
+    },
+    "as many poses in slices of a sphere as can be isolated": (
+        partial(_circle_in_slices, [(3, 4), (4, 3)], [SPHERE, LEVEL], [UPRIGHT], real=True),
+        REJECTED,
+    ),
+    "more poses in slices of a sphere, one of them not on it": (
+        partial(_circle_in_slices, [(3, 4), (4, 3), (5, 1)], [SPHERE, LEVEL], [UPRIGHT], real=False),
+        REJECTED,
+    ),
+    "planes that are dependent modulo all primes": (
+        lambda: _nearly_dependent(claim="complete", **EMPTY_ELIMINATION),
+        ACCEPTED,
+    ),
+    "points at infinity of planar motions": (_planar_infinity, REJECTED),
+    "points at infinity at the root of a polynomial of degree 1": (
+        lambda: _planar_infinity(eliminant=["0x0", "0x1"], coordinates=[[]] * 16),
+        REJECTED,
+    ),
+    "points at infinity at the roots of a constant": (
+        lambda: _planar_infinity(eliminant=["0x1"], coordinates=[[]] * 16),
+        "malformed",
+    ),
+}
