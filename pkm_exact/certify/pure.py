@@ -935,7 +935,7 @@ class Residue:
 
 
 def good_primes(polynomial: Polynomial) -> Iterator[int]:
-    """Primes that do not divide the leading coefficient; on the last ones no robot is built: they follow from it."""
+    """Primes that do not divide the leading coefficient; the last ones follow from all: none is met by accident."""
     seed = sha256(",".join(map(hex, polynomial)).encode()).digest()
     numbers = (int.from_bytes(seed[place : place + 8], "big") >> 3 | 1 << 60 | 1 for place in range(0, len(seed), 8))
     derived = (next(n for n in range(number, 1 << 64, 2) if is_prime(n)) for number in numbers)

@@ -23,7 +23,7 @@ from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
 PRIMES: Final = tuple((1 << 63) - offset for offset in (25, 165, 259, 301, 375, 387))
 """Primes of the checker's own; any prime serves, several because one may divide something by accident."""
 MORE_PRIMES: Final = 4
-"""How many others are tried after these, which follow from the eliminant: no robot can be built on them."""
+"""How many others are tried after these, which follow from the eliminant: no robot meets them by accident."""
 
 
 def primitive_part(h: fmpz_poly) -> fmpz_poly:
