@@ -123,3 +123,12 @@ def test_robots_with_cranks_are_refused(tmp_path: Path, capsys: Capture) -> None
     (tmp_path / "poses.csv").write_text(f"{HEADER}\n1,1,1,1,2,1\n")
     assert main(["calibrate", str(MODEL.with_name("3-rrr.toml")), str(tmp_path / "poses.csv")]) == 2
     assert "no robot with actuated legs" in capsys.readouterr().err
+
+
+def test_two_results_are_not_written_to_one_file(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "poses.csv").write_text("x,y,theta,l1,l2,l3\n")
+    target = str(tmp_path / "new.toml")
+    words = ["calibrate", str(MODEL), str(tmp_path / "poses.csv"), "-o", target, "--covariance", target]
+    assert main(words) == 2
+    assert "is to be another file too; give --covariance another path" in capsys.readouterr().err
+    assert not Path(target).exists()

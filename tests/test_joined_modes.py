@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from samples import boxed, model
 
@@ -51,3 +53,17 @@ def test_the_option_says_what_is_joined(capsys: Capture) -> None:
 def test_what_is_not_known_is_said() -> None:
     assert "not known" in joined_in_words([(1, 2), (3,)], are_all=False)
     assert joined_in_words([(1, 2), (3, 4)], are_all=True).endswith("{1, 2}, {3, 4}")
+
+
+@pytest.mark.parametrize("words", [["models/3-rrr.toml"], ["models/x-y.toml"], ["models/links/four-bar.toml"]])
+def test_what_it_is_not_for_is_refused_before_anything_is_written(
+    words: list[str], tmp_path: Path, capsys: Capture
+) -> None:
+    target = tmp_path / "it.json"
+    assert main(["solve", *words, "--joined", "-o", str(target)]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "--joined: is for robots" in err
+    assert not target.exists()
+    assert main(["solve", "models/3-rpr-merlet-p.toml", "--joined", "--method", "newton"]) == 2
+    assert "certified poses" in capsys.readouterr().err

@@ -234,6 +234,7 @@ MALFORMED: dict[str, tuple[Path_, Any]] = {
     "a box too many": (("box",), {"exponent": 1, "radius": 1, "centre": ["0x0"] * 8}),
     "the format of the system": (("system", "format"), "pkm_exact certificate"),
     "the version of the system": (("system", "version"), 2),
+    "a variable that is no text": (("system", "variables", 1), None),
     "no body": (("mechanism", "bodies"), []),
     "no constraint": (("mechanism", "joined"), []),
     "a motion out of the plane": (("mechanism", "bodies", 0, "motion"), "spatial"),

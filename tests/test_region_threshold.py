@@ -44,6 +44,8 @@ def test_what_does_not_change_is_refused(tmp_path: Path, capsys: pytest.CaptureF
         (LINES, "between: is missing"),
         (f"{LINES.replace('dimensions.height', 'dimensions.depth')}between = [3, 4]", "is not in the model"),
         (f"{LINES.replace('dimensions.height', 'dimensions')}between = [3, 4]", "is no number of the model"),
+        (f"{LINES.replace('dimensions.height', 'name')}between = [3, 4]", "is no number of the model"),
+        (f"{LINES.replace('dimensions.height', 'schema')}between = [3, 4]", "is no number of the model"),
         (f"{LINES.replace('threshold', 'all')}", "belongs to the kind threshold"),
         (f"{LINES}between = [2.8, 2.9]\nshape = 'cube'", "belongs to the kind largest"),
     ):

@@ -119,13 +119,15 @@ def _targets(
         picture_format(Path(picture))
         require_matplotlib()
     given = {"model": ("-o", output), "covariance": ("--covariance", covariance), "picture": ("--picture", picture)}
-    found = {}
+    found: dict[str, Path] = {}
     for key, (option, text) in given.items():
         if text is None:
             continue
         path = Path(text)
         for source in inputs:
             arguments.require_other_file(path, source, option, "an input")
+        if path in found.values():
+            raise InputError(f"{path}: is to be another file too; give {option} another path")
         arguments.require_writable(path, option)
         if path.exists() and not force:
             raise InputError(f"{path}: exists; give {option} another path, or --force to overwrite it")

@@ -36,6 +36,16 @@ def assembly_modes(poses: Sequence[Pose]) -> dict[str, list[int]]:
     return found
 
 
+def require_joinable(robot: Machine, method: str) -> None:
+    """Refuse --joined before anything is solved, for a robot or a method that it is not for."""
+    from pkm_exact.errors import InputError
+    from pkm_exact.regions.joined_modes import joinable_machine
+
+    if method == "newton":
+        raise InputError("--joined: is for certified poses; leave it out or choose another method")
+    joinable_machine(robot)
+
+
 def joined_modes(robot: Machine, solution: Solution, *, verbose: bool) -> str:
     """Which poses are proved to be joined by motions without a singular pose, in words."""
     from pkm_exact.interactive.progress import Progress

@@ -50,7 +50,7 @@ def as_text(answer: RegionAnswer | LargestAnswer) -> str:
     if word == "proved":
         lines.append("proved: all poses of the region are good")
     elif answer.counterexample is not None:
-        lines.append(f"no: {answer.counterexample.reason}")
+        lines.append(f"no: this does not hold: {answer.counterexample.reason}")
         lines += [f"  at {_point(answer, point)}" for point in answer.counterexample.points]
     elif word == "undecided":
         lines.append("undecided: neither proved nor refuted with the work allowed; raise answer.steps or answer.boxes")

@@ -138,7 +138,7 @@ def solve(
 
     if near is not None:
         robot = replace(robot, nominal=nominal_from_numbers(near, "--near", robot.motion))
-    _require_choosable(robot, model, method, feasible=feasible, nearest=nearest, sort=sort)
+    _require_choosable(robot, model, method, feasible=feasible, nearest=nearest, sort=sort, joined=joined)
     if joints is not None:
         from pkm_exact.cli.joint_words import joint_configuration
 
@@ -196,8 +196,14 @@ def solve(
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM
 
 
-def _require_choosable(robot: Machine, model: str, method: str, *, feasible: bool, nearest: bool, sort: str) -> None:
+def _require_choosable(
+    robot: Machine, model: str, method: str, *, feasible: bool, nearest: bool, sort: str, joined: bool
+) -> None:
     """Refuse a choice or an order of poses that the model, or the method, has nothing to say about."""
+    if joined:
+        from pkm_exact.cli.modes import require_joinable
+
+        require_joinable(robot, method)
     if feasible and (robot.limits is None or method == "newton"):
         what = "the model has no limits; add a table [limits]" if robot.limits is None else "it is for certified poses"
         raise InputError(f"{model}: --feasible: {what}, or leave the option out")

@@ -29,6 +29,9 @@ _NOT_FOR_LINKS: Final = (
     ("formulation", "--formulation: a mechanism with passive bodies has one polynomial system; leave it out"),
     ("tolerance", "--tolerance: is for robots with legs; leave it out"),
     ("near", "--near: a mechanism with passive bodies has no nominal pose; leave it out"),
+    ("nearest", "--nearest: a mechanism with passive bodies has no nominal pose; leave it out"),
+    ("sort", "--sort: poses of a mechanism with passive bodies have one order; leave it out"),
+    ("joined", "--joined: is for robots with legs of variable length; leave it out"),
     ("feasible", "--feasible: a mechanism with passive bodies has no limits; leave it out"),
 )
 

@@ -197,7 +197,8 @@ def robot_with(text: str, key: str, value: Fraction) -> Robot | Mechanism:
     for name in path:
         place = _entry(place, name, key)
     old = _entry(place, last, key)
-    if isinstance(old, dict | list | bool):
+    is_text = isinstance(old, str) and not any(digit in old for digit in "0123456789")
+    if isinstance(old, dict | list | bool) or is_text or key in ("schema", "name", "source", "unit", "kind"):
         raise InputError(
             f"answer.parameter: {shown(key)} is no number of the model; name one, such as dimensions.height"
         )

@@ -45,6 +45,26 @@ LEAST_SHARE: Final = 1e-3
 _GRID: Final = 10**6
 
 
+def joinable_machine(robot: Machine) -> RegionMachine:
+    """The legs of a robot whose poses can be joined.
+
+    Raises
+    ------
+    InputError
+        If they are not all of variable length, or not as many as the freedoms of the platform.
+    """
+    try:
+        machine = region_machine(robot, with_leg_distance=True)
+    except InputError:
+        machine = None
+    own = machine is not None and all(isinstance(leg.actuator, OwnLength) for leg in machine.legs)
+    if machine is None or machine.forms or len(machine.legs) != len(machine.twist) or not own:
+        raise InputError(
+            "--joined: is for robots whose legs are of variable length, one for each freedom; leave it out"
+        )
+    return machine
+
+
 def joined_poses(
     robot: Machine, solution: Solution, progress: Callable[[str], None] | None = None
 ) -> tuple[tuple[int, ...], ...]:
@@ -64,12 +84,7 @@ def joined_poses(
     >>> joined_poses(robot, robot.solve())
     ((1,), (2,))
     """
-    machine = region_machine(robot, with_leg_distance=True)
-    own = all(isinstance(leg.actuator, OwnLength) for leg in machine.legs)
-    if machine.forms or len(machine.legs) != len(machine.twist) or not own:
-        raise InputError(
-            "--joined: is for robots whose legs are of variable length, one for each freedom; leave it out"
-        )
+    machine = joinable_machine(robot)
     length, random = (
         characteristic_length(solution.problem),
         Random(digest(*(leg.length_squared for leg in solution.problem.distances))),

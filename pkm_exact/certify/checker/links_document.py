@@ -99,7 +99,7 @@ def _variables(system: Any) -> list[str]:
     is_one = isinstance(system, dict) and (system.get("format"), system.get("version")) == SYSTEM
     if not is_one or type(system["version"]) is not int:
         raise malformed(f"system: not a {SYSTEM[0]}, version {SYSTEM[1]}")
-    return list(items(system.get("variables"), "system.variables", None, text))
+    return list(items(system.get("variables"), "variables", None, text))
 
 
 def _mechanism(value: Any) -> tuple[tuple[Unknowns, ...], tuple[Joined, ...]]:
