@@ -7,11 +7,13 @@ from typing import Any
 import mutations
 import pytest
 from certificate_subjects import EACH, SUBJECTS, subject
-from certificate_tools import CERTS, Path_, at, golden_bytes, with_entry
+from certificate_tools import CERTS, Path_, at, both_resealed, golden, golden_bytes, last_line, with_entry
 from mutations import FREE, FREE_2, FREE_MOBILITY, Free, Mutation, outcome, quick_names, report
 
+from pkm_exact import solve_system
 from pkm_exact.certify import pure
 from pkm_exact.certify.check import Status, Verdict, check_bytes
+from pkm_exact.certify.system_build import system_certificate
 
 
 @pytest.mark.parametrize("name", quick_names())
@@ -214,3 +216,23 @@ def test_a_changed_byte(name: str) -> None:
             one, other = check_bytes(changed), pure.check_bytes(changed)
             assert str(one.status) == other.status
             assert one.status in (Status.REJECTED, Status.MALFORMED)
+
+
+OF_A_KIND = {
+    "poses, version 1": lambda: golden("3-rpr-merlet-p"),
+    "poses, version 2": lambda: golden("h4"),
+    "tolerance": lambda: subject(PLANAR),
+    "mobility": lambda: subject("mobility, Sarrus"),
+    "system": lambda: system_certificate(solve_system(["x*y - 2", "x + y - 3"])),
+    "region": lambda: golden("regions/rolland-6-6"),
+    "statics": lambda: golden("statics/3-rpr-merlet-p"),
+    "links": lambda: golden("links/four-bar"),
+}
+
+
+@pytest.mark.parametrize("name", OF_A_KIND)
+def test_keys_in_another_order_are_malformed_for_one_reason(name: str) -> None:
+    content = OF_A_KIND[name]()
+    verdict = both_resealed(dict(reversed(content.items())))
+    assert verdict.status == "malformed"
+    assert "in this order" in last_line(verdict)

@@ -2731,7 +2731,6 @@ def boxes_listed(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
 # ---------------------------------------------------------------------------------------------------------------------
 
 TOLERANCE_FORMAT: Final = "pkm_exact tolerance certificate"
-REGION_FORMAT: Final = "pkm_exact region certificate"
 TOLERANCE_KEYS: Final = "format version robot configuration tolerances frames exponent boxes unproved pairs complete"
 MAX_TOLERANCE_GRID: Final = 4096
 MAX_CENTRE_BITS: Final = 256  # before the point
@@ -3512,27 +3511,24 @@ def check_counted(data: bytes) -> tuple[Verdict, Work]:
 
 def replayed(body: dict[str, Any]) -> Iterator[str]:
     """The content, read at once, and its checks, one after another."""
-    if next(iter(body.items()), None) == ("format", TOLERANCE_FORMAT):
+    name = body.get("format")
+    if name == TOLERANCE_FORMAT:
         return check_tolerances(read_tolerances(body))
-    if next(iter(body.items()), None) == ("format", SYSTEM_FORMAT):
-        return checks_beside("pure_system", "a system certificate")(body)
-    if body.get("format") == MOBILITY_FORMAT:
-        return checks_beside("pure_mobility", "a mobility certificate")(body)
-    if next(iter(body.items()), None) == ("format", REGION_FORMAT):
-        return checks_beside("pure_region", "a region certificate")(body)
-    if next(iter(body.items()), None) == ("format", STATICS_FORMAT):
-        return checks_beside("pure_statics", "a statics certificate")(body)
-    if next(iter(body.items()), None) == ("format", LINKS_FORMAT):
-        return checks_beside("pure_links", "a links certificate")(body)
+    if isinstance(name, str) and name in OTHER_KINDS:
+        return checks_beside(*OTHER_KINDS[name])(body)
     if body.get("version") == 2 and type(body["version"]) is int:
         return checks_beside("pure_mechanism", "version 2")(body)
     return checks(read(body))
 
 
-SYSTEM_FORMAT: Final = "pkm_exact system certificate"
-MOBILITY_FORMAT: Final = "pkm_exact mobility certificate"
-STATICS_FORMAT: Final = "pkm_exact statics certificate"
-LINKS_FORMAT: Final = "pkm_exact links certificate"
+OTHER_KINDS: Final = {
+    "pkm_exact system certificate": ("pure_system", "a system certificate"),
+    "pkm_exact mobility certificate": ("pure_mobility", "a mobility certificate"),
+    "pkm_exact region certificate": ("pure_region", "a region certificate"),
+    "pkm_exact statics certificate": ("pure_statics", "a statics certificate"),
+    "pkm_exact links certificate": ("pure_links", "a links certificate"),
+}
+"""Files beside this one that check certificates of other kinds, by their format."""
 
 
 def checks_beside(module: str, kind: str) -> Callable[[dict[str, Any]], Iterator[str]]:
