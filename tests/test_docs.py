@@ -236,3 +236,9 @@ def test_blocks_are_found_with_their_marks() -> None:
 def test_a_block_without_an_end_is_found() -> None:
     with pytest.raises(SampleError, match="line 2"):
         blocks("a\n```sh\nb\n")
+
+
+@pytest.mark.parametrize("page", ["docs/certificates.md", "docs/guarantees.md"])
+def test_every_file_of_the_plain_checker_is_named(page: str) -> None:
+    files = sorted(path.name for path in (ROOT / "pkm_exact" / "certify").glob("pure*.py"))
+    assert [name for name in files if name not in TEXTS[ROOT / page]] == []
