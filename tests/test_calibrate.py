@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
+from collections.abc import Callable
+from dataclasses import replace
 from math import cos, hypot, radians, sin
 from pathlib import Path
 from random import Random
@@ -12,6 +15,7 @@ import pytest
 from pkm_exact.cli.main import main
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.identification.calibration_doubts import doubts
 from pkm_exact.identification.calibration_fit import fitted_legs
 from pkm_exact.identification.measured_poses import identifiable, measured_poses_from_csv
 
@@ -29,7 +33,7 @@ def _true(robot: Robot, seed: int) -> list[tuple[float, ...]]:
     return [tuple(float(x) + random.uniform(-0.2, 0.2) for x in (*a[:2], *b[:2], 0)) for a, b in joints]
 
 
-def _table(legs: list[tuple[float, ...]], count: int, *, noise: float = 0.0, turns: bool = True) -> str:
+def _table(legs: list[tuple[float, ...]], count: int, *, noise: float = 0.0, turns: float = 1) -> str:
     random, rows = Random(7), [HEADER]
     for _ in range(count):
         x, y, angle = random.uniform(3, 7), random.uniform(3, 7), random.uniform(-40, 40) * turns
@@ -56,7 +60,7 @@ def test_joints_and_offsets_are_found_from_measurements_without_errors() -> None
 def test_what_is_not_shown_stays_and_is_said() -> None:
     """A platform that does not turn: base joint and platform joint of a leg can move together."""
     robot = read_robot(MODEL)
-    measured = measured_poses_from_csv(_table(_true(robot, 2), 12, turns=False), robot)
+    measured = measured_poses_from_csv(_table(_true(robot, 2), 12, turns=0), robot)
     known = identifiable(robot, measured, offsets=True)
     assert [leg.rank for leg in known] == [3, 3, 3]
     assert known[1].confused()[0] == "nothing shows a change of A2x by 1, B2x by 1"
@@ -122,7 +126,7 @@ def test_bad_tables_are_refused_and_nothing_is_written(text: str, part: str, tmp
 def test_robots_with_cranks_are_refused(tmp_path: Path, capsys: Capture) -> None:
     (tmp_path / "poses.csv").write_text(f"{HEADER}\n1,1,1,1,2,1\n")
     assert main(["calibrate", str(MODEL.with_name("3-rrr.toml")), str(tmp_path / "poses.csv")]) == 2
-    assert "no robot with actuated legs" in capsys.readouterr().err
+    assert "N-RPR and N-UPS without a metric: not cranks (RRR, RUS)" in capsys.readouterr().err
 
 
 def test_two_results_are_not_written_to_one_file(tmp_path: Path, capsys: Capture) -> None:
@@ -132,3 +136,60 @@ def test_two_results_are_not_written_to_one_file(tmp_path: Path, capsys: Capture
     assert main(words) == 2
     assert "is to be another file too; give --covariance another path" in capsys.readouterr().err
     assert not Path(target).exists()
+
+
+def _judged(text: str, folder: Path, *words: str) -> tuple[int, list[str]]:
+    """Exit code of a calibration without noise, and which files it wrote."""
+    (folder / "poses.csv").write_text(text)
+    code = main(["calibrate", str(MODEL), str(folder / "poses.csv"), "-o", str(folder / "new.toml"), *words])
+    return code, sorted(path.name for path in folder.iterdir() if path.suffix == ".toml")
+
+
+def _columns(text: str, change: Callable[[list[str]], list[str]]) -> str:
+    """The table with its lengths changed, row by row."""
+    head, *rows = text.splitlines()
+    cells = [row.split(",") for row in rows]
+    return "\n".join([head, *(",".join([*row[:3], *change(row[3:])]) for row in cells)]) + "\n"
+
+
+def test_lengths_in_another_unit_are_said_and_written_with_force_only(tmp_path: Path, capsys: Capture) -> None:
+    table = _table(_true(read_robot(MODEL), 5), 12)
+    far = _columns(table, lambda lengths: [str(1000 * float(length)) for length in lengths])
+    assert _judged(far, tmp_path) == (3, [])
+    text = capsys.readouterr().err
+    assert re.search(r"lengths read are about (99\d|1\d\d\d)(\.\d)? times those of the model", text)
+    assert "the model is not written (--force writes it all the same)" in text
+    assert _judged(far, tmp_path, "--force") == (3, ["new.covariance.toml", "new.toml"])
+    assert "this calibration is not credible\n" in capsys.readouterr().err
+
+
+def test_exchanged_columns_are_said(tmp_path: Path, capsys: Capture) -> None:
+    table = _table(_true(read_robot(MODEL), 6), 12)
+    assert _judged(table, tmp_path, "--force") == (0, ["new.covariance.toml", "new.toml"])
+    assert "warning" not in capsys.readouterr().err
+    assert _judged(_columns(table, lambda found: [found[1], found[0], found[2]]), tmp_path, "--force")[0] == 3
+    assert "columns of lengths look exchanged: with l2 for leg 1, l1 for leg 2" in capsys.readouterr().err
+
+
+def test_a_fit_that_runs_away_is_no_success(tmp_path: Path, capsys: Capture) -> None:
+    """Lengths as of no robot; and a platform that hardly turns, measured badly."""
+    random = Random(3)
+    nonsense = _columns(
+        _table(_true(read_robot(MODEL), 7), 6), lambda _: [f"{random.uniform(3, 9):.3f}" for _ in "123"]
+    )
+    assert _judged(nonsense, tmp_path, "--no-offsets") == (3, [])
+    assert (
+        "changed by more than base and platform are wide, 12.2; the fit has left the model" in capsys.readouterr().err
+    )
+    level = _table(_true(read_robot(MODEL), 8), 12, noise=0.02, turns=0.001)
+    assert _judged(level, tmp_path, "--no-offsets") == (3, [])
+    assert "standard deviation greater than base and platform are wide" in capsys.readouterr().err
+
+
+def test_a_search_that_did_not_end_is_said() -> None:
+    robot = read_robot(MODEL)
+    measured = measured_poses_from_csv(_table(_true(robot, 9), 12), robot)
+    fits = fitted_legs(robot, measured, identifiable(robot, measured, offsets=False), offsets=False)
+    assert doubts(robot, measured, fits) == ()
+    broken = [fits[0], replace(fits[1], is_minimum=False), fits[2]]
+    assert doubts(robot, measured, broken) == ("leg 2: the search ended before a minimum",)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.program import ExitCode
+from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.wording import counted, printable
 
@@ -49,7 +49,7 @@ MOST_DIGITS: Final = 15
 @click.option(
     "--picture", type=arguments.FilePath(), metavar="FILE", help="Draw the residuals of each leg: png, svg or pdf."
 )
-@click.option("--force", is_flag=True, help="Overwrite files that exist.")
+@click.option("--force", is_flag=True, help="Overwrite files that exist, and write a calibration that is not credible.")
 def calibrate(
     model: str,
     measured: str,
@@ -65,7 +65,10 @@ def calibrate(
     POSES.csv has a row for each pose: x,y,z,roll,pitch,yaw (degrees) or x,y,z,q0,q1,q2,q3, and the lengths l1,..,l6
     that were read there; x,y,theta,l1,l2,l3 if planar. Which parameters these numbers tell apart is decided by exact
     ranks. The fit itself is least squares in floating point, with scipy; nothing of it is certified. What the
-    measurements do not show stays as it is in the model.
+    measurements do not show stays as it is in the model. A fit that is not credible (changes or standard deviations
+    greater than the robot, lengths in another unit, exchanged columns) is said to be none: exit code 3, and the
+    model is not written without --force. Only legs whose own lengths are read are taken (N-RPR and N-UPS, without a
+    metric): no cranks, no slides, no machines of a recipe, nothing declared by constraints or bodies.
 
     \b
     Examples:
@@ -74,13 +77,17 @@ def calibrate(
     """
     targets = _targets(output, covariance, picture, (model, measured), force=force)
     from pkm_exact.cli.model_reading import announced_robot
+    from pkm_exact.identification.calibration_doubts import doubts
     from pkm_exact.identification.calibration_fit import fitted_legs
     from pkm_exact.identification.calibration_text import calibrated_robot, covariance_text
     from pkm_exact.identification.measured_poses import identifiable, read_measured_poses
 
     robot = announced_robot(model, "calibrate")
     if robot.chains or set(robot.metric) != {1}:
-        raise InputError(f"{model}: is no robot with actuated legs in ordinary coordinates; only such are calibrated")
+        raise InputError(
+            f"{model}: is no robot with actuated legs in ordinary coordinates; only such are calibrated, "
+            "N-RPR and N-UPS without a metric: not cranks (RRR, RUS) and not slides (PRR, PUS)"
+        )
     rows = read_measured_poses(measured, robot)
     known = identifiable(robot, rows, offsets=offsets)
     try:
@@ -88,6 +95,9 @@ def calibrate(
     except InputError as error:
         raise InputError(f"{measured}: {error}") from None
     source = f"{robot.source}; calibrated from {counted(len(rows), 'pose')} of {Path(measured).name}"
+    against = doubts(robot, rows, fits)
+    if against and not force:
+        targets = {key: path for key, path in targets.items() if key == "picture"}
     files: dict[Path, bytes] = {}
     if "model" in targets:
         from pkm_exact.geometry.model_writer import robot_text
@@ -103,7 +113,18 @@ def calibrate(
     _print(robot, known, fits, len(rows))
     for path in files:
         click.echo(f"written: {printable(str(path))}")
-    return ExitCode.DONE
+    return _judged(against, withheld=output is not None and not force)
+
+
+def _judged(against: tuple[str, ...], *, withheld: bool) -> ExitCode:
+    """Say what speaks against the fit."""
+    if not against:
+        return ExitCode.DONE
+    for sentence in against:
+        click.echo(f"{PROGRAM}: warning: {sentence}", err=True)
+    rest = "; the model is not written (--force writes it all the same)" if withheld else ""
+    click.echo(f"{PROGRAM}: warning: this calibration is not credible{rest}", err=True)
+    return ExitCode.WEAKER_CLAIM
 
 
 def _targets(

@@ -31,26 +31,26 @@ def announced_model(path: str) -> Robot | Mechanism:
 
 def announced_any(path: str) -> Robot | Mechanism | Linkage:
     """The same, or the mechanism of bodies and joints of a file of that kind (``geometry.reader.read_any``)."""
-    from pkm_exact.geometry.model_kinds import is_linkage, is_links
-    from pkm_exact.geometry.reader import read_any
+    from pkm_exact.geometry.model_kinds import is_links
 
-    found = read_any(path)
-    if is_links(found):
-        return announced_model(path)  # which refuses it
-    if not is_linkage(found):
-        _announce(found, path)
-    return found
+    found = _announced(path)
+    return announced_model(path) if is_links(found) else found  # the former refuses it
 
 
 def announced_solvable(path: str) -> Robot | Mechanism | Links:
     """The robot that a model file describes, or the mechanism with passive bodies of a file of that kind."""
+    from pkm_exact.geometry.model_kinds import is_linkage
+
+    found = _announced(path)
+    return announced_model(path) if is_linkage(found) else found  # the former refuses it
+
+
+def _announced(path: str) -> Robot | Mechanism | Linkage | Links:
     from pkm_exact.geometry.model_kinds import is_linkage, is_links
     from pkm_exact.geometry.reader import read_any
 
     found = read_any(path)
-    if is_linkage(found):
-        return announced_model(path)  # which refuses it
-    if not is_links(found):
+    if not is_linkage(found) and not is_links(found):
         _announce(found, path)
     return found
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pkm_exact.errors import InputError
 from pkm_exact.poses.arrays import required
@@ -42,6 +42,8 @@ class LegFit:
     covariance : tuple of tuples of float
     before, after : tuple of float
         Residuals at each pose, of the model and of the fit: true length less length read.
+    is_minimum : bool
+        Whether the search ended at one, by its own tolerances.
     """
 
     names: tuple[str, ...]
@@ -49,6 +51,7 @@ class LegFit:
     covariance: tuple[tuple[float, ...], ...]
     before: tuple[float, ...]
     after: tuple[float, ...]
+    is_minimum: bool = True
 
 
 def fitted_legs(
@@ -127,20 +130,23 @@ def _basis(shown: Identification, size: int) -> Real:
 
 
 def _leg_fit(
-    names: tuple[str, ...], start: Real, basis: Real, fit: object, residual: Callable[[Real], Real], total: float
+    names: tuple[str, ...], start: Real, basis: Real, fit: Any, residual: Callable[[Real], Real], total: float
 ) -> LegFit:
     import numpy as np
 
-    jacobian: Real = fit.jac  # type: ignore[attr-defined]
-    y: Real = fit.x  # type: ignore[attr-defined]
-    covariance = (
-        basis @ (total * np.linalg.inv(jacobian.T @ jacobian)) @ basis.T if len(y) else np.zeros((len(start),) * 2)
-    )
-    values = start + basis @ y
+    jacobian: Real = fit.jac
+    covariance = np.zeros((len(start),) * 2)
+    if basis.shape[1]:
+        try:
+            covariance = basis @ (total * np.linalg.inv(jacobian.T @ jacobian)) @ basis.T
+        except np.linalg.LinAlgError:  # where the fit ended, not at the model: see the exact ranks
+            covariance = np.full_like(covariance, np.inf)
+    values = start + basis @ fit.x
     return LegFit(
         names,
         tuple(map(float, values)),
         tuple(tuple(map(float, row)) for row in covariance),
         tuple(map(float, residual(start))),
         tuple(map(float, residual(values))),
+        bool(fit.success),
     )

@@ -117,10 +117,10 @@ def linear_pose(readings: Sequence[LegReading]) -> LinearPose:
     entries = normal.inv() * sum((m.transpose() * b for m, b in zip(matrix, right, strict=True)), start=fmpq_mat(9, 1))
     left = [m * entries - b for m, b in zip(matrix, right, strict=True)]
     values = _fractions(entries)
-    rows = tuple(tuple(values[3 * i : 3 * i + 3]) for i in range(3))
-    position = _fractions(inverse * (all_rights - all_levers * entries))
+    rows = _vector(values[:3]), _vector(values[3:6]), _vector(values[6:])
+    position = _vector(_fractions(inverse * (all_rights - all_levers * entries)))
     residual = sum((x * x for column in left for x in _fractions(column)), Fraction(0))
-    return LinearPose((position[0], position[1], position[2]), rows, residual, _is_rotation(rows))  # type: ignore[arg-type]
+    return LinearPose(position, rows, residual, _is_rotation(rows))
 
 
 _NONE: Vector = (Fraction(0), Fraction(0), Fraction(0))
@@ -152,6 +152,11 @@ def _column(vector: Vector) -> fmpq_mat:
 
 def _fractions(column: fmpq_mat) -> list[Fraction]:
     return [row[0] for row in rows_of(column)]
+
+
+def _vector(values: Sequence[Fraction]) -> Vector:
+    x, y, z = values
+    return x, y, z
 
 
 def _is_rotation(rows: Sequence[Sequence[Fraction]]) -> bool:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import os
 from dataclasses import dataclass
 from fractions import Fraction
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.csv_fields import exact_number, header_names, require_length
+from pkm_exact.geometry.csv_fields import exact_number, header_names, numbered_rows, require_length
 from pkm_exact.geometry.inverse import Matrix
 from pkm_exact.geometry.nominal_pose import nominal_from_numbers
 from pkm_exact.geometry.path_reader import path_text
@@ -67,15 +66,7 @@ def measured_poses_from_csv(text: str, robot: Robot) -> tuple[MeasuredPose, ...]
     >>> [str(x) for x in (*found[0].position, *found[0].lengths)]
     ['5', '9/2', '0', '67/10', '5', '5']
     """
-    found: list[tuple[int, list[str]]] = []
-    reader = csv.reader(text.splitlines())
-    try:
-        for cells in reader:
-            fields = [cell.strip() for cell in cells]
-            if any(fields) and not fields[0].startswith("#"):
-                found.append((reader.line_num, fields))
-    except csv.Error as error:
-        raise InputError(f"line {reader.line_num}: not CSV ({error}); separate numbers by commas") from None
+    found = list(numbered_rows(text))
     legs = tuple(f"l{leg}" for leg in range(1, len(robot.base_joints) + 1))
     poses = (PLANAR,) if robot.motion.is_planar else (ANGLES, QUATERNIONS)
     wanted = " or ".join(",".join((*pose, *legs)) for pose in poses)

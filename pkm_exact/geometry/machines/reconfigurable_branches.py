@@ -94,10 +94,10 @@ def _rod_on_crank(legs: _Legs, k: int, radial: Vector, *, locked: bool) -> None:
     if locked:
         legs.constraints.append(InPlane(ORIGIN, rod, joint, f"rod {k}"))
         normal = Part(f"rod {k}", "normal", (UP, along((-1, radial))))
-        parts = normal, Part(f"rod {k}", "offset", (_ZERO, -legs.given["base_radius"]))
+        parts: tuple[Part, ...] = normal, Part(f"rod {k}", "offset", (_ZERO, -legs.given["base_radius"]))
     else:
         legs.constraints.append(AxisDistance(base, ORIGIN, joint, rod * rod, f"rod {k}"))
-        parts = (Part(f"rod {k}", "direction", (radial, UP)),)  # type: ignore[assignment]
+        parts = (Part(f"rod {k}", "direction", (radial, UP)),)
     legs.driven(Joint.CRANK, Drive(f"crank {k}", parts, weight=1))
 
 
