@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -45,14 +46,34 @@ def test_a_way_through_a_singular_pose_is_refused(name: str, monkeypatch: pytest
 
 def test_the_option_says_what_is_joined(capsys: Capture) -> None:
     assert main(["solve", "models/3-rpr-merlet-p.toml", "--method", "krawczyk", "--joined"]) == 0
-    assert capsys.readouterr().out.endswith("joined by motions without a singular pose: none found\n")
+    assert capsys.readouterr().out.endswith(
+        "joined by motions without a singular pose: none found; limits and collisions are not looked at\n"
+    )
     assert main(["solve", "models/3-rrr.toml", "--method", "krawczyk", "--joined"]) == 2
     assert "--joined: is for robots whose legs are of variable length" in capsys.readouterr().err
 
 
 def test_what_is_not_known_is_said() -> None:
-    assert "not known" in joined_in_words([(1, 2), (3,)], are_all=False)
-    assert joined_in_words([(1, 2), (3, 4)], are_all=True).endswith("{1, 2}, {3, 4}")
+    assert "not known" in joined_in_words([(1, 2), (3,)], are_all=False, listed=(1, 2, 3))
+    words = joined_in_words([(1, 2), (3, 4), (5,)], are_all=True, listed=(1, 3))
+    assert words.endswith(": {1, 2}, {3, 4}; limits and collisions are not looked at; not listed: 2, 4")
+
+
+def test_json_has_the_groups_by_numbers_and_says_which_are_not_listed(
+    capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pkm_exact.regions.joined_modes.joined_poses", lambda *_: ((1, 2),))
+    words = ["solve", "models/3-rpr-merlet-p.toml", "--method", "krawczyk", "--joined", "--format"]
+    assert main([*words, "json", "--near", "5,5,0", "--nearest"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["joined"] == [[1, 2]]
+    assert [entry["number"] for entry in found["poses"]] == [2]
+    assert found["notes"][-1].endswith("{1, 2}; limits and collisions are not looked at; not listed: 1")
+    for layout in ("csv", "csv_exact"):
+        assert main([*words, layout]) == 2
+        assert "--joined: has no place beside --format csv" in capsys.readouterr().err
+    assert main([*words, "table", "--tolerance", "1/1000"]) == 2
+    assert "--joined: has no place beside --tolerance" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("words", [["models/3-rrr.toml"], ["models/x-y.toml"], ["models/links/four-bar.toml"]])

@@ -5,7 +5,8 @@ Between poses of different sign the platform cannot pass, with moving actuators,
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
@@ -46,27 +47,53 @@ def require_joinable(robot: Machine, method: str) -> None:
     joinable_machine(robot)
 
 
-def joined_modes(robot: Machine, solution: Solution, *, verbose: bool) -> str:
-    """Which poses are proved to be joined by motions without a singular pose, in words."""
+@dataclass(frozen=True)
+class JoinedPoses:
+    """Which poses are proved to be joined by motions without a singular pose.
+
+    Attributes
+    ----------
+    groups : tuple of tuples of int
+        By the numbers of the poses, from 1, whether they are listed or not.
+    are_all : bool
+        Whether no two groups, and no pose in none, can be joined, by the signs of det J.
+    """
+
+    groups: tuple[tuple[int, ...], ...]
+    are_all: bool
+
+    def in_words(self, listed: Collection[int]) -> str:
+        """A sentence; poses that are not among those listed are named."""
+        return joined_in_words(self.groups, are_all=self.are_all, listed=listed)
+
+
+def joined_modes(robot: Machine, solution: Solution, *, verbose: bool) -> JoinedPoses:
+    """The groups of a solution."""
     from pkm_exact.interactive.progress import Progress
     from pkm_exact.regions.joined_modes import joined_poses
 
     with Progress(verbose=verbose) as progress:
         groups = joined_poses(robot, solution, progress)
     signs = [solution.poses[group[0] - 1].det_sign for group in groups]
-    return joined_in_words(groups, are_all=len(set(signs)) == len(signs))
+    grouped = {number for group in groups for number in group}
+    alone = [pose for number, pose in enumerate(solution.poses, 1) if number not in grouped and pose.det_sign != 0]
+    return JoinedPoses(groups, len(set(signs)) == len(signs) and not alone)
 
 
-def joined_in_words(groups: Sequence[Sequence[int]], *, are_all: bool) -> str:
+def joined_in_words(groups: Sequence[Sequence[int]], *, are_all: bool, listed: Collection[int]) -> str:
     """Groups of poses that are joined, by their numbers.
 
     Examples
     --------
-    >>> joined_in_words([(1, 4), (2,), (3,)], are_all=False)
-    'joined by motions without a singular pose: {1, 4}; of other pairs with the same sign of det J it is not known'
+    >>> joined_in_words([(1, 4), (2,), (3,)], are_all=False, listed=(1, 2, 3))
+    'joined by motions without a singular pose: {1, 4}; of other pairs with the same sign of det J it is not known; \
+limits and collisions are not looked at; not listed: 4'
     """
     known = ["{" + ", ".join(map(str, group)) + "}" for group in groups if len(group) > 1]
     rest = "" if are_all else "; of other pairs with the same sign of det J it is not known"
+    missing = sorted({number for group in groups if len(group) > 1 for number in group} - set(listed))
+    rest += "; limits and collisions are not looked at"
+    rest += f"; not listed: {', '.join(map(str, missing))}" if missing else ""
     return f"joined by motions without a singular pose: {', '.join(known) or 'none found'}{rest}"
 
 

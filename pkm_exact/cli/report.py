@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.cli.feasible_poses import ShownPoses
-from pkm_exact.cli.modes import assembly_modes
+from pkm_exact.cli.modes import JoinedPoses, assembly_modes
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.indices.index import Output
 from pkm_exact.indices.pose_indices import shown_in
@@ -35,24 +35,38 @@ def report(
     *,
     verbose: bool,
     shown: ShownPoses | None = None,
+    joined: JoinedPoses | None = None,
 ) -> None:
-    """Print a solution to stdout in one of the layouts; all of its poses, or those that are chosen."""
+    """Print a solution to stdout in one of the layouts; all of its poses, or those that are chosen.
+
+    Which of them are joined is said by the table and by JSON.
+    """
     shown = shown or ShownPoses.of(robot, configuration, solution)
     if layout == "json":
-        sys.stdout.write(json.dumps(as_object(robot, configuration, solution, shown), indent=1) + "\n")
+        sys.stdout.write(json.dumps(as_object(robot, configuration, solution, shown, joined), indent=1) + "\n")
     elif layout in _ROWS:
         csv.writer(sys.stdout, lineterminator="\n").writerows(_ROWS[layout](solution, shown))
     else:
         from pkm_exact.cli.table import print_table
 
         print_table(robot, configuration, solution, headline(solution), shown, verbose=verbose)
+        if joined is not None:
+            sys.stdout.write(f"{joined.in_words(shown.numbers)}\n")
 
 
 def as_object(
-    robot: Machine, configuration: str | None, solution: Solution, shown: ShownPoses | None = None
+    robot: Machine,
+    configuration: str | None,
+    solution: Solution,
+    shown: ShownPoses | None = None,
+    joined: JoinedPoses | None = None,
 ) -> dict[str, Any]:
-    """The solution as a JSON object: bounds are exact rationals as strings, assembly modes indices of poses."""
+    """The solution as a JSON object: bounds are exact rationals as strings, assembly modes indices of poses.
+
+    Joined poses go by their numbers, from 1, which poses have whether they are listed or not.
+    """
     shown = shown or ShownPoses.of(robot, configuration, solution)
+    joined_notes = [] if joined is None else [joined.in_words(shown.numbers)]
     return {
         "robot": robot_object(robot),
         "configuration": configuration_object(robot, configuration, solution.problem),
@@ -66,8 +80,9 @@ def as_object(
         "real_poses": len(solution.poses),
         "poses": [_pose(pose, solution.problem.motion) | shown.entry(place) for place, pose in enumerate(shown.poses)],
         "assembly_modes": assembly_modes(shown.poses),
+        **({} if joined is None else {"joined": [list(group) for group in joined.groups]}),
         **({"nearest_to_nominal": list(shown.nearest)} if robot.nominal is not None else {}),
-        "notes": [*answer_notes(robot, configuration, solution), *shown.notes],
+        "notes": [*answer_notes(robot, configuration, solution), *shown.notes, *joined_notes],
     }
 
 

@@ -133,6 +133,9 @@ def solve(
         return solve_links_model(robot, asked)
     require_fitting(click.get_current_context(), method)
     tolerance_report.require_fitting(click.get_current_context(), tolerance, method, layout)
+    if joined and (tolerance is not None or layout.startswith("csv")):
+        what = "--tolerance: poses of many robots" if tolerance is not None else f"--format {layout}: rows of poses"
+        raise click.UsageError(f"--joined: has no place beside {what}; use table or json without a tolerance.")
     from pkm_exact.geometry.nominal_pose import nominal_from_numbers
     from pkm_exact.geometry.robot import jointed
 
@@ -186,13 +189,11 @@ def solve(
 
         arguments.write_output(output, certificate_bytes(robot, name, solution))
 
+    from pkm_exact.cli.modes import joined_modes
     from pkm_exact.cli.report import report
 
-    report(robot, name, solution, layout, verbose=verbose, shown=shown)
-    if joined:
-        from pkm_exact.cli.modes import joined_modes
-
-        click.echo(joined_modes(robot, solution, verbose=verbose), err=layout != "table")
+    groups = joined_modes(robot, solution, verbose=verbose) if joined else None
+    report(robot, name, solution, layout, verbose=verbose, shown=shown, joined=groups)
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM
 
 
