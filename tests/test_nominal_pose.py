@@ -91,7 +91,19 @@ def test_joint_values_of_all_kinds(capsys: Capture) -> None:
 
 def test_an_angle_that_is_not_rational_is_not_rounded_in_silence(capsys: Capture) -> None:
     assert main(["solve", ARMS, "--joints", "37deg,0,0"]) == 0
-    assert "37 degrees, whose cosine and sine are not both rational here" in capsys.readouterr().err
+    sentence = "37 degrees, whose cosine and sine are not both rational here"
+    assert capsys.readouterr().out.count(sentence) == 1
+    assert main(["solve", ARMS, "--joints", "37deg,0,0", "--format", "csv"]) == 0
+    assert capsys.readouterr().err.count(sentence) == 1
+    assert sentence in _json(["solve", ARMS, "--joints", "37deg,0,0"], capsys)["notes"][-1]
+
+
+def test_a_number_that_is_no_small_half_tangent_is_perhaps_one_of_degrees(capsys: Capture) -> None:
+    said = "--joints, crank 1: 30 is taken as a half tangent, an angle of 176.2 degrees; write 30deg for degrees"
+    notes = _json(["solve", ARMS, "--joints", "30,0,5"], capsys)["notes"]
+    assert [note for note in notes if "half tangent" in note] == [said.replace("crank", "leg")]
+    assert main(["solve", SLIDES, "--joints", "30,0,5"]) == 0
+    assert "half tangent" not in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -337,6 +337,8 @@ def test_cranks_are_swept_by_joint_values(tmp_path: Path, capsys: Capture) -> No
     first, second, third = map(json.loads, out.read_text().splitlines())
     assert third["error"].startswith("line 4, h2: x is not a number")
     assert second["real_poses"] == 2
+    assert [note for note in second["notes"] if "line" in note] == []
+    assert "line 2, leg 1 was given as 30 degrees, whose cosine and sine are not both rational" in first["notes"][-2]
     one = tmp_path / "one.json"
     words = ["solve", str(model), "--joints", "30deg,0deg,-20deg", "--method", "krawczyk", "-o", str(one)]
     assert main(words) == 0

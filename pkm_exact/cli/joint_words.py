@@ -1,25 +1,16 @@
-"""The option ``--joints`` as a configuration of a robot; what stands in for an angle is noted on stderr."""
+"""What is to be known of the joint values of a configuration, on stderr, where the answer itself has no notes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import click
 
-from pkm_exact.cli.arguments import JointWord
-from pkm_exact.geometry import given_joints
-from pkm_exact.geometry.mechanism import Mechanism
-from pkm_exact.geometry.robot import Robot
+from pkm_exact.geometry.angle_degrees import stand_in_sentences
+from pkm_exact.geometry.machine import Machine
 
 
-def joint_configuration(robot: Robot | Mechanism, words: Sequence[JointWord]) -> tuple[Robot | Mechanism, str]:
-    """The robot with a further configuration at these joint values, and the configuration's name.
-
-    Raises
-    ------
-    InputError
-        If the values do not fit the robot.
-    """
-    return given_joints.joint_configuration(
-        robot, words, "--joints", lambda stand_in: click.echo(f"note: {stand_in}", err=True)
-    )
+def say_joint_notes(robot: Machine, configuration: str | None, *, unless: bool = False) -> None:
+    """Say what stands in for angles in degrees, and which numbers are taken as half tangents."""
+    for entry in () if unless else robot.configurations:
+        if entry.name == configuration:
+            for note in stand_in_sentences(getattr(entry, "stand_ins", ())):
+                click.echo(f"note: {note}", err=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import click
 
@@ -18,6 +18,9 @@ from pkm_exact.formulations.registry import formulation_codes
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
+
+_WITH_NOTES: Final = ("table", "json")
+"""The layouts that have a place for sentences."""
 
 
 @click.command()
@@ -133,9 +136,7 @@ def solve(
         return solve_links_model(robot, asked)
     require_fitting(click.get_current_context(), method)
     tolerance_report.require_fitting(click.get_current_context(), tolerance, method, layout)
-    if joined and (tolerance is not None or layout.startswith("csv")):
-        what = "--tolerance: poses of many robots" if tolerance is not None else f"--format {layout}: rows of poses"
-        raise click.UsageError(f"--joined: has no place beside {what}; use table or json without a tolerance.")
+    _require_place(layout, tolerance, joined=joined)
     from pkm_exact.geometry.nominal_pose import nominal_from_numbers
     from pkm_exact.geometry.robot import jointed
 
@@ -143,9 +144,9 @@ def solve(
         robot = replace(robot, nominal=nominal_from_numbers(near, "--near", robot.motion))
     _require_choosable(robot, model, method, feasible=feasible, nearest=nearest, sort=sort, joined=joined)
     if joints is not None:
-        from pkm_exact.cli.joint_words import joint_configuration
+        from pkm_exact.geometry.given_joints import joint_configuration
 
-        robot, configuration = joint_configuration(robot, joints)
+        robot, configuration = joint_configuration(robot, joints, "--joints")
     chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     name = chosen.name if chosen else None
     tolerances = (
@@ -157,6 +158,7 @@ def solve(
         arguments.require_other_file(Path(output), model, "-o")
         arguments.require_writable(Path(output), "-o")
 
+    from pkm_exact.cli.joint_words import say_joint_notes
     from pkm_exact.interactive.progress import Progress
     from pkm_exact.solution import Solution
 
@@ -165,6 +167,7 @@ def solve(
             solution = solved(problem, method, formulation, start, width, time_limit, progress)
         except InputError as error:
             raise InputError(f"{model}: {error}") from None
+    say_joint_notes(robot, name, unless=isinstance(solution, Solution) and tolerance is None and layout in _WITH_NOTES)
     if not isinstance(solution, Solution):
         return report_uncertified(robot, name, solution, layout, output, verbose=verbose)
     from pkm_exact.cli.feasible_poses import ShownPoses
@@ -211,6 +214,13 @@ def _require_choosable(
     if (nearest or sort == "nearest") and (robot.nominal is None or method == "newton"):
         what = "nearest to what? give --near" if robot.nominal is None else "it is for certified poses"
         raise InputError(f"{model}: --{'nearest' if nearest else 'sort'}: {what}, or leave the option out")
+
+
+def _require_place(layout: str, tolerance: object, *, joined: bool) -> None:
+    """Refuse --joined where its answer has no place."""
+    if joined and (tolerance is not None or layout not in _WITH_NOTES):
+        what = "--tolerance: poses of many robots" if tolerance is not None else f"--format {layout}: rows of poses"
+        raise click.UsageError(f"--joined: has no place beside {what}; use table or json without a tolerance.")
 
 
 def _require_one(given: list[tuple[str, object]]) -> None:

@@ -134,9 +134,11 @@ def _chosen(links: Links, asked: Request) -> tuple[Links, LockedValues]:
     try:
         if asked.joints is None:
             return links, links.configuration(asked.configuration)
-        from pkm_exact.cli.joint_words import joint_configuration
+        from pkm_exact.cli.joint_words import say_joint_notes
+        from pkm_exact.geometry.given_joints import joint_configuration
 
-        declared, name = joint_configuration(links.declared, asked.joints)
+        declared, name = joint_configuration(links.declared, asked.joints, "--joints")
+        say_joint_notes(declared, name)
         return links, declared.configuration(name)
     except InputError as error:
         raise InputError(f"{asked.model}: {error}") from None

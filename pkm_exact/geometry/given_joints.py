@@ -4,24 +4,27 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from math import atan2, degrees, sqrt
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.angle_degrees import angle_in_degrees
 from pkm_exact.geometry.chains import Crank, JointValue, cosine_and_sine
 from pkm_exact.geometry.mechanism import LockedValues, Mechanism
-from pkm_exact.geometry.rational import NumberText, parse_rational
+from pkm_exact.geometry.rational import NumberText, finite_decimal, parse_rational
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.wording import shown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from pkm_exact.geometry.angle_degrees import StandIn
 
 NAME: Final = "joints given"
 JointWord: TypeAlias = tuple[Fraction, bool]
 """A joint value, and whether it is an angle in degrees."""
+LIKELY_DEGREES: Final = 5
+"""A half tangent above it, of an angle of more than 157 degrees, may have been meant as degrees."""
 
 
 def joint_word(text: str, where: str) -> JointWord:
@@ -39,9 +42,12 @@ def joint_word(text: str, where: str) -> JointWord:
 
 
 def joint_configuration(
-    robot: Robot | Mechanism, words: Sequence[JointWord], where: str, said: Callable[[StandIn], None] | None = None
+    robot: Robot | Mechanism, words: Sequence[JointWord], where: str
 ) -> tuple[Robot | Mechanism, str]:
     """The robot with a further configuration at these joint values, and the configuration's name.
+
+    What stands in for an angle that is not rational, and that a large half tangent was perhaps meant as degrees, are
+    among the ``stand_ins`` of the configuration.
 
     Parameters
     ----------
@@ -49,8 +55,6 @@ def joint_configuration(
     words : sequence of JointWord
     where : str
         What messages begin with.
-    said : callable, optional
-        Gets what stands in for an angle that is not rational.
 
     Raises
     ------
@@ -61,7 +65,7 @@ def joint_configuration(
     if len(words) != len(actuated):
         raise InputError(f"{where}: {len(words)} values; give {len(actuated)}, for {', '.join(actuated)}")
     if isinstance(robot, Mechanism):
-        return _of_mechanism(robot, words, where, said)
+        return _of_mechanism(robot, words, where)
     if not robot.chains:
         lengths = [_number(word, f"{where}, {name}") for word, name in zip(words, actuated, strict=True)]
         for length, name in zip(lengths, actuated, strict=True):
@@ -70,40 +74,46 @@ def joint_configuration(
         locked = Configuration(NAME, tuple(length * length for length in lengths))
     else:
         cranks = isinstance(robot.chains[0], Crank)
-        values = [_value(word, f"{where}, {name}", said, cranks) for word, name in zip(words, actuated, strict=True)]
-        locked = robot.lock(NAME, values)
+        found = [_value(word, f"{where}, {name}", cranks) for word, name in zip(words, actuated, strict=True)]
+        stand_ins = tuple(note for _, note in found if note is not None)
+        locked = replace(robot.lock(NAME, [value for value, _ in found]), stand_ins=stand_ins)
     return replace(robot, configurations=(*robot.configurations, locked)), NAME
 
 
-def _of_mechanism(
-    robot: Mechanism, words: Sequence[JointWord], where: str, said: Callable[[StandIn], None] | None
-) -> tuple[Mechanism, str]:
+def _of_mechanism(robot: Mechanism, words: Sequence[JointWord], where: str) -> tuple[Mechanism, str]:
     values: list[JointValue] = []
+    stand_ins: list[StandIn | str] = []
     for word, name, is_length in zip(words, robot.actuated, robot.are_lengths, strict=True):
         drive, place = robot.drive(name), f"{where}, {name}"
         if drive is not None and drive.is_crank:
-            values.append(_value(word, place, said, True, drive.weight))
+            value, note = _value(word, place, True, drive.weight)
+            values.append(value)
+            stand_ins += [] if note is None else [note]
             continue
         number = _number(word, place)
         if is_length and number <= 0:
             raise InputError(f"{place}: {number} is no length; give one greater than 0")
         values.append(number * number if is_length else number)
-    locked = LockedValues(NAME, tuple(values))
+    locked = LockedValues(NAME, tuple(values), tuple(stand_ins))
     return replace(robot, configurations=(*robot.configurations, locked)), NAME
 
 
-def _value(
-    word: JointWord, where: str, said: Callable[[StandIn], None] | None, is_crank: bool, weight: int = 1
-) -> JointValue:
+def _value(word: JointWord, where: str, is_crank: bool, weight: int = 1) -> tuple[JointValue, StandIn | str | None]:
+    """The value, and what is to be known of it."""
     number, in_degrees = word
     if not is_crank:
-        return _number(word, where)
-    if not in_degrees:
-        return cosine_and_sine(number, weight)
-    point, stand_in = angle_in_degrees(number, where, weight)
-    if stand_in is not None and said is not None:
-        said(stand_in)
-    return point
+        return _number(word, where), None
+    if in_degrees:
+        return angle_in_degrees(number, where, weight)
+    large = _perhaps_degrees(number, where, weight) if abs(number) > LIKELY_DEGREES else None
+    return cosine_and_sine(number, weight), large
+
+
+def _perhaps_degrees(number: Fraction, where: str, weight: int) -> str:
+    """That a large half tangent was taken as such; the angle is for show."""
+    angle = degrees(2 * atan2(float(number) * sqrt(weight), 1))
+    text = finite_decimal(number) or str(number)
+    return f"{where}: {text} is taken as a half tangent, an angle of {angle:.4g} degrees; write {text}deg for degrees"
 
 
 def _number(word: JointWord, where: str) -> Fraction:

@@ -47,13 +47,13 @@ class LockedValues:
         Unique among the configurations of a mechanism.
     values : tuple
         In the order of the actuators: squared lengths, offsets, products, positions; cosine and sine of a crank.
-    stand_ins : tuple of StandIn
-        Angles among them that were given in degrees and are taken as others, by how much.
+    stand_ins : tuple of StandIn or str
+        Angles among them that were given in degrees and are taken as others, by how much; or sentences.
     """
 
     name: str
     values: tuple[JointValue, ...]
-    stand_ins: tuple[StandIn, ...] = ()
+    stand_ins: tuple[StandIn | str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -44,8 +44,8 @@ class Configuration:
         Positions of the slides, or (cos, sin) of the cranks' angles; empty if the legs themselves are actuated.
     written_digit : Fraction or None
         Unit of its last decimal in the model file; None without decimals.
-    stand_ins : tuple of StandIn
-        Angles among the joint values that were given in degrees and are taken as others, by how much.
+    stand_ins : tuple of StandIn or str
+        Angles among the joint values that were given in degrees and are taken as others, by how much; or sentences.
 
     Examples
     --------
@@ -57,7 +57,7 @@ class Configuration:
     lengths_squared: tuple[Fraction, ...]
     joint_values: tuple[JointValue, ...] = ()
     written_digit: Fraction | None = field(default=None, repr=False, compare=False)
-    stand_ins: tuple[StandIn, ...] = field(default=(), repr=False, compare=False)
+    stand_ins: tuple[StandIn | str, ...] = field(default=(), repr=False, compare=False)
 
     def __post_init__(self) -> None:
         where = f"configuration {shown(self.name)}, lengths_squared"
