@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from math import cos, radians, sin
@@ -27,6 +28,7 @@ from pkm_exact.regions.region_solver import largest
 from pkm_exact.regions.singularity_locus import locus
 
 FILES = {path.stem: path for path in MODELS}
+ZERO, ONE = Fraction(0), Fraction(1)
 LOCUS = "[conditions]\nno_type_2 = true\n[answer]\nkind = 'locus'\n"
 SQUARES = """schema = 1
 name = "4-RPR driven in turns"
@@ -116,6 +118,21 @@ def test_both_halves_of_a_bipod_are_two_pieces_and_corners_are_cut() -> None:
     answer = asked(bipod(60), f"position = [{cut}, 0]", "limits = true", "kind = 'map'\nsteps = 16")
     assert answer.measures is not None
     assert answer.measures[0] < _arcs(60, cut).area.lo <= _arcs(60, cut).area.hi < answer.measures[1]
+
+
+def test_arcs_say_nothing_of_what_else_is_asked() -> None:
+    """A bound of an index cuts the area, and at a height out of its limits nothing is good."""
+    question = (
+        "[region]\nposition = [[-64, 128], [0, 128], 0]\n[conditions]\nlimits = true\n{0}[answer]\nkind = 'map'\n"
+    )
+    for more in ("indices = { transmission = 0.9 }\n", "forces = { load = [0, -10, 0], most = 6 }\n"):
+        assert arc_area(bipod(60), question_from_toml(question.format(more), bipod(60))) is None
+    limited = [((Fraction(-500), Fraction(500)),) * 2 + (pair,) for pair in ((ZERO, ONE), (ONE, ONE + 1))]
+    inside, above = (replace(bipod(60), position=position) for position in limited)
+    found = arc_area(inside, question_from_toml(question.format(""), inside))
+    assert found is not None
+    assert abs(float(found.area) - 4863.87799035) < 1e-8
+    assert arc_area(above, question_from_toml(question.format(""), above)) is None
 
 
 @pytest.mark.slow

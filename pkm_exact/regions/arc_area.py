@@ -46,10 +46,10 @@ def arc_area(machine: RegionMachine, question: RegionQuestion) -> ArcArea | None
     question : RegionQuestion
         A map over x and y, of limits of lengths, slides and position only.
     """
-    chart = question.chart
+    chart, conditions = question.chart, question.conditions
     own = all(isinstance(leg.actuator, OwnLength | OnSlide) and leg.axis is None for leg in machine.legs)
     plain = machine.base_cones is None and machine.platform_cones is None and not question.shape
-    lengths = "limits" in question.conditions.asked and not {"no_type_1", "no_type_2"} & set(question.conditions.asked)
+    lengths = "limits" in conditions.names and not set(conditions.names) - {"limits", "reachable"}
     if chart.variables != ("x", "y") or not (own and plain and lengths):
         return None
     with working_precision(PRECISION):
@@ -62,6 +62,8 @@ def arc_area(machine: RegionMachine, question: RegionQuestion) -> ArcArea | None
 def _curves(machine: RegionMachine, question: RegionQuestion) -> list[Curve]:
     chart, roots = question.chart, [arb(g).sqrt() for g in machine.metric]
     height = Fraction(chart.position[2]) if not isinstance(chart.position[2], str) else Fraction(0)
+    if not all(low <= height <= high for low, high in machine.position[2:]):
+        raise UndecidedError
     sides = []
     for k, (low, high) in enumerate(chart.box):
         limited = machine.position[k : k + 1]
