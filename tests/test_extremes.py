@@ -19,9 +19,11 @@ from pkm_exact.cli.main import main
 from pkm_exact.geometry.reader import robot_from_toml
 from pkm_exact.regions.joint_ranges import JointRange, common_range, joint_ranges
 from pkm_exact.regions.question_reader import question_from_toml
-from pkm_exact.regions.region_legs import RegionMachine, region_machine
+from pkm_exact.regions.region_legs import OnCrank, OnSlide, RegionLeg, RegionMachine, region_machine
 
 FILES = {path.stem: path for path in MODELS}
+ZERO, ONE = Fraction(0), Fraction(1)
+ORIGIN, UP = (ZERO, ZERO, ZERO), (ZERO, ZERO, ONE)
 SIX = "working_modes = ['-', '-', '-', '-', '-', '-']"
 
 
@@ -147,6 +149,40 @@ def test_turns_about_any_axis_hold_all_samples() -> None:
         values.append(120 + v[2] - sqrt(9600 - (v[0] - a[0]) ** 2 - (v[1] - a[1]) ** 2))
     assert found[2].least.lo <= min(values) <= max(values) <= found[2].greatest.hi
     assert found[2].stroke.hi < 1.02 * (max(values) - min(values)) + Fraction(1, 10)
+
+
+def test_what_a_slide_needs_is_asked_of_poses_that_all_legs_reach() -> None:
+    """A rod of 5 on a vertical slide; one of 9 on a crank, which reaches what is at most 10 from (0, 0, 20).
+
+    The lowest pose of the ball is out of reach of the crank: the slide need not go there.
+    """
+    legs = (
+        RegionLeg("slide", ORIGIN, ORIGIN, OnSlide(UP, Fraction(25))),
+        RegionLeg(
+            "crank", (ZERO, ZERO, Fraction(20)), ORIGIN, OnCrank((ONE, ZERO, ZERO), (ZERO, ZERO, ONE), 1, Fraction(81))
+        ),
+    )
+    machine = RegionMachine("made up", "m", "made up", (1, 1, 1), "translation", (0, 1, 2), legs)
+    region = "ball = { center = [0, 0, 10], radius = 1 }"
+    least = ranges(machine, region, "working_modes = ['-', '+']", "precision = '1/10'\nsteps = 14")[0].least
+    assert Fraction(9, 2) < least.lo <= 5 <= least.hi
+
+
+def test_conditions_and_joints_hold_for_joint_values_of_legs_by_themselves() -> None:
+    mssm, ball = region_machine(model("mssm")), "ball = { center = [1, 2, 3], radius = 1 }\nquaternion = [1, 0, 0, 0]"
+    load = "forces = { load = [0, 0, 1, 0, 0, 0], most = '1/10000000' }"
+    with pytest.raises(InputError, match="no pose is shown to be good"):
+        ranges(mssm, ball, load)
+    turned = "position = [0, 0, 120]\nany_axis_degrees = 5"
+    with pytest.raises(InputError, match="goes with the condition reachable alone"):
+        ranges(mssm, turned, "length = 1\nindices = { transmission = 0.9 }")
+    with pytest.raises(InputError, match="not all among those that the joints of the mechanism allow"):
+        ranges(region_machine(model("2-ups-u")), "position = [1, 2, 3]\nany_axis_degrees = 10")
+    with pytest.raises(InputError, match="region: that leg 1 reaches all of it is not proved"):
+        ranges(region_machine(model("rcid")), "position = [[50, 51], 0, 120]\nany_axis_degrees = 15", SIX)
+    text = f"[region]\n{turned}\n[conditions]\nreachable = true\nlength = 1\n[answer]\nkind = 'extremes'\n"
+    with pytest.raises(InputError, match="is for the answer extremes, of joint_values"):
+        question_from_toml(f"{text}of = 'transmission'\n", mssm)
 
 
 def test_the_command_says_what_is_needed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

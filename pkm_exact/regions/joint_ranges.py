@@ -24,12 +24,12 @@ from pkm_exact.regions.extremes import greatest
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some, atoms_of
 from pkm_exact.regions.joint_quotients import JointQuotient, joint_quotient, rational_root
 from pkm_exact.regions.paving import INSIDE, SPLIT, Part, pave
-from pkm_exact.regions.region_conditions import asked_of, placed_legs
+from pkm_exact.regions.region_conditions import asked_of, placed_legs, require_allowed
 from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, OwnLength, RegionLeg, RegionMachine
 from pkm_exact.regions.region_question import RegionQuestion
 from pkm_exact.regions.region_shapes import ball_of, inside_atom
 from pkm_exact.regions.region_solver import axes_of
-from pkm_exact.regions.turned_legs import TurnedLeg, turned_leg
+from pkm_exact.regions.turned_legs import TurnedLeg, every_pose, turned_leg
 from pkm_exact.roots.interval import Interval
 
 _Found: TypeAlias = tuple[Interval, bool]
@@ -92,7 +92,6 @@ def joint_ranges(
     InputError
         If it is not known for such a robot or region, or no pose is shown to be good.
     """
-    found = []
     for k, leg in enumerate(machine.legs):
         if isinstance(leg.actuator, OnHinge):
             raise InputError(f"answer.of: joint values of driven hinges ({leg.name}) are not known here")
@@ -101,28 +100,38 @@ def joint_ranges(
                 f"conditions.working_modes: {leg.name} has two working modes; give one sign for each leg, such as "
                 '["+", "+", "-"]'
             )
+    extreme = _way(machine, question)
+    found = []
+    for k, leg in enumerate(machine.legs):
         if progress is not None:
             progress(f"joint values of {leg.name}")
-        found.append(_range(machine, question, k))
+        (least, first), (most, second) = (extreme(k, way) for way in (-1, 1))
+        unit = "deg" if isinstance(leg.actuator, OnCrank) else machine.unit
+        found.append(JointRange(leg.name, unit, least, most, first and second))
     return tuple(found)
 
 
-def _range(machine: RegionMachine, question: RegionQuestion, k: int) -> JointRange:
-    leg = machine.legs[k]
+def _way(machine: RegionMachine, question: RegionQuestion) -> Callable[[int, int], _Found]:
+    """How the extremes are found: of leg k, the least (-1) or the greatest (1).
+
+    A leg is looked at by itself only where all poses of the region are good, for all legs: its own values are those of
+    good poses then.
+    """
     ball = ball_of(question.shape, machine.metric)
-    alone = question.conditions.asked == ("reachable",) and not isinstance(leg.actuator, OnCrank) and leg.axis is None
-    ends = []
-    for way in (-1, 1):
-        if ball is not None and alone:
-            ends.append(_about_ball(machine, question, k, ball, way))
-        elif question.any_axis is not None:
-            ends.append(_at_turns(machine, question, k, way))
-        else:
-            ends.append(_in_chart(machine, question, k, way))
-    (least, first), (most, second) = ends
-    return JointRange(
-        leg.name, "deg" if isinstance(leg.actuator, OnCrank) else machine.unit, least, most, first and second
-    )
+    is_plain = question.conditions.names == ("reachable",)
+    if question.any_axis is not None and not is_plain:
+        raise InputError("region.any_axis_degrees: goes with the condition reachable alone")
+    is_straight = not any(isinstance(leg.actuator, OnCrank) or leg.axis is not None for leg in machine.legs)
+    if ball is not None and is_plain and is_straight:
+        require_allowed(machine, every_pose(machine, question))
+        return lambda k, way: _about_ball(machine, question, k, ball, way)
+    if question.any_axis is None:
+        return lambda k, way: _in_chart(machine, question, k, way)
+    require_allowed(machine, every_pose(machine, question))
+    for k, leg in enumerate(machine.legs):
+        if not isinstance(leg.actuator, OwnLength):
+            _require_reached(machine, question, k, leg, None)
+    return lambda k, way: _best(turned_leg(machine, question, k, machine.legs[k], None), machine, question, way)
 
 
 def _in_chart(machine: RegionMachine, question: RegionQuestion, k: int, way: int) -> _Found:
@@ -155,7 +164,10 @@ def _extreme(
     precision, boxes = question.answer.precision, question.answer.boxes
     found = greatest(wanted.quotient, ready, box, axes, precision=precision, boxes=boxes, sign=way)
     if found is None:
-        raise InputError(f"answer.of: {wanted.leg.name} has no joint value that is bounded with the work allowed")
+        raise InputError(
+            f"answer.of: joint values of {wanted.leg.name} are not bounded with the work allowed, or no pose is shown "
+            "to be good; raise answer.steps or answer.boxes, or ask less of the poses"
+        )
     return wanted.value(found.value), found.is_precise
 
 
@@ -170,26 +182,24 @@ def _about_ball(
         moved = (max(end + way * radius, Fraction(0)) for end in (value.lo, value.hi))
         return Interval(*moved), is_precise
     outward = way * question.conditions.modes[k]
-    # A little farther from L than r: the ball is so much larger.
-    length = rational_root(slide.rod_squared, outward) + outward * radius
-    shorter = rational_root(slide.rod_squared, -1) - radius
-    if min(length, shorter) <= 0:
+    roots = {rational_root(slide.rod_squared, side) for side in (-1, 1)}
+    shorter = min(roots) - radius
+    if shorter <= 0:
         raise InputError(f"region.ball: {leg.name} does not reach all of it; give a smaller one")
     _require_reached(machine, question, k, replace(leg, actuator=replace(slide, rod_squared=shorter**2)), center)
-    other = replace(leg, actuator=replace(slide, rod_squared=length**2))
-    return _at_center(machine, question, k, other, center, way)
+    ends = []
+    for root in roots:  # on both sides of L where that is irrational: the value lies between theirs
+        other = replace(leg, actuator=replace(slide, rod_squared=(root + outward * radius) ** 2))
+        ends.append(_at_center(machine, question, k, other, center, way))
+    values = [value for value, _ in ends]
+    between = Interval(min(value.lo for value in values), max(value.hi for value in values))
+    return between, all(is_precise for _, is_precise in ends)
 
 
 def _at_center(
     machine: RegionMachine, question: RegionQuestion, k: int, leg: RegionLeg, center: tuple[Fraction, ...], way: int
 ) -> _Found:
     return _best(turned_leg(machine, question, k, leg, center), machine, question, way)
-
-
-def _at_turns(machine: RegionMachine, question: RegionQuestion, k: int, way: int) -> _Found:
-    if question.conditions.asked != ("reachable",):
-        raise InputError("region.any_axis_degrees: goes with the condition reachable alone")
-    return _best(turned_leg(machine, question, k, machine.legs[k], None), machine, question, way)
 
 
 def _best(turned: TurnedLeg, machine: RegionMachine, question: RegionQuestion, way: int) -> _Found:
@@ -199,9 +209,9 @@ def _best(turned: TurnedLeg, machine: RegionMachine, question: RegionQuestion, w
 
 
 def _require_reached(
-    machine: RegionMachine, question: RegionQuestion, k: int, leg: RegionLeg, center: tuple[Fraction, ...]
+    machine: RegionMachine, question: RegionQuestion, k: int, leg: RegionLeg, center: tuple[Fraction, ...] | None
 ) -> None:
-    """Refuse a ball of which a leg does not reach all: joint values of another follow from those of its centre."""
+    """Refuse a region of which a leg, or at the centre of a ball another in its place, does not reach all."""
     turned = turned_leg(machine, question, k, leg, center)
     beyond = tuple(Atom("beyond the region", -atom.polynomial, Sign.POSITIVE) for atom in turned.shape)
     formula = Some((*beyond, All(turned.reaches)))
@@ -210,4 +220,5 @@ def _require_reached(
     start = Part(0, (0,) * len(turned.box))
     word = pave(ready, axes, start, len(axes), most=question.answer.boxes, stop_outside=True).word
     if set(word) - {INSIDE, SPLIT}:
-        raise InputError(f"region.ball: that {leg.name} reaches all of it is not proved; give a smaller one")
+        where = "region" if center is None else "region.ball"
+        raise InputError(f"{where}: that {leg.name} reaches all of it is not proved; give a smaller one")

@@ -122,9 +122,10 @@ def _any_axis(region: dict[str, Any], machine: RegionMachine, answer: WantedAnsw
     if "any_axis_degrees" not in region:
         return None
     where = "region.any_axis_degrees"
-    if answer.kind != "extremes" or machine.motion not in ("spatial", "spherical"):
+    if answer.of != "joint_values" or machine.motion not in ("spatial", "spherical"):
         raise InputError(
-            f"{where}: is for the answer extremes of a robot that turns about every axis; give rpy_degrees"
+            f"{where}: is for the answer extremes, of joint_values, of a robot that turns about every axis; give "
+            "rpy_degrees"
         )
     angle = parse_positive(region["any_axis_degrees"], where)
     if angle >= 180:

@@ -138,18 +138,23 @@ def placed_legs(
     """The poses of a chart, which the structure allows, and the legs there."""
     driven = [k for k, leg in enumerate(machine.legs) if isinstance(leg.actuator, OnSlide | OnCrank)]
     pose = pose_polynomials(chart, machine.metric, tuple(f"s{k + 1}" for k in driven))
-    for form in machine.forms:
-        if not form_at(form, pose, machine.metric).is_zero():
-            raise InputError(
-                "region: its poses are not all among those that the joints of the mechanism allow; fix the coordinates "
-                "that these fix"
-            )
+    require_allowed(machine, pose)
     places = {k: len(chart.variables) + i for i, k in enumerate(driven)}
     placed = [
         placed_leg(leg, pose, machine.metric, conditions.modes[k] or 1, places.get(k, -1))
         for k, leg in enumerate(machine.legs)
     ]
     return pose, placed
+
+
+def require_allowed(machine: RegionMachine, pose: PosePolynomials) -> None:
+    """Refuse poses at which a joint that is not actuated does not hold."""
+    for form in machine.forms:
+        if not form_at(form, pose, machine.metric).is_zero():
+            raise InputError(
+                "region: its poses are not all among those that the joints of the mechanism allow; fix the coordinates "
+                "that these fix"
+            )
 
 
 def constraint_rows(

@@ -69,6 +69,27 @@ def turned_leg(
     return TurnedLeg(placed, names, box, (*shape, *cap))
 
 
+def every_pose(machine: RegionMachine, question: RegionQuestion) -> PosePolynomials:
+    """The poses of a region; with turns about any axis, of the quaternion (1, a1, a2, a3)."""
+    chart = question.chart
+    if question.any_axis is None:
+        return pose_polynomials(chart, machine.metric)
+    ring = fmpq_mpoly_ctx.get((*chart.variables, "a1", "a2", "a3"), Ordering.lex)
+    named = dict(zip(ring.names(), ring.gens(), strict=True))
+    axis = [named[name] for name in ("a1", "a2", "a3")]
+    return _turned_pose(ring, axis, machine.metric, chart.position)
+
+
+def _turned_pose(ring: fmpq_mpoly_ctx, axis: Sequence[Any], g: Metric, place: Sequence[Any]) -> PosePolynomials:
+    """The poses at a place, turned by the quaternion (1, axis)."""
+    named = dict(zip(ring.names(), ring.gens(), strict=True))
+    quaternion = [ring.constant(fmpq(1)), *axis]
+    products = [[a * b for b in quaternion] for a in quaternion]
+    norm = sum((w * products[k + 1][k + 1] for k, w in enumerate(g)), ring.constant(fmpq(g[0] * g[1] * g[2])))
+    position = tuple(norm * (named[x] if isinstance(x, str) else ring.constant(rational(x))) for x in place)
+    return PosePolynomials(ring, norm, position, tuple(map(tuple, scaled_rotation(products, g))))
+
+
 def _cap(
     g: Metric, joint: Vector, place: Sequence[Any], most: Fraction, names: Sequence[str], root: Sequence[str]
 ) -> tuple[PosePolynomials, tuple[Atom, ...], tuple[tuple[Fraction, Fraction], ...]]:
@@ -76,20 +97,14 @@ def _cap(
     turns = _CAP if any(joint) else ()
     ring = fmpq_mpoly_ctx.get((*names, *turns, *root), Ordering.lex)
     named = dict(zip((*names, *turns, *root), ring.gens(), strict=True))
-    zero, one = ring.constant(fmpq(0)), ring.constant(fmpq(1))
+    zero = ring.constant(fmpq(0))
     size = g[0] * g[1] * g[2]
     first, second = _perpendicular(joint, g) if turns else ((Fraction(0),) * 3,) * 2
     axis = [
         named[turns[0]] * rational(x) + named[turns[1]] * rational(y) if turns else zero
         for x, y in zip(first, second, strict=True)
     ]
-    quaternion = [one, *axis]
-    products = [[a * b for b in quaternion] for a in quaternion]
-    square = sum((w * products[k + 1][k + 1] for k, w in enumerate(g)), zero)
-    norm = square + size
-    rotation = scaled_rotation(products, g)
-    position = tuple(norm * (named[x] if isinstance(x, str) else ring.constant(rational(x))) for x in place)
-    pose = PosePolynomials(ring, norm, position, tuple(map(tuple, rotation)))
+    pose = _turned_pose(ring, axis, g, place)
     if not turns:
         return pose, (), ()
     bounds = []
@@ -97,7 +112,7 @@ def _cap(
         length = sum((w * x * x for w, x in zip(g, vector, strict=True)), Fraction(0)) / size
         end = rational_root(most / length, 1)
         bounds.append((-end, end))
-    return pose, (Atom("within the angle", ring.constant(rational(most * size)) - square),), tuple(bounds)
+    return pose, (Atom("within the angle", ring.constant(rational(most * size + size)) - pose.norm),), tuple(bounds)
 
 
 def _perpendicular(joint: Vector, g: Metric) -> tuple[Vector, Vector]:
