@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from math import cos, pi, radians, sin, sqrt
 from pathlib import Path
@@ -19,14 +20,16 @@ from samples import MODELS, model
 from pkm_exact import InputError, Robot
 from pkm_exact.cli.main import main
 from pkm_exact.geometry.inverse import rotation_of
+from pkm_exact.geometry.rotation_degrees import half_turn_pair
 from pkm_exact.regions.bernstein import bernstein_coefficients, error_factor, on_sub_boxes, subdivision_matrices
 from pkm_exact.regions.chart import Chart
 from pkm_exact.regions.compiled_formula import compiled_formula
 from pkm_exact.regions.formula import Atom, Sign
 from pkm_exact.regions.paving import halving_axes, leaves
+from pkm_exact.regions.placed_legs import PlacedLeg
 from pkm_exact.regions.question_reader import of_size, question_from_toml
 from pkm_exact.regions.region_components import components
-from pkm_exact.regions.region_conditions import Conditions, asked_of
+from pkm_exact.regions.region_conditions import Conditions, asked_of, turned_within
 from pkm_exact.regions.region_legs import OnCrank, RegionLeg, RegionMachine, region_machine
 from pkm_exact.regions.region_points import PointJudge
 from pkm_exact.regions.region_solver import RegionAnswer, answered, largest
@@ -414,6 +417,35 @@ def test_parts_end_where_doubles_hold_their_ends() -> None:
     axes = halving_axes([ONE, Fraction(1, 4)], 120)
     assert (axes.count(0), axes.count(1)) == (52, 51)
     assert halving_axes([ONE], 120) == (0,) * 52
+
+
+@pytest.mark.parametrize("more", ["0", "1e-11", "-1e-11", "1", "-1"])
+def test_a_range_of_half_a_turn_is_decided_on_the_safe_side(more: str) -> None:
+    """From 10 degrees to about 190: nothing false of a crank beside an end, and all that is far from it decided."""
+    low, high = Fraction(10), 190 + Fraction(more)
+    crank = OnCrank((ONE, ZERO, ZERO), (ZERO, ONE, ZERO), 1, ONE)
+    leg = RegionLeg("leg", (ZERO,) * 3, (ZERO,) * 3, crank, (low, high))
+    machine = RegionMachine("made up", "m", "made up", (1, 1, 1), "translation", (0, 1, 2), (leg,))
+    chart = Chart(("x", ZERO, ZERO), (ONE, ZERO, ZERO, ZERO), (), ("x",), ((ONE, Fraction(3, 2)),))
+    question = asked_of(machine, chart, Conditions(("limits",), (1,)))
+    for end, way in ((low, 1), (high, -1)):
+        for beside in ("-3", "-1e-10", "-1e-11", "-1e-12", "1e-12", "1e-11", "1e-10", "3"):
+            c, s = half_turn_pair(end + way * Fraction(beside), Fraction(1, 10**20))
+            cosine, sine = (question.pose.constant(x) for x in (c * c - s * s, 2 * c * s))
+            formula = turned_within(PlacedLeg(leg, [], [], (cosine, sine)), low, high)
+            judge = PointJudge(replace(question, formula=formula), formula)
+            is_kept, point = Fraction(beside) > 0, (ONE,)
+            assert not (judge.is_inside(point) and not is_kept)
+            assert not (judge.failing(point) is not None and is_kept)
+            if abs(Fraction(beside)) > 1:
+                assert judge.is_inside(point) is is_kept
+                assert (judge.failing(point) is None) is is_kept
+
+
+def test_limits_that_a_model_has_not_are_not_kept_in_silence() -> None:
+    machine = region_machine(model("3-rpr-merlet-p"))
+    with pytest.raises(InputError, match=r"the model has no limits; give it a table \[limits\]"):
+        asked(machine, "position = [[0, 1], [0, 1]]\ndegrees = 0", "limits = true")
 
 
 @pytest.mark.parametrize(("kind", "count"), [("map", 4), ("all", 1)])

@@ -13,7 +13,7 @@ from pkm_exact.precision import working_precision
 
 _BITS: Final = 64
 _RATIONAL: Final = {0: Fraction(1), 30: Fraction(3, 4), 45: Fraction(1, 2), 60: Fraction(1, 4), 90: Fraction(0)}
-_BESIDE: Final = Fraction(1, 10**10)
+BESIDE: Final = Fraction(1, 10**10)
 """By how many degrees the rational directions beside an angle are off, at most."""
 
 
@@ -60,7 +60,7 @@ def turn_directions(angle: Fraction, side: int) -> tuple[tuple[Fraction, Fractio
     """
     if angle % 90 == 0:
         return (_direction(angle),) * 2
-    return _direction(angle + side * _BESIDE / 2), _direction(angle - side * _BESIDE / 2)
+    return _direction(angle + side * BESIDE / 2), _direction(angle - side * BESIDE / 2)
 
 
 def _direction(angle: Fraction) -> tuple[Fraction, Fraction]:

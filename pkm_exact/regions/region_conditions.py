@@ -14,7 +14,7 @@ from pkm_exact.geometry.limits import Cones
 from pkm_exact.regions.chart import POSITIONS, Chart, Polynomial, PosePolynomials, moved, pose_polynomials, rational
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some
 from pkm_exact.regions.index_quotients import force_polynomials, index_square
-from pkm_exact.regions.near_angles import squared_cosines, turn_directions
+from pkm_exact.regions.near_angles import BESIDE, squared_cosines, turn_directions
 from pkm_exact.regions.placed_legs import PlacedLeg, placed_leg, without_squares
 from pkm_exact.regions.region_determinants import determinant, structural_rows, wrench_rows
 from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, OwnLength, RegionMachine, product
@@ -92,6 +92,8 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
     """
     pose, placed = placed_legs(machine, chart, conditions)
     require_modes(machine, conditions)
+    if "limits" in conditions.asked and not machine.is_limited:
+        raise InputError("conditions.limits: the model has no limits; give it a table [limits], or leave this out")
     parts: list[Formula] = []
     parts += [Atom(f"{leg.leg.name} reaches", leg.root) for leg in placed if leg.root is not None]
     if "limits" in conditions.asked:
@@ -204,7 +206,7 @@ def _reach(leg: PlacedLeg) -> list[Formula]:
         return []
     low, high = leg.leg.reach
     if isinstance(leg.leg.actuator, OnCrank):
-        return [_turned(leg, low, high)]
+        return [turned_within(leg, low, high)]
     value, unit = leg.value
     if not isinstance(leg.leg.actuator, OnSlide):
         low, high = low * low, high * high
@@ -215,19 +217,25 @@ def _reach(leg: PlacedLeg) -> list[Formula]:
     ]
 
 
-def _turned(leg: PlacedLeg, low: Fraction, high: Fraction) -> Formula:
+def turned_within(leg: PlacedLeg, low: Fraction, high: Fraction) -> Formula:
     """Whether a crank's angle is between two, in degrees: its direction left of one and right of the other."""
     cosine, sine = leg.value
-    parts = []
+    ends = []
     for angle, side, what in ((low, 1, "beyond its least angle"), (high, -1, "short of its greatest angle")):
         tight, loose = (side * (rational(c) * sine - rational(s) * cosine) for c, s in turn_directions(angle, side))
-        parts.append(Atom(f"{leg.leg.name} {what}", tight, loose=loose))
+        ends.append((f"{leg.leg.name} {what}", tight, loose))
+    parts = tuple(Atom(name, tight, loose=loose) for name, tight, loose in ends)
     if high - low >= 360:
         return All(())
     if low == high:
         tight, loose = (rational(c) * cosine + rational(s) * sine for c, s in turn_directions(low, 1))
-        parts.append(Atom(f"{leg.leg.name} at its angle", tight, loose=loose))
-    return Some(tuple(parts)) if high - low > 180 else All(tuple(parts))
+        return All((*parts, Atom(f"{leg.leg.name} at its angle", tight, loose=loose)))
+    if abs(high - low - 180) <= 2 * BESIDE:
+        # Beside the ends the range may be wider than half a turn, or not: both must hold, and it fails where both do.
+        inner = tuple(Atom(name, tight, loose=sine * 0) for name, tight, _ in ends)
+        outer = tuple(Atom(name, loose) for name, _, loose in ends)
+        return All((*inner, Some(outer)))
+    return Some(parts) if high - low > 180 else All(parts)
 
 
 def _cones(machine: RegionMachine, placed: Sequence[PlacedLeg], pose: PosePolynomials) -> list[Formula]:

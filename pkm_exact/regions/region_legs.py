@@ -135,6 +135,12 @@ class RegionMachine:
     platform_cones: Cones | None = None
     position: tuple[Pair, ...] = ()
 
+    @property
+    def is_limited(self) -> bool:
+        """Whether it has any limits."""
+        own = any(leg.reach is not None for leg in self.legs)
+        return own or bool(self.base_cones or self.platform_cones or self.position)
+
 
 def region_machine(machine: Machine, *, with_leg_distance: bool = False) -> RegionMachine:
     """The legs of a robot, with its limits.
