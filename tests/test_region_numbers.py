@@ -11,6 +11,7 @@ from math import cos, radians, sin
 from pathlib import Path
 
 import pytest
+from flint import Ordering, fmpq_mpoly_ctx
 from samples import MODELS, model, solved
 from test_regions import asked
 
@@ -25,7 +26,7 @@ from pkm_exact.regions.region_conditions import asked_of
 from pkm_exact.regions.region_legs import RegionMachine, region_machine
 from pkm_exact.regions.region_points import PointJudge
 from pkm_exact.regions.region_solver import largest
-from pkm_exact.regions.singularity_locus import locus
+from pkm_exact.regions.singularity_locus import locus, roots_in
 
 FILES = {path.stem: path for path in MODELS}
 ZERO, ONE = Fraction(0), Fraction(1)
@@ -274,6 +275,30 @@ def test_singular_poses_on_a_line() -> None:
     assert none.points == ()
     plane = locus(machine, question_from_toml(f"[region]\nposition = [[0, 9], [0, 9]]\ndegrees = 0\n{LOCUS}", machine))
     assert dict(plane.factors) == {"y": 1, "5*x + 2*y - 21": 1}
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "count"),
+    [
+        ("7/10", "3/4", 1),
+        ("0.7071067811865475244", "1", 1),
+        ("0.7071067811865475245", "1", 0),
+        ("0", "0.7071067811865475244", 0),
+        ("0", "0.7071067811865475245", 1),
+    ],
+)
+def test_a_root_beside_an_end_of_the_region_is_in_it_or_not(low: str, high: str, count: int) -> None:
+    """1 / sqrt(2): closer to the end than its first enclosure is wide."""
+    ring = fmpq_mpoly_ctx.get(("x",), Ordering.lex)
+    (x,) = ring.gens()
+    ends = Fraction(low), Fraction(high)
+    found = list(roots_in(2 * x * x - 1, *ends))
+    assert len(found) == count
+    for root in found:
+        assert ends[0] <= root.lo < root.hi <= ends[1]
+        assert root.lo**2 < Fraction(1, 2) < root.hi**2
+    assert [root.lo for root in roots_in(3 * x - 1, Fraction(1, 3), ONE)] == [Fraction(1, 3)]
+    assert not list(roots_in(3 * x - 1, Fraction(1, 3) + Fraction(1, 10**30), ONE))
 
 
 def test_the_largest_cube_about_a_pose_of_rollands_robot() -> None:

@@ -5,7 +5,7 @@ With slides and cranks the roots y of their discriminants are variables too (``f
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -78,7 +78,7 @@ def locus(machine: RegionMachine, question: RegionQuestion) -> Locus:
     kept = [(factor, int(power)) for factor, power in common.factor()[1] if spelled(factor) not in norms]
     points = None
     if len(variables) == 1:
-        found = (point for factor, _ in kept for point in _roots(factor, *chart.box[0]))
+        found = (point for factor, _ in kept for point in roots_in(factor, *chart.box[0]))
         points = tuple(sorted(found, key=lambda point: point.lo))
     return Locus(variables, tuple((spelled(factor), power) for factor, power in kept), False, points, redundant)
 
@@ -90,18 +90,37 @@ def spelled(polynomial: Polynomial) -> str:
     return str(polynomial * rational(scale if values[0] > 0 else -scale))
 
 
-def _roots(factor: Polynomial, low: Fraction, high: Fraction) -> Iterator[Interval]:
+def roots_in(factor: Polynomial, low: Fraction, high: Fraction) -> Iterator[Interval]:
     """Isolating intervals of the real roots of an irreducible polynomial of one variable in [low, high]."""
-    coefficients = [0] * (int(factor.degrees()[0]) + 1)
     scale = lcm(*(int(value.q) for value in factor.to_dict().values()))
+    coefficients = [0] * (int(factor.degrees()[0]) + 1)
     for exponents, value in factor.to_dict().items():
         coefficients[int(exponents[0])] = int(value.p) * (scale // int(value.q))
-    roots: Any = fmpz_poly(coefficients).complex_roots()
-    for root, _ in roots:
-        if root.imag == 0:
-            first, last = (_exact(end) for end in (root.real.lower(), root.real.upper()))
-            if low <= last and first <= high:
-                yield Interval(first, last)
+    if len(coefficients) == 2:
+        root = Fraction(-coefficients[0], coefficients[1])
+        yield from [Interval(root, root)] if low <= root <= high else []
+        return
+    polynomial: Any = fmpz_poly(coefficients)
+    for value, _ in polynomial.complex_roots():
+        if value.imag == 0:
+            near = _exact(value.real.lower()), _exact(value.real.upper())
+            yield from _within(lambda x: polynomial(rational(x)) > 0, near, low, high)
+
+
+def _within(
+    is_positive: Callable[[Fraction], bool], near: tuple[Fraction, Fraction], low: Fraction, high: Fraction
+) -> list[Interval]:
+    """What lies in [low, high] of an interval about one simple irrational root; nothing if the root does not."""
+    first, last = near
+    if first < low < last:
+        if is_positive(low) is is_positive(last):
+            return []
+        first = low
+    if first < high < last:
+        if is_positive(first) is is_positive(high):
+            return []
+        last = high
+    return [Interval(first, last)] if low <= first and last <= high else []
 
 
 def _exact(value: Any) -> Fraction:
