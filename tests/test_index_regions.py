@@ -181,7 +181,21 @@ def test_what_has_no_meaning_is_refused(tmp_path: Path, capsys: pytest.CaptureFi
     assert "transmission > 0.01 in a region" in capsys.readouterr().out
     assert main(["region", path, str(question), "-o", str(tmp_path / "a.json")]) == 2
     assert "no word for bounds of indices" in capsys.readouterr().err
-    assert not (tmp_path / "a.json").exists()
+    assert not list(tmp_path.glob("a.json*"))
+
+
+def test_a_certificate_that_cannot_be_written_is_refused_before_the_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def never(*_: object, **__: object) -> None:
+        pytest.fail("the region was looked at")
+
+    monkeypatch.setattr("pkm_exact.regions.region_solver.answered", never)
+    question = tmp_path / "question.toml"
+    lines = "[region]\nposition = [[4, 6], [4, 6]]\ndegrees = 0\n[conditions]\nlength = 3\n"
+    question.write_text(f"{lines}indices = {{ transmission = 0.01 }}\n[answer]\nkind = 'all'\n")
+    assert main(["region", str(FILES["3-rpr-merlet-p"]), str(question), "-o", str(tmp_path / "a.json")]) == 2
+    assert "no word for bounds of indices" in capsys.readouterr().err
 
 
 def test_the_command_has_extremes_of_indices(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -13,6 +13,7 @@ from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, RegionLeg, 
 if TYPE_CHECKING:
     from pkm_exact.geometry.limits import Cones
     from pkm_exact.regions.chart import Chart
+    from pkm_exact.regions.region_question import RegionQuestion
     from pkm_exact.regions.region_solver import RegionAnswer
 
 FORMAT: Final = "pkm_exact region certificate"
@@ -30,11 +31,7 @@ def region_certificate(answer: RegionAnswer) -> dict[str, Any]:
         If a limit has an irrational number in it, for which certificates have no word.
     """
     question, machine = answer.question, answer.machine
-    _require_rational(machine)
-    if question.conditions.indices or question.conditions.load:
-        raise InputError("-o: certificates have no word for bounds of indices and forces; leave -o out")
-    if question.chart.arc is not None:
-        raise InputError("-o: certificates have no word for arcs; leave -o out")
+    require_words(machine, question)
     found = answer.counterexample
     return sealed(
         {
@@ -57,6 +54,21 @@ def region_certificate(answer: RegionAnswer) -> dict[str, Any]:
             "counterexample": [] if found is None else [texts(point) for point in found.points],
         }
     )
+
+
+def require_words(machine: RegionMachine, question: RegionQuestion) -> None:
+    """Refuse what certificates have no word for.
+
+    Raises
+    ------
+    InputError
+        As ``region_certificate``.
+    """
+    _require_rational(machine)
+    if question.conditions.indices or question.conditions.load:
+        raise InputError("-o: certificates have no word for bounds of indices and forces; leave -o out")
+    if question.chart.arc is not None:
+        raise InputError("-o: certificates have no word for arcs; leave -o out")
 
 
 def claim_of(answer: RegionAnswer) -> str:

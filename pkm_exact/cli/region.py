@@ -72,6 +72,10 @@ def region(
         raise InputError(f"{model}: {error}") from None
     asked = read_question(question, machine)
     _require_outputs(model, question, asked, output, picture)
+    if output is not None:
+        from pkm_exact.certify.region_build import require_words
+
+        require_words(machine, asked)
     if asked.answer.kind == "locus":
         return _locus(machine, asked, question, layout)
     if asked.answer.kind == "extremes":
