@@ -82,10 +82,12 @@ def _largest_text(answer: LargestAnswer) -> str:
     wanted = answer.proved.question.answer
     what = "edge" if wanted.shape == "cube" else "radius"
     lines = [f"{answer.proved.machine.name}: {', '.join(answer.proved.question.conditions.names)}"]
-    lines.append(f"proved: all poses of the {wanted.shape} with {what} {float(answer.size):.9g} are good")
-    if answer.refused is not None and answer.refused_size is not None:
+    lines.append(f"proved: all poses of the {wanted.shape} with {what} {rounded_down(answer.size)} are good")
+    if answer.refused is None or answer.refused_size is None:
+        lines.append("no size that was tried is refuted: larger ones were not")
+    else:
         word = "refuted" if answer.refused.counterexample is not None else "not proved"
-        lines.append(f"{word}: {what} {float(answer.refused_size):.9g}")
+        lines.append(f"{word}: {what} {rounded_up(answer.refused_size)}")
     return "\n".join(lines) + "\n"
 
 
@@ -183,7 +185,7 @@ def locus_text(machine: RegionMachine, found: Locus) -> str:
     if found.is_identical:
         lines.append("everywhere: the determinant is identically 0")
     elif not found.factors:
-        lines.append("nowhere: the determinant is never 0")
+        lines.append("no factor is common" if found.is_redundant else "nowhere: the determinant is never 0")
     lines += [f"{factor} = 0" + (f", {power} times" if power > 1 else "") for factor, power in found.factors]
     if found.points is not None:
         lines += [f"in the region: {found.variables[0]} = {point}" for point in found.points] or ["none in the region"]
