@@ -147,8 +147,9 @@ def _two_lines(one: Edge, other: Edge) -> list[Point]:
     first, second = _minus(one.end, one.start), _minus(other.end, other.start)
     between, turn = _minus(other.start, one.start), _cross(first, second)
     if not (turn > 0 or turn < 0):
-        decided(_cross(first, between))  # parallel, or nearly: apart as far as the box goes, or refused
-        decided(_cross(first, _minus(other.end, one.start)))
+        # Parallel, or nearly: both ends on one side, or refused.
+        if decided(_cross(first, between)) is not decided(_cross(first, _minus(other.end, one.start))):
+            raise UndecidedError
         return []
     return [one.at(_cross(between, second) / turn)]
 
@@ -165,7 +166,7 @@ def _line_and_circle(edge: Edge, circle: Circle) -> list[Point]:
 def _two_circles(one: Circle, other: Circle) -> list[Point]:
     dx, dy = _minus(other.center, one.center)
     square = dx * dx + dy * dy
-    if not square > 0 and decided(abs(one.radius - other.radius)):  # concentric
+    if not square > 0 and decided(abs(one.radius - other.radius) - square.abs_upper().sqrt()):  # concentric, or nearly
         return []
     along = (square + one.radius * one.radius - other.radius * other.radius) / 2
     height = square * one.radius * one.radius - along * along
