@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import reduce
 from typing import Any, Final
 
 import numpy as np
@@ -193,9 +194,7 @@ class PosePathProof:
         if found is None:
             return
         share, inverse = found
-        size, norm = largest_singular_value(middles), largest_singular_value(inverse)
-        if size is None or norm is None:
-            return
+        size, norm = spectral_norm(middles), spectral_norm(inverse)
         slope = _frobenius(slopes) * span.rad()
         rest, dimension = 1 - share, middles.nrows()
         facts.least_sigma = _lesser(facts.least_sigma, rest / norm, 1 / norm * (1 + share))
@@ -286,6 +285,14 @@ def _contraction(middles: arb_mat, slopes: arb_mat, span: arb) -> tuple[arb, arb
     near = arb_mat(inverse.tolist())
     share = _frobenius(unit_matrix(size) - near * middles) + _frobenius(near * slopes) * span.rad()
     return (share.abs_upper(), near) if share < _CONTRACTION else None
+
+
+def spectral_norm(matrix: arb_mat) -> arb:
+    """An enclosure of the largest singular value: roughly, where it is not computed well."""
+    found = largest_singular_value(matrix)
+    if found is not None:
+        return found
+    return reduce(arb.max, (abs(entry).abs_lower() for entry in matrix.entries())).union(_frobenius(matrix))
 
 
 def _frobenius(matrix: arb_mat) -> arb:
