@@ -183,7 +183,7 @@ def _job(robot: Robot | Mechanism, joints: JointPath, number: int, width: Fracti
     from pkm_exact.geometry.mechanism import Mechanism
 
     if isinstance(robot, Mechanism):
-        made_of: tuple[object, ...] = (robot.motion, robot.constraints, robot.actuated)
+        made_of: tuple[object, ...] = (robot.motion, robot.constraints, robot.actuated, robot.drives)
     else:
         made_of = (robot.base_joints, robot.platform_joints, robot.chains)
     parts = (robot.kind, robot.metric, *made_of, joints, number, width)
