@@ -5,7 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from secrets import token_hex
 from typing import Final
@@ -21,6 +21,17 @@ def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
     OSError
         If the file cannot be written; what stood there before is then untouched.
     """
+    write_parts(path, (data,))
+
+
+def write_parts(path: str | os.PathLike[str], parts: Iterable[bytes]) -> None:
+    """The same of what comes in parts, which need not be in memory together.
+
+    Raises
+    ------
+    OSError
+        As ``write_whole``.
+    """
     name = os.fsdecode(path)
     if "\0" in name:
         raise OSError(errno.EINVAL, "embedded null byte", name)
@@ -30,7 +41,7 @@ def write_whole(path: str | os.PathLike[str], data: bytes) -> None:
     draft = target.with_name(f".{target.name[:100]}.{token_hex(8)}.tmp")
     try:
         with draft.open("xb") as stream:
-            stream.write(data)
+            stream.writelines(parts)
             stream.flush()
             os.fsync(stream.fileno())
         draft.replace(target)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import os
 import signal
@@ -31,6 +32,8 @@ from pkm_exact.certify.build import canonical_bytes, certificate, certificate_by
 from pkm_exact.cli.main import main
 from pkm_exact.cli.sweep import _Shown
 from pkm_exact.errors import PkmExactError
+from pkm_exact.geometry.path_reader import joint_names
+from pkm_exact.poses.roll_pitch_yaw import roll_pitch_yaw
 from pkm_exact.roots.interval import Interval, decimal
 from pkm_exact.solution import Solution
 from pkm_exact.sweep.job import Answer, SweepJob, sweep_job
@@ -346,6 +349,41 @@ def test_cranks_are_swept_by_joint_values(tmp_path: Path, capsys: Capture) -> No
     assert first["certificate_sha256"] == sha256(one.read_bytes()).hexdigest()
     assert run(model, rows, tmp_path / "other.jsonl", "--joints", "--squared") == 2
     assert "exclude each other" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("name", "given"), [("3-rpr-merlet-p", ["7.1", "5.1", "5"]), ("3-rps", ["13/10", "4/3", "1.25"])]
+)
+def test_a_table_has_a_line_for_each_pose(tmp_path: Path, name: str, given: list[str]) -> None:
+    robot = read_robot(FILES[name])
+    names = joint_names(robot)
+    values = dict(zip(names, given, strict=True))
+    lines = [names, given, [*given[1:], "1000000"], ["x", *given[1:]]]
+    rows = written(tmp_path / "rows.csv", [",".join(line) for line in lines])
+    assert [run(FILES[name], rows, tmp_path / out) for out in ("out.jsonl", "out.CSV")] == [3, 3]
+    assert {path.name for path in tmp_path.iterdir()} == {"rows.csv", "out.jsonl", "out.CSV"}
+    with (tmp_path / "out.CSV").open(newline="", encoding="utf-8") as stream:
+        table = list(csv.DictReader(stream))
+    expected, empty, wrong = records(tmp_path / "out.jsonl")
+    poses = [line for line in table if line["row"] == "1"]
+    assert [line["pose"] for line in poses] == [str(k + 1) for k in range(expected["real_poses"])] != []
+    for line, pose, box in zip(
+        poses, expected["poses"], robot.solve(lengths=given, method="krawczyk").poses, strict=True
+    ):
+        assert {key: float(line[f"joint_{key}"]) for key in names} == {k: float(Fraction(v)) for k, v in values.items()}
+        planar = robot.motion.is_planar
+        assert [line[key] for key in ("x", "y", "z") if key in line] == pose["position"][: 2 if planar else 3]
+        assert [line[f"q{k}"] for k in range(4) if not planar] == ([] if planar else pose["quaternion"])
+        angles = ["degrees"] if planar else ["roll", "pitch", "yaw"]
+        for key, angle in zip(angles, roll_pitch_yaw(box)[2 if planar else 0 :], strict=True):
+            assert angle is not None
+            unit = Fraction(1, 10 ** len(line[key].partition(".")[2]))
+            assert angle.lo - unit <= Fraction(line[key]) <= angle.hi + unit
+        assert (line["det_sign"], line["multiplicity"]) == (str(pose["det_sign"]), str(pose["multiplicity"]))
+    (without,) = [line for line in table if line["row"] == "2"]
+    assert (without["claim"], without["real_poses"], without["pose"], without["x"]) == (empty["claim"], "0", "", "")
+    (refused,) = [line for line in table if line["row"] == "3"]
+    assert (refused["notes"], refused["claim"], refused[f"joint_{names[0]}"]) == (wrong["error"], "", "x")
 
 
 def test_what_is_no_file_of_lengths_is_one_sentence(tmp_path: Path, capsys: Capture) -> None:

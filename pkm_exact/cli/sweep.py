@@ -38,8 +38,8 @@ _SECONDS_PER_LINE: Final = 0.2
     "--output",
     type=arguments.FilePath(),
     required=True,
-    metavar="OUT.jsonl",
-    help="Write one line per row to this file.",
+    metavar="OUT",
+    help="Write OUT.jsonl, one line per row, or OUT.csv, a table with one line per pose.",
 )
 @click.option(
     "--method",
@@ -103,9 +103,10 @@ def sweep(
     LENGTHS.csv has one row of exact leg lengths per problem; a first line with the names l1,l2,.. may be left out. For
     each row, in the same order, OUT.jsonl gets one line: the claim, the poses in decimals that are right to one unit of
     the last digit, and the SHA-256 digest of the certificate that `solve --lengths` would write. A row that cannot be
-    solved gets a line that says why, and does not stop the others.
+    solved gets a line that says why, and does not stop the others. OUT.csv is a table for spreadsheets instead: one
+    line per pose, with roll, pitch and yaw in degrees as well.
 
-    An interrupted run leaves OUT.jsonl.partial and OUT.jsonl.journal; the same command goes on from there, and the
+    An interrupted run leaves OUT.partial and OUT.journal beside OUT; the same command goes on from there, and the
     output is the same to the last byte, whatever the number of workers.
 
     Exit codes: 0 all rows complete; 3 some rows have a weaker claim or no answer. Others as for certify-poses.
@@ -139,6 +140,7 @@ def sweep(
 
     from pkm_exact.policy import Policy
     from pkm_exact.sweep.job import sweep_job
+    from pkm_exact.sweep.pose_table import is_table
 
     job = sweep_job(
         robot,
@@ -150,6 +152,7 @@ def sweep(
         certificates=folder is not None,
         indices=asked,
         joints=joints,
+        table=is_table(target),
     )
 
     def started(job: SweepJob) -> AbstractContextManager[Workers]:

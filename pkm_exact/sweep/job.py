@@ -65,6 +65,8 @@ class SweepJob:
         What else is wanted at each pose.
     joints : bool
         Whether rows have joint values, as those of cranks and slides.
+    table : bool
+        Whether the output is a table; poses have their angles in degrees as well then.
     """
 
     robot: Machine
@@ -74,6 +76,7 @@ class SweepJob:
     certificates: bool
     indices: AskedIndices | None = None
     joints: bool = False
+    table: bool = False
 
     def answer(self, row: LengthRow) -> Answer:
         """The answer to a row, whatever happens on the way: the other rows are not affected."""
@@ -81,7 +84,7 @@ class SweepJob:
             robot, name = robot_at(self.robot, row, self.names) if self.joints else (self.robot, None)
             solution = self.solver.solution(_problem(robot, name, row, self.names, squared=self.squared))
             data = certificate_bytes(robot, name, solution)
-            line = solution_line(row, robot, name, solution, data, self.indices)
+            line = solution_line(row, robot, name, solution, data, self.indices, degrees=self.table)
             return Answer(row.number, line, data if self.certificates else None)
         except InternalError as error:
             sentence = _internal(error)
@@ -117,11 +120,12 @@ def sweep_job(
     certificates: bool,
     indices: AskedIndices | None = None,
     joints: bool = False,
+    table: bool = False,
 ) -> SweepJob:
     """The job for a file. The start section is that of the first rows, however many are solved by whom."""
     problems = list(_problems(robot, lengths, squared=squared, joints=joints)) if method == "krawczyk" else []
     solver = RowSolver.of(problems, width, policy, method)
-    return SweepJob(robot, lengths.names, solver, squared, certificates, indices, joints)
+    return SweepJob(robot, lengths.names, solver, squared, certificates, indices, joints, table)
 
 
 def _problems(robot: Machine, lengths: LengthsFile, *, squared: bool, joints: bool) -> Iterable[ForwardProblem]:
@@ -145,6 +149,8 @@ def identity(job: SweepJob, lengths: LengthsFile, certificates: Path | None) -> 
         options = (*options, job.indices)
     if job.joints:
         options = (*options, "joints")
+    if job.table:
+        options = (*options, "table")
     return sha256(repr((words, options)).encode()).hexdigest()
 
 

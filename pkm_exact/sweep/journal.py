@@ -1,8 +1,9 @@
 """What a sweep has found so far, in two files beside its output: an interrupted run goes on from there.
 
-OUT.partial has the lines of the output, and becomes the output when it is complete, by being renamed. OUT.journal says
-to which job they belong, and has for every line a digest of all lines up to it: a line that was cut off or changed, and
-what follows it, is dropped and answered again. Both only grow. As long as a run lasts, it holds a lock on the journal.
+OUT.partial has the lines of the output and becomes the output when it is complete, by being renamed; a table is made of
+it. OUT.journal says to which job they belong, and has for every line a digest of all lines up to it: a line that was
+cut off or changed, and what follows it, is dropped and answered again. Both only grow. As long as a run lasts, it holds
+a lock on the journal.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import json
 import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from hashlib import sha256
 from pathlib import Path
 from time import monotonic
@@ -18,6 +19,7 @@ from types import TracebackType
 from typing import BinaryIO, Final
 
 from pkm_exact.errors import InputError
+from pkm_exact.files import write_parts
 from pkm_exact.sweep.lock import lock
 from pkm_exact.wording import printable
 
@@ -151,11 +153,15 @@ class Journal:
             os.fsync(stream.fileno())
         self._synced = monotonic()
 
-    def finish(self) -> None:
-        """The rows are complete: they become the output."""
+    def finish(self, spelled: Callable[[Iterable[bytes]], Iterable[bytes]] | None = None) -> None:
+        """The rows are complete: they become the output, or it is made of them."""
         self._sync()
+        if spelled is not None:
+            self._lines.seek(0)
+            write_parts(self.output, spelled(self._lines))
         self._lines.close()
-        self.rows_path.replace(self.output)
+        if spelled is None:
+            self.rows_path.replace(self.output)
         self.remove()
 
     def remove(self) -> None:

@@ -12,6 +12,7 @@ from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_spelling import pose_decimals
+from pkm_exact.poses.roll_pitch_yaw import roll_pitch_yaw
 from pkm_exact.roots.interval import Interval, decimal
 from pkm_exact.solution import Solution
 from pkm_exact.sweep.asked_indices import AskedIndices
@@ -25,9 +26,13 @@ def solution_line(
     solution: Solution,
     certificate: bytes,
     asked: AskedIndices | None = None,
+    *,
+    degrees: bool = False,
 ) -> bytes:
-    """What was found for a row, with the digest of its certificate, and at each pose the indices asked for."""
-    poses, notes = [_pose(pose) for pose in solution.poses], list(answer_notes(robot, configuration, solution))
+    """What was found for a row, with the digest of its certificate, and of each pose indices and angles if asked."""
+    poses, notes = list(map(_pose, solution.poses)), list(answer_notes(robot, configuration, solution))
+    if degrees:
+        poses = [{**entry, "degrees": _degrees(robot, pose)} for entry, pose in zip(poses, solution.poses, strict=True)]
     if asked is not None:
         values, reasons = asked.at_poses(robot, solution.problem, solution.poses)
         poses = [{**pose, "indices": found} for pose, found in zip(poses, values, strict=True)]
@@ -67,6 +72,12 @@ def _pose(pose: Pose) -> dict[str, Any]:
         **{index.name: _short(index, pose) for index in shown_in(Output.SWEEP)},
         "multiplicity": pose.multiplicity,
     }
+
+
+def _degrees(robot: Machine, pose: Pose) -> list[str | None]:
+    """Roll, pitch and yaw, or the angle in the plane; None where a box does not tell them apart."""
+    angles = roll_pitch_yaw(pose)[2:] if robot.motion.is_planar else roll_pitch_yaw(pose)
+    return [None if angle is None else decimal(angle) for angle in angles]
 
 
 def _short(index: Index, pose: Pose) -> str | int | None:

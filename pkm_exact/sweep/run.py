@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import islice
 from pathlib import Path
 from typing import Any, Final, Protocol
@@ -17,6 +18,7 @@ from pkm_exact.files import remove_drafts, write_whole
 from pkm_exact.sweep.job import Answer, SweepJob, identity
 from pkm_exact.sweep.journal import Journal
 from pkm_exact.sweep.lengths import LengthRow, LengthsFile
+from pkm_exact.sweep.pose_table import pose_table
 
 AHEAD: Final = 4096
 """Most answers that are kept because an earlier row is not answered."""
@@ -134,7 +136,7 @@ def sweep(
                 tally.add(json.loads(answer))
                 if progress is not None:
                     progress(journal.rows, before)
-        journal.finish()
+        journal.finish(partial(pose_table, job) if job.table else None)
     return tally
 
 
