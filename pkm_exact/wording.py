@@ -7,6 +7,8 @@ from typing import Final
 
 _LONGEST: Final = 40
 _LONGEST_BITS: Final = 1400
+NO_UNIT: Final = "1"
+"""The unit of lengths that are pure numbers."""
 
 
 def printable(text: str) -> str:
@@ -25,6 +27,17 @@ def counted(number: int, noun: str) -> str:
     ('1 pose', '0 poses')
     """
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def with_unit(number: str, unit: str) -> str:
+    """A number and its unit, if there is one.
+
+    Examples
+    --------
+    >>> with_unit("0.5", "mm"), with_unit("0.5", "1")
+    ('0.5 mm', '0.5')
+    """
+    return number if unit == NO_UNIT else f"{number} {unit}"
 
 
 def shown(value: object) -> str:

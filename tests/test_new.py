@@ -460,6 +460,7 @@ def test_rods_of_a_given_length(tmp_path: Path, capsys: Capture) -> None:
     assert main([*words, "--crank", "20", "--rod", "130", "-o", str(target)]) == 0
     robot = read_robot(target)
     assert {chain.rod_squared for chain in robot.chains} == {Fraction(130) ** 2}
+    assert "# Squared lengths of the rods, exact, all 130 long.\n" in target.read_text()
     assert robot.nominal is not None
     assert main(["solve", str(target), "--nearest"]) == 0
     text = capsys.readouterr().out

@@ -55,7 +55,7 @@ def test_the_model_s_nominal_pose_is_marked_everywhere(tmp_path: Path, capsys: C
     path.write_text(Path(PLANAR).read_text() + "\n[nominal]\nposition = [5, 4]\ndegrees = 5\n")
     assert main(["solve", str(path)]) == 0
     out = capsys.readouterr().out
-    assert "note: pose 2 is the nearest to the nominal pose: its position is 1 1, its rotation 5 degrees from it" in out
+    assert "note: pose 2 is the nearest to the nominal pose: its position is 1, its rotation 5 degrees from it" in out
     assert "\n2*  " in out
     answer = _json(["solve", str(path)], capsys)
     assert answer["nearest_to_nominal"] == [2]
@@ -136,6 +136,15 @@ def test_lengths_in_another_unit_or_exchanged_are_recognised(capsys: Capture) ->
     assert unreachable_notes(robot.problem(squares), "mm") == ()
 
 
+def test_rods_that_do_not_reach_are_called_rods_and_not_lengths_to_change(capsys: Capture) -> None:
+    assert main(["solve", DELTA, "--joints", "30deg,45deg,150deg"]) == 0
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last == (
+        "note: no pose: rod 1 is 2.66 long, but at these joint values with the others as they are it could be no "
+        "shorter than 2.724"
+    )
+
+
 @given(st.lists(st.integers(1, 60), min_size=3, max_size=3))
 def test_nothing_is_said_where_a_pose_exists(lengths: list[int]) -> None:
     """Legs from joints to a platform placed somewhere never contradict each other."""
@@ -152,6 +161,9 @@ def test_two_lengths_that_were_exchanged_are_named() -> None:
     notes = unreachable_notes(robot.problem_at([Fraction(1), Fraction(12), Fraction(7, 2)]), "mm")
     if notes:
         assert notes[0].startswith("no pose: ")
+    assert unreachable_notes(robot.problem_at([Fraction(50), Fraction(5), Fraction(7)]), "1")[0].endswith(
+        "leg 1 is 50 long, but with the others as they are it could be at most 19 long"
+    )
     wrong = unreachable_notes(robot.problem_at([Fraction(50), Fraction(5), Fraction(7)]), "mm")
     assert wrong[0].startswith("no pose: leg 1 is 50 mm long")
 

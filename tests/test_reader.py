@@ -87,6 +87,12 @@ BAD = {
     "five legs": (MODEL.replace("[[0.1, 0, 0], ", "["), "base.joints: 5 rows; give 6"),
     "seven legs": (MODEL.replace("[[0, 0, 0],", "[[0, 0, 0], [9, 9, 9],"), "platform.joints: 7 rows; give 6"),
     "two numbers": (MODEL.replace("[2, 1.5, 0]", "[2, 1.5]"), "base.joints[4]: a list of 2; give a list of 3"),
+    "unknown key": (MODEL.replace("[platform]", "[platform]\nlever = 1"), "the known keys are: joints, hexagon, tool"),
+    "tool of the base": (MODEL.replace("[base]", "[base]\ntool = [0, 0, 0]"), "base: unknown key 'tool'"),
+    "no angle": (
+        MODEL.replace("[2, 1.5, 0]", "{ length = 2, angle = 3 }"),
+        "base.joints[4]: is a table without degrees or elevation; give a list of 3 numbers, or a length and",
+    ),
     "not a row": (MODEL.replace("[2, 1.5, 0]", "7"), "base.joints[4]: 7 is not a list"),
     "joints text": (MODEL.replace("[0.1, 0, 0]", '"0.1,0,0"'), "base.joints[1]: '0.1,0,0' is not a list"),
     "nan": (MODEL.replace("1.5", "nan"), "base.joints[4][2]: nan is not a finite number"),

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from math import atan2, degrees
+from math import atan2, degrees, radians, tan
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -338,6 +338,30 @@ def test_bad_rows_name_line_column_and_remedy(text: str, part: str, tmp_path: Pa
     assert str(caught.value).startswith(str(path))
     assert part in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_cranks_move_between_angles_in_degrees(tmp_path: Path, capsys: Capture) -> None:
+    arms, target = robot("3-rrr"), tmp_path / "out.csv"
+    path = path_from_csv("0,90deg,1/2\n37deg,0deg,6\n", arms)
+    assert path.rows[0] == (0, 1, Fraction(1, 2))
+    assert path.rows[1][1] == 0
+    assert abs(float(path.rows[1][0]) - tan(radians(37 / 2))) < 1e-15
+    said = list(map(str, path.stand_ins))
+    assert said[0].startswith("line 2, h1 was given as 37 degrees")
+    assert said[1].startswith("line 2, h3: 6 is taken as a half tangent, an angle of 161.1 degrees")
+    for text, part in (
+        ("0,0,180deg\n", "line 1, h3: 180 degrees; give an angle between -180 and 180"),
+        ("0,0,deg", "h3"),
+    ):
+        with pytest.raises(InputError, match=part):
+            path_from_csv(text, arms)
+    with pytest.raises(InputError, match="l1"):
+        path_from_csv("7deg,5,5\n", robot("3-rpr-merlet-p"))
+    (tmp_path / "path.csv").write_text("h1,h2,h3\n0deg,0,0\n1deg,0,0\n")
+    words = ["track", str(FILES["3-rrr"]), str(tmp_path / "path.csv"), "--start", "1", "-o", str(target)]
+    assert main(words) == 0
+    assert "line 3, h1 was given as 1 degrees" in capsys.readouterr().err
+    assert target.read_text().count("\n") == 3
 
 
 def test_paths_are_exact() -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import click
+from click.core import ParameterSource
 
 from pkm_exact.cli import arguments
 from pkm_exact.cli.program import PROGRAM, ExitCode
@@ -72,10 +73,11 @@ def track(
 ) -> int:
     """Follow one pose of the robot in the file MODEL along a path of joint values, and prove that it is one branch.
 
-    PATH.csv has one row per sample: leg lengths (slide positions q1,.., or half tangents h1,.. of crank angles; values
-    of actuated constraints under their names), all exact, and before them, if wanted, the time; between rows the path
-    is straight. OUT gets a certified box of the pose at every row. Every step in between is proved to stay on the same
-    branch, away from singularities; where that cannot be proved, OUT ends there, with exit code 3.
+    PATH.csv has one row per sample: leg lengths (slide positions q1,.., or half tangents h1,.. of crank angles, or the
+    angles as 30deg; values of actuated constraints under their names), all exact, and before them, if wanted, the
+    time; between rows the path is straight in these values, for cranks in half tangents. OUT gets a certified box of
+    the pose at every row. Every step in between is proved to stay on the same branch, away from singularities; where
+    that cannot be proved, OUT ends there, with exit code 3.
 
     With columns of poses instead (x,y,z,roll,pitch,yaw in degrees, R = Rz(yaw) Ry(pitch) Rx(roll), or x,y,z,q0,..,q3;
     planar x,y,theta; named in the first line) the joint values follow from them, and over every whole step it is
@@ -101,6 +103,7 @@ def track(
     if poses is not None:
         if number is not None:
             raise click.UsageError("--start: the poses of the path say themselves which are meant; leave it out.")
+        _refuse_for_poses(click.get_current_context())
         from pkm_exact.cli.pose_track import follow_poses
 
         return follow_poses(robot, poses, target, modes, verbose=verbose)
@@ -108,6 +111,13 @@ def track(
         what = "--working-modes: is for a path of poses" if modes is not None else "--start: is missing"
         raise click.UsageError(f"{what}; a path of joint values needs --start and nothing else.")
     return _track_joints(robot, (model, path), number, width, target, exact=exact, verbose=verbose)
+
+
+def _refuse_for_poses(context: click.Context) -> None:
+    """Refuse options that have no effect on a path of poses, whose joint values are written with guaranteed digits."""
+    for parameter in ("width", "exact"):
+        if context.get_parameter_source(parameter) is not ParameterSource.DEFAULT:
+            raise click.UsageError(f"--{parameter}: is for a path of joint values; leave it out for one of poses.")
 
 
 def _track_joints(
@@ -121,6 +131,7 @@ def _track_joints(
     verbose: bool,
 ) -> int:
     """Follow a pose along a path of joint values, and write the samples; files are those of model and path."""
+    from pkm_exact.cli.joint_words import say_notes
     from pkm_exact.cli.track_report import start_line, written
     from pkm_exact.cli.track_store import TrackStore
     from pkm_exact.geometry.path_reader import read_path
@@ -128,6 +139,7 @@ def _track_joints(
 
     model, path = files
     joints = read_path(path, robot)
+    say_notes(joints.stand_ins)
     if number == arguments.NEAR:
         number = _nearest(robot, model, joints, width, verbose=verbose)
     with TrackStore(target, _job(robot, joints, number, width)) as store, Progress(verbose=verbose) as progress:

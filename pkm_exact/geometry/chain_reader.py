@@ -31,9 +31,7 @@ def read_joints(table: dict[str, Any], key: str, kind: Kind, metric: Metric) -> 
     """
     value = table_field(table, key, "joints = [...]")
     has_tool = key == "platform" and "tool" in value
-    joints = _joints(
-        {name: entry for name, entry in value.items() if name != "tool" or not has_tool}, key, kind, metric
-    )
+    joints = _joints(value, key, kind, metric)
     if not has_tool:
         return joints
     x, y, z = parse_vector(value["tool"], "platform.tool", kind.dimension)
@@ -41,7 +39,8 @@ def read_joints(table: dict[str, Any], key: str, kind: Kind, metric: Metric) -> 
 
 
 def _joints(value: dict[str, Any], key: str, kind: Kind, metric: Metric) -> Joints:
-    known_keys(value, ("joints",) if kind.motion.is_planar else ("joints", "hexagon"), key)
+    forms = ("joints",) if kind.motion.is_planar else ("joints", "hexagon")
+    known_keys(value, (*forms, "tool") if key == "platform" else forms, key)
     if "hexagon" not in value:
         rows = list_field(required(value, "joints", f"{key}."), f"{key}.joints", kind.legs)
         return parse_joints(rows, f"{key}.joints", kind)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.angle_degrees import angle_in_degrees
-from pkm_exact.geometry.chains import Crank, JointValue, cosine_and_sine
+from pkm_exact.geometry.chains import CosSin, Crank, JointValue, cosine_and_sine
 from pkm_exact.geometry.mechanism import LockedValues, Mechanism
 from pkm_exact.geometry.rational import NumberText, finite_decimal, parse_rational
 from pkm_exact.geometry.robot import Configuration, Robot
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from pkm_exact.geometry.angle_degrees import StandIn
+    from pkm_exact.geometry.machine import Machine
 
 NAME: Final = "joints given"
 JointWord: TypeAlias = tuple[Fraction, bool]
@@ -73,20 +74,61 @@ def joint_configuration(
                 raise InputError(f"{where}, {name}: {length} is no length; give one greater than 0")
         locked = Configuration(NAME, tuple(length * length for length in lengths))
     else:
-        cranks = isinstance(robot.chains[0], Crank)
-        found = [_value(word, f"{where}, {name}", cranks) for word, name in zip(words, actuated, strict=True)]
+        found: list[tuple[JointValue, StandIn | str | None]] = [
+            (_number(word, f"{where}, {name}"), None) if weight is None else _angle(word, f"{where}, {name}", weight)
+            for word, name, weight in zip(words, actuated, crank_weights(robot), strict=True)
+        ]
         stand_ins = tuple(note for _, note in found if note is not None)
         locked = replace(robot.lock(NAME, [value for value, _ in found]), stand_ins=stand_ins)
     return replace(robot, configurations=(*robot.configurations, locked)), NAME
 
 
+def crank_weights(robot: Machine) -> tuple[int | None, ...]:
+    """For each actuator the weight w of its circle c^2 + w s^2 = 1 if it is a crank, otherwise None.
+
+    Examples
+    --------
+    >>> crank_weights(Robot.load("models/3-rrr.toml")), crank_weights(Robot.load("models/3-rpr-merlet-p.toml"))
+    ((1, 1, 1), (None, None, None))
+    """
+    if isinstance(robot, Mechanism):
+        drives = [robot.drive(name) for name in robot.actuated]
+        return tuple(drive.weight if drive is not None and drive.is_crank else None for drive in drives)
+    is_crank = isinstance(robot, Robot) and bool(robot.chains) and isinstance(robot.chains[0], Crank)
+    return tuple(1 if is_crank else None for _ in robot.actuated)
+
+
+def half_tangent_on_path(word: JointWord, where: str, weight: int | None) -> tuple[Fraction, StandIn | str | None]:
+    """The half tangent of a crank on a path, or the value of another actuator; and what is to be known of it.
+
+    A path is straight in half tangents, so that it never comes to 180 degrees.
+
+    Examples
+    --------
+    >>> half_tangent_on_path((Fraction(90), True), "line 1, h1", 1)
+    (Fraction(1, 1), None)
+    """
+    number, in_degrees = word
+    if weight is None:
+        return _number(word, where), None
+    if in_degrees and abs(number) >= 180:
+        raise InputError(
+            f"{where}: {number} degrees; give an angle between -180 and 180, as a path, which is straight in half "
+            "tangents, does not come to 180"
+        )
+    (c, s), note = _angle(word, where, weight)
+    return s / (1 + c), note
+
+
 def _of_mechanism(robot: Mechanism, words: Sequence[JointWord], where: str) -> tuple[Mechanism, str]:
     values: list[JointValue] = []
     stand_ins: list[StandIn | str] = []
-    for word, name, is_length in zip(words, robot.actuated, robot.are_lengths, strict=True):
-        drive, place = robot.drive(name), f"{where}, {name}"
-        if drive is not None and drive.is_crank:
-            value, note = _value(word, place, True, drive.weight)
+    for word, name, is_length, weight in zip(
+        words, robot.actuated, robot.are_lengths, crank_weights(robot), strict=True
+    ):
+        place = f"{where}, {name}"
+        if weight is not None:
+            value, note = _angle(word, place, weight)
             values.append(value)
             stand_ins += [] if note is None else [note]
             continue
@@ -98,11 +140,9 @@ def _of_mechanism(robot: Mechanism, words: Sequence[JointWord], where: str) -> t
     return replace(robot, configurations=(*robot.configurations, locked)), NAME
 
 
-def _value(word: JointWord, where: str, is_crank: bool, weight: int = 1) -> tuple[JointValue, StandIn | str | None]:
-    """The value, and what is to be known of it."""
+def _angle(word: JointWord, where: str, weight: int) -> tuple[CosSin, StandIn | str | None]:
+    """Cosine and sine of a crank, and what is to be known of them."""
     number, in_degrees = word
-    if not is_crank:
-        return _number(word, where), None
     if in_degrees:
         return angle_in_degrees(number, where, weight)
     large = _perhaps_degrees(number, where, weight) if abs(number) > LIKELY_DEGREES else None

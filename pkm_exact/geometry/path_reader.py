@@ -1,21 +1,24 @@
 """Joint paths: CSV files with one row of joint values per sample, read exactly.
 
 One column per leg: lengths (``l1``, ``l2``, ..), slide positions (``q1``, ..) or half tangents of crank angles
-(``h1``, ..), of a mechanism values of the actuated constraints under their names; and before them, if there is one
-more, ``time``. A first line with these names may be left out. Blank lines and lines that begin with # are skipped.
+(``h1``, ..; angles as ``30deg``), of a mechanism values of the actuated constraints under their names; and before
+them, if there is one more, ``time``. A first line with these names may be left out. Blank lines and lines that begin
+with # are skipped.
 """
 
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 from typing import Final
 
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.angle_degrees import StandIn
 from pkm_exact.geometry.chains import Crank
 from pkm_exact.geometry.csv_fields import exact_number, header_names, is_header, numbered_rows, require_length
+from pkm_exact.geometry.given_joints import crank_weights, half_tangent_on_path, joint_word
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.robot import Robot
@@ -37,11 +40,14 @@ class JointPath:
         Increasing; None if the file has no time.
     lines : tuple of int
         Where the rows stand in the file.
+    stand_ins : tuple of StandIn or str
+        Angles that were given in degrees and are taken as others, by how much; or sentences.
     """
 
     rows: tuple[tuple[Fraction, ...], ...]
     times: tuple[Fraction, ...] | None
     lines: tuple[int, ...]
+    stand_ins: tuple[StandIn | str, ...] = field(default=(), repr=False, compare=False)
 
 
 def joint_names(robot: Machine) -> tuple[str, ...]:
@@ -100,6 +106,8 @@ def path_from_csv(text: str, robot: Machine) -> JointPath:
     rows: list[tuple[Fraction, ...]] = []
     times: list[Fraction] = []
     lines: list[int] = []
+    stand_ins: list[StandIn | str] = []
+    weights = crank_weights(robot)
     for number, fields in numbered_rows(text):
         line = f"line {number}"
         if columns is None:
@@ -108,15 +116,22 @@ def path_from_csv(text: str, robot: Machine) -> JointPath:
                 continue
         if len(fields) != len(columns):
             raise InputError(f"{line}: {len(fields)} values; give {len(columns)}: {', '.join(columns)}")
-        values = [exact_number(field, f"{line}, {column}") for field, column in zip(fields, columns, strict=True)]
         if columns[0] == TIME:
-            times.append(_increasing(values.pop(0), times, line))
-        _require_lengths(values, names, line, robot)
-        rows.append(tuple(values))
+            times.append(_increasing(exact_number(fields.pop(0), f"{line}, {TIME}"), times, line))
+        values = [
+            (exact_number(cell, f"{line}, {name}"), None)
+            if weight is None
+            else half_tangent_on_path(joint_word(cell, f"{line}, {name}"), f"{line}, {name}", weight)
+            for cell, name, weight in zip(fields, names, weights, strict=True)
+        ]
+        row = [value for value, _ in values]
+        stand_ins += [note for _, note in values if note is not None]
+        _require_lengths(row, names, line, robot)
+        rows.append(tuple(row))
         lines.append(number)
     if columns is None or not rows:
         raise InputError(f"has no rows; give one row of {len(names)} values ({', '.join(names)}) per sample")
-    return JointPath(tuple(rows), tuple(times) if columns[0] == TIME else None, tuple(lines))
+    return JointPath(tuple(rows), tuple(times) if columns[0] == TIME else None, tuple(lines), tuple(stand_ins))
 
 
 def _path_names(robot: Machine) -> tuple[str, ...]:

@@ -96,6 +96,12 @@ def parse_vector(row: object, where: str, dimension: int = 3) -> Vector:
     """
     if isinstance(row, WrittenVector):
         row = row.numbers(dimension)
+    if isinstance(row, dict):
+        angles = "degrees = 30" if dimension == 2 else "degrees = 30, elevation = 0, z = 0"
+        raise InputError(
+            f"{where}: is a table without degrees or elevation; give a list of {dimension} numbers, or a length and "
+            f"angles, as {{ length = 80, {angles} }}"
+        )
     if not isinstance(row, list | tuple):
         raise InputError(f"{where}: {shown(row)} is not a list; give a list of {dimension} numbers")
     if len(row) != dimension:

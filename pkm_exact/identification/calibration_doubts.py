@@ -8,6 +8,8 @@ from math import dist, sqrt
 from statistics import median
 from typing import TYPE_CHECKING, Final
 
+from pkm_exact.wording import with_unit
+
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.identification.calibration_fit import LegFit
@@ -35,7 +37,7 @@ def _units(robot: Robot, read: list[list[float]], of_model: list[list[float]]) -
     if not 1 / _OTHER_UNIT < ratio < _OTHER_UNIT:
         yield (
             f"the lengths read are about {ratio:.4g} times those of the model at these poses; give positions, lengths "
-            f"and model in one unit{_unit(robot)}"
+            f"{with_unit('and model in one unit', robot.unit)}"
         )
 
 
@@ -71,7 +73,7 @@ def _run_away(robot: Robot, fits: Sequence[LegFit]) -> Iterator[str]:
             changed += [name] if not change <= size else []
             loose += [name] if not spread <= size else []
         unfinished += [] if fit.is_minimum else [f"leg {leg + 1}"]
-    than = f"than base and platform are wide, {size:.3g}{_unit(robot)}"
+    than = f"than base and platform are wide, {with_unit(f'{size:.3g}', robot.unit)}"
     if changed:
         yield f"{_names(changed)}: changed by more {than}; the fit has left the model"
     if loose:
@@ -96,7 +98,3 @@ def _parts(robot: Robot, leg: int, fit: LegFit) -> Iterator[tuple[str, float, fl
 
 def _names(names: Sequence[str]) -> str:
     return ", ".join(names)
-
-
-def _unit(robot: Robot) -> str:
-    return "" if robot.unit == "1" else f" {robot.unit}"

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from pkm_exact.claim_wording import DIGITS, NEARBY, NEARBY_MOVES, NEARBY_SINGULAR
 from pkm_exact.geometry.angle_degrees import stand_in_sentences
 from pkm_exact.geometry.rational import finite_decimal
+from pkm_exact.wording import with_unit
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
@@ -28,14 +29,14 @@ def answer_notes(robot: Machine | None, configuration: str | None, solution: Sol
         *stand_in_notes(robot, configuration),
         *digit_notes(solution.problem, solution.poses, digit),
         *nominal_notes(robot, solution.poses),
-        *(() if solution.poses or robot is None else _why_none(solution.problem, robot.unit)),
+        *(() if solution.poses or robot is None else _why_none(solution.problem, robot)),
     )
 
 
-def _why_none(problem: ForwardProblem, unit: str) -> tuple[str, ...]:
+def _why_none(problem: ForwardProblem, robot: Machine) -> tuple[str, ...]:
     from pkm_exact.poses.unreachable_legs import unreachable_notes
 
-    return unreachable_notes(problem, unit)
+    return unreachable_notes(problem, robot.unit, are_given=all(robot.are_lengths))
 
 
 def nominal_notes(robot: Machine | None, poses: Sequence[Pose]) -> tuple[str, ...]:
@@ -48,7 +49,8 @@ def nominal_notes(robot: Machine | None, poses: Sequence[Pose]) -> tuple[str, ..
     if found is None:
         return ()
     first, *others = found.numbers
-    off = f"its position is {found.position_off:.4g} {robot.unit}, its rotation {found.degrees_off:.3g} degrees from it"
+    position = with_unit(f"{found.position_off:.4g}", robot.unit)
+    off = f"its position is {position}, its rotation {found.degrees_off:.3g} degrees from it"
     if others:
         as_near = ", ".join(map(str, others))
         return (f"pose {first} is nearest to the nominal pose ({off}), or as near as its box tells: {as_near}",)

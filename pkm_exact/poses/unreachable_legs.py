@@ -13,6 +13,8 @@ from itertools import combinations
 from math import isqrt
 from typing import TYPE_CHECKING, Final
 
+from pkm_exact.wording import NO_UNIT, with_unit
+
 if TYPE_CHECKING:
     from pkm_exact.constraints.form import Vector
     from pkm_exact.geometry.problem import ForwardProblem
@@ -32,7 +34,7 @@ _BITS: Final = 80
 _Ends = tuple[Fraction, Fraction]
 
 
-def unreachable_notes(problem: ForwardProblem, unit: str) -> tuple[str, ...]:
+def unreachable_notes(problem: ForwardProblem, unit: str, *, are_given: bool = True) -> tuple[str, ...]:
     """What is wrong with the lengths of a robot all of whose constraints are legs; nothing where that does not tell.
 
     Parameters
@@ -40,6 +42,9 @@ def unreachable_notes(problem: ForwardProblem, unit: str) -> tuple[str, ...]:
     problem : ForwardProblem
     unit : str
         Of the lengths.
+    are_given : bool
+        Whether they are the actuated lengths of legs, which can be wrong; else they are those of the model's rods, and
+        cranks or slides put their lower ends where they are.
 
     Examples
     --------
@@ -55,10 +60,13 @@ def unreachable_notes(problem: ForwardProblem, unit: str) -> tuple[str, ...]:
     sides = _sides(problem)
     if _fits(lengths, sides):
         return ()
+    if not are_given:
+        return (_worst(lengths, sides, unit, "rod"),)
     notes = [_worst(lengths, sides, unit)]
     for factor, words in FACTORS.items():
         if _fits([(low * factor, high * factor) for low, high in lengths], sides):
-            notes.append(f"lengths {words} these would not contradict each other: is the unit {unit}, as in the model?")
+            asked = "" if unit == NO_UNIT else f": is the unit {unit}, as in the model?"
+            notes.append(f"lengths {words} these would not contradict each other{asked}")
             return tuple(notes)
     exchanged = [pair for pair in combinations(range(len(lengths)), 2) if _fits(_exchanged(lengths, pair), sides)]
     if exchanged:
@@ -67,21 +75,22 @@ def unreachable_notes(problem: ForwardProblem, unit: str) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def _worst(lengths: Sequence[_Ends], sides: dict[tuple[int, int], tuple[_Ends, _Ends]], unit: str) -> str:
+def _worst(
+    lengths: Sequence[_Ends], sides: dict[tuple[int, int], tuple[_Ends, _Ends]], unit: str, what: str = "leg"
+) -> str:
     """The leg that most others exclude, and the range that they leave."""
     count = len(lengths)
     against = [sum(not _closes(lengths, sides, i, j) for j in range(count) if j != i) for i in range(count)]
     leg = max(range(count), key=lambda i: (against[i], -i))
     ranges = [_range(lengths[j], sides[min(leg, j), max(leg, j)]) for j in range(count) if j != leg]
     low, high = max(low for low, _ in ranges), min(high for _, high in ranges)
-    text = (
-        f"no pose: leg {leg + 1} is {_about(lengths[leg][0])} {unit} long, but with the others as they are it could be"
-    )
+    at = "" if what == "leg" else "at these joint values "
+    text = f"no pose: {what} {leg + 1} is {_about(lengths[leg][0], unit)} long, but {at}with the others as they are it"
     if low > high:
-        return f"no pose: no length of leg {leg + 1} fits those of all the others"
+        return f"no pose: {at}no length of {what} {leg + 1} fits those of all the others"
     if lengths[leg][0] > high:
-        return f"{text} at most {_about(high)} {unit} long"
-    return f"{text} no shorter than {_about(low)} {unit}"
+        return f"{text} could be at most {_about(high, unit)} long"
+    return f"{text} could be no shorter than {_about(low, unit)}"
 
 
 def _range(other: _Ends, pair: tuple[_Ends, _Ends]) -> _Ends:
@@ -128,5 +137,5 @@ def _root(square: Fraction) -> _Ends:
     return Fraction(low, 1 << _BITS), Fraction(low + 1, 1 << _BITS)
 
 
-def _about(number: Fraction) -> str:
-    return f"{float(number):.4g}"
+def _about(number: Fraction, unit: str) -> str:
+    return with_unit(f"{float(number):.4g}", unit)

@@ -10,11 +10,11 @@ from typing import Final
 
 from pkm_exact.geometry.rational import finite_decimal
 from pkm_exact.roots.interval import Interval, decimal
+from pkm_exact.wording import NO_UNIT
 
 _UPWARDS: Final = Context(prec=2, rounding=ROUND_CEILING, Emin=MIN_EMIN, Emax=MAX_EMAX)
 _ABOUT: Final = Context(prec=8, Emin=MIN_EMIN, Emax=MAX_EMAX)
 _MOST_DECIMALS: Final = 40
-_NO_UNIT: Final = "1"
 
 
 def in_unit(unit: str) -> str:
@@ -25,23 +25,12 @@ def in_unit(unit: str) -> str:
     >>> in_unit("mm"), in_unit("1")
     (' [mm]', '')
     """
-    return "" if unit == _NO_UNIT else f" [{unit}]"
-
-
-def with_unit(number: str, unit: str) -> str:
-    """A number and its unit, if there is one.
-
-    Examples
-    --------
-    >>> with_unit("0.5", "mm"), with_unit("0.5", "1")
-    ('0.5 mm', '0.5')
-    """
-    return number if unit == _NO_UNIT else f"{number} {unit}"
+    return "" if unit == NO_UNIT else f" [{unit}]"
 
 
 def unit_words(unit: str) -> str:
     """The unit, or that there is none."""
-    return "none, pure numbers" if unit == _NO_UNIT else unit
+    return "none, pure numbers" if unit == NO_UNIT else unit
 
 
 def exact(value: Fraction) -> str:

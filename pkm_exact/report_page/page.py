@@ -25,7 +25,7 @@ from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.pictures.scene import configuration_of, scene_of
 from pkm_exact.report_page.markup import Markup, element, embedded_json, joined
-from pkm_exact.report_page.numerals import exact, unit_words, with_unit
+from pkm_exact.report_page.numerals import exact, unit_words
 from pkm_exact.report_page.payload import payload
 from pkm_exact.report_page.rows import PoseRows, certified_rows
 from pkm_exact.report_page.sections import (
@@ -41,6 +41,7 @@ from pkm_exact.report_page.sections import (
 )
 from pkm_exact.report_page.tolerance_page import tolerance_rows, tolerance_scene
 from pkm_exact.report_page.words import Meaning, is_of_tolerances, limits_of, meaning_of
+from pkm_exact.wording import with_unit
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine

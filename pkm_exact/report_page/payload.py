@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
 
-from pkm_exact.report_page.numerals import with_unit
+from pkm_exact.wording import with_unit
 
 if TYPE_CHECKING:
     from pkm_exact.pictures.drawn_robot import PoseView, Scene

@@ -111,7 +111,7 @@ def _chains(draft: Draft) -> Iterator[str]:
         yield "[cranks]"
         yield "# From each base joint to the end of its crank, at the angle 0 ..."
         if draft.metric == UNIT_METRIC and len(draft.chains) == 6:
-            yield f"# (near {_crank_directions(draft)}: their lengths must be exactly those of at_90, and rational)"
+            yield f"# (near {_crank_directions(draft)}; for decimals, exact ones within the last digit stand in)"
         yield from _vectors("at_0", draft, [chain.at_0 for chain in draft.chains if isinstance(chain, Crank)])
         yield "# ... and at 90 degrees: perpendicular to the first, and as long."
         yield from _vectors("at_90", draft, [chain.at_90 for chain in draft.chains if isinstance(chain, Crank)])
@@ -122,7 +122,9 @@ def _chains(draft: Draft) -> Iterator[str]:
         yield f"direction = [{_numbers(first.direction[:dimension])}]"
     yield ""
     yield "[rods]"
-    yield f"# Squared lengths of the rods, exact, from the home pose below; the rods are about {_roots(draft)} long."
+    rod = draft.design.rod
+    long = f"from the home pose below; the rods are about {_roots(draft)}" if rod is None else f"all {_plain(rod)}"
+    yield f"# Squared lengths of the rods, exact, {long} long."
     yield "# Or lengths = [...], one per leg, or length = ... if all are equal."
     yield f"lengths_squared = [{_numbers(draft.lengths_squared)}]"
 
