@@ -20,6 +20,7 @@ from pkm_exact.cli.main import main
 from pkm_exact.geometry.reader import robot_from_toml
 from pkm_exact.regions.arc_area import ArcArea, arc_area
 from pkm_exact.regions.chart import rational
+from pkm_exact.regions.crossings import crossings
 from pkm_exact.regions.paving import leaves
 from pkm_exact.regions.question_reader import of_size, question_from_toml
 from pkm_exact.regions.region_conditions import asked_of
@@ -364,6 +365,41 @@ def test_half_of_the_circle_of_the_cartesian_manipulator() -> None:
     assert _crossings(machine, ["+", "+", "-"], HALVES[:1]) == 2
 
 
+def test_crossings_of_the_circle_are_isolated(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of the working mode (+, +, -) two on this half, and none on the other."""
+    machine = region_machine(model("3-prrr"))
+    text = "[region]\n{0}\n[conditions]\nno_type_2 = true\nworking_modes = {1}\n[answer]\nkind = '{2}'\n"
+    for half, count in zip(HALVES, (2, 0), strict=True):
+        question = question_from_toml(text.format(half, ["+", "+", "-"], "locus"), machine)
+        found = locus(machine, question)
+        assert found.points is not None
+        assert (len(found.points), found.undecided) == (count, ())
+        asked_here = asked_of(machine, question.chart, question.conditions)
+        judge = PointJudge(asked_here, asked_here.formula)
+        for point in found.points:
+            assert point.width < 1e-12
+            assert judge.determinant_sign((point.lo,)) == -judge.determinant_sign((point.hi,)) != 0
+    path = tmp_path / "question.toml"
+    path.write_text(text.format(HALVES[0], ["+", "+", "-"], "locus"))
+    assert main(["region", str(FILES["3-prrr"]), str(path)]) == 0
+    assert "in the region: arc = -0.5546130402" in capsys.readouterr().out
+
+
+def test_zeros_of_functions_with_roots() -> None:
+    """y = 2 t meets the circle once; a double zero, and one where the circle ends, are undecided, and nothing else."""
+    t, y = fmpq_mpoly_ctx.get(("t", "y"), Ordering.lex).gens()
+    circle = [1 - t * t]
+    one = crossings(y - 2 * t, circle, Fraction(-2), Fraction(2))
+    assert [root.contains(Fraction(4472135954999579392818, 10**22)) for root in one.zeros] == [True]
+    assert one.undecided == ()
+    double = crossings((5 * y - 4) ** 2, circle, Fraction(0), Fraction(2))
+    assert double.zeros == ()
+    assert [part.contains(Fraction(3, 5)) and part.width < 1e-6 for part in double.undecided] == [True]
+    edge = crossings(y, circle, Fraction(0), Fraction(2))
+    assert edge.zeros == ()
+    assert [part.contains(ONE) and part.width < 1e-6 for part in edge.undecided] == [True]
+
+
 @pytest.mark.slow
 def test_the_circle_of_the_cartesian_manipulator() -> None:
     """Elkady et al., chapter 13: all reached; six of the eight working modes are regular all along, the others not."""
@@ -380,6 +416,11 @@ def test_the_circle_of_the_cartesian_manipulator() -> None:
     assert sum(one != other for one, other in zip(*refuted, strict=True)) == 1
     for modes in refuted:
         assert _crossings(machine, list(modes)) == 2
+    text = "[region]\n{0}\n[conditions]\nno_type_2 = true\nworking_modes = {1}\n[answer]\nkind = 'locus'\n"
+    for modes in product("+-", repeat=3):
+        found = [locus(machine, question_from_toml(text.format(half, list(modes)), machine)) for half in HALVES]
+        assert not any(half.undecided for half in found)
+        assert sum(len(half.points or ()) for half in found) == (2 if "".join(modes) in refuted else 0)
 
 
 def _crossings(machine: RegionMachine, modes: list[str], halves: Sequence[str] = HALVES) -> int:

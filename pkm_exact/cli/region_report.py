@@ -188,7 +188,15 @@ def locus_text(machine: RegionMachine, found: Locus) -> str:
         lines.append("no factor is common" if found.is_redundant else "nowhere: the determinant is never 0")
     lines += [f"{factor} = 0" + (f", {power} times" if power > 1 else "") for factor, power in found.factors]
     if found.points is not None:
-        lines += [f"in the region: {found.variables[0]} = {point}" for point in found.points] or ["none in the region"]
+        name = found.variables[0]
+        lines += [f"in the region: {name} = {point}" for point in found.points]
+        lines += [
+            f"not decided: {name} from {rounded_down(part.lo)} to {rounded_up(part.hi)}, where a rod only just reaches "
+            "or singular poses are too near each other"
+            for part in found.undecided
+        ]
+        if not found.points and not found.undecided:
+            lines.append("none in the region")
     if set(machine.metric) != {1}:
         lines.append(f"note: coordinates are those of the model, in the metric {', '.join(map(str, machine.metric))}")
     if found.is_redundant:
@@ -199,6 +207,7 @@ def locus_text(machine: RegionMachine, found: Locus) -> str:
 def locus_json(machine: RegionMachine, found: Locus) -> str:
     """The same as a JSON object."""
     points = None if found.points is None else [[str(point.lo), str(point.hi)] for point in found.points]
+    undecided = [[str(part.lo), str(part.hi)] for part in found.undecided]
     content = {
         "robot": machine.name,
         "answer": "locus",
@@ -206,6 +215,7 @@ def locus_json(machine: RegionMachine, found: Locus) -> str:
         "factors": [{"polynomial": factor, "power": power} for factor, power in found.factors],
         "identical": found.is_identical,
         "points": points,
+        "undecided": undecided,
         "redundant": found.is_redundant,
         "metric": list(machine.metric),
     }

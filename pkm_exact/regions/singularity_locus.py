@@ -5,7 +5,7 @@ With slides and cranks the roots y of their discriminants are variables too (``f
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
@@ -16,7 +16,8 @@ from flint import fmpz_poly
 
 from pkm_exact.errors import InputError
 from pkm_exact.regions.chart import Polynomial, rational
-from pkm_exact.regions.region_conditions import constraint_rows
+from pkm_exact.regions.crossings import crossings
+from pkm_exact.regions.region_conditions import constraint_rows, placed_legs
 from pkm_exact.regions.region_determinants import determinant
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_question import RegionQuestion
@@ -40,7 +41,9 @@ class Locus:
     is_identical : bool
         Whether the determinant is 0 at every pose.
     points : tuple of Interval, or None
-        If one variable moves and there are no roots: isolating intervals of the singular poses in the region.
+        If one variable moves: isolating intervals of the singular poses in the region.
+    undecided : tuple of Interval
+        Where singular poses are neither isolated nor excluded.
     is_redundant : bool
         Whether there are more equations than freedoms: then the factors are common to all determinants, and there may
         be singular poses besides, in sets of less dimension.
@@ -51,6 +54,7 @@ class Locus:
     is_identical: bool
     points: tuple[Interval, ...] | None
     is_redundant: bool = False
+    undecided: tuple[Interval, ...] = ()
 
 
 def locus(machine: RegionMachine, question: RegionQuestion) -> Locus:
@@ -76,11 +80,34 @@ def locus(machine: RegionMachine, question: RegionQuestion) -> Locus:
         return Locus(variables, ((spelled(common), 1),), False, None, redundant)
     norms = {spelled(factor) for factor, _ in pose.norm.factor()[1]}
     kept = [(factor, int(power)) for factor, power in common.factor()[1] if spelled(factor) not in norms]
-    points = None
-    if len(variables) == 1:
-        found = (point for factor, _ in kept for point in roots_in(factor, *chart.box[0]))
-        points = tuple(sorted(found, key=lambda point: point.lo))
-    return Locus(variables, tuple((spelled(factor), power) for factor, power in kept), False, points, redundant)
+    points, undecided = _points(machine, question, [factor for factor, _ in kept])
+    factors = tuple((spelled(factor), power) for factor, power in kept)
+    return Locus(variables, factors, False, points, redundant, undecided)
+
+
+def _points(
+    machine: RegionMachine, question: RegionQuestion, factors: Sequence[Polynomial]
+) -> tuple[tuple[Interval, ...] | None, tuple[Interval, ...]]:
+    """The singular poses, and where they are not decided, if one variable moves."""
+    chart = question.chart
+    if len(chart.variables) > 1:
+        return None, ()
+    _, placed = placed_legs(machine, chart, question.conditions)
+    roots = [leg.root for leg in placed if leg.root is not None]
+    points: list[Interval] = []
+    undecided: list[Interval] = []
+    for factor in factors:
+        if not roots:
+            points += roots_in(factor, *chart.box[0])
+            continue
+        found = crossings(factor, roots, *chart.box[0])
+        points += found.zeros
+        undecided += found.undecided
+    return tuple(sorted(points, key=_start)), tuple(sorted(undecided, key=_start))
+
+
+def _start(interval: Interval) -> Fraction:
+    return interval.lo
 
 
 def spelled(polynomial: Polynomial) -> str:
