@@ -15,18 +15,20 @@ from flint import Ordering, fmpq_mpoly_ctx
 from samples import MODELS, model, solved
 from test_regions import asked
 
-from pkm_exact import InputError
+from pkm_exact import InputError, Robot
 from pkm_exact.cli.main import main
+from pkm_exact.cli.region_report import as_text
 from pkm_exact.geometry.reader import robot_from_toml
 from pkm_exact.regions.arc_area import ArcArea, arc_area
 from pkm_exact.regions.chart import rational
 from pkm_exact.regions.crossings import crossings
+from pkm_exact.regions.index_extremes import IndexRange
+from pkm_exact.regions.largest_region import LargestAnswer, largest
 from pkm_exact.regions.paving import leaves
 from pkm_exact.regions.question_reader import of_size, question_from_toml
 from pkm_exact.regions.region_conditions import asked_of
 from pkm_exact.regions.region_legs import RegionMachine, region_machine
 from pkm_exact.regions.region_points import PointJudge
-from pkm_exact.regions.region_solver import largest
 from pkm_exact.regions.singularity_locus import locus, roots_in
 
 FILES = {path.stem: path for path in MODELS}
@@ -276,6 +278,40 @@ def test_singular_poses_on_a_line() -> None:
     assert none.points == ()
     plane = locus(machine, question_from_toml(f"[region]\nposition = [[0, 9], [0, 9]]\ndegrees = 0\n{LOCUS}", machine))
     assert dict(plane.factors) == {"y": 1, "5*x + 2*y - 21": 1}
+
+
+def test_the_distance_of_singular_poses_is_enclosed(tmp_path: Path) -> None:
+    """Merlet's planar robot at the angle 0: 5 x + 2 y = 21 is 12 / sqrt(29) from (5, 4)."""
+    question = tmp_path / "question.toml"
+    text = "[region]\ndegrees = 0\n[conditions]\n{0} = true\n[answer]\nkind = 'largest'\nshape = '{1}'\n"
+    text += "about = [5, 4]\nprecision = '1/50'\n"
+    question.write_text(text.format("no_type_2", "ball"))
+    robot = Robot.load(FILES["3-rpr-merlet-p"])
+    found = robot.region(question)
+    assert isinstance(found, LargestAnswer)
+    assert found.distance is not None
+    assert found.distance.lo**2 <= Fraction(144, 29) <= found.distance.hi**2
+    assert found.distance.width <= found.distance.lo / 50
+    assert "distance of the nearest singular pose of this orientation: between 2.2" in as_text(found)
+    for conditions, shape in (("no_type_2", "cube"), ("no_type_1", "ball")):
+        question.write_text(text.format(conditions, shape).replace("1/50", "1"))
+        other = robot.region(question)
+        assert isinstance(other, LargestAnswer)
+        assert other.distance is None
+
+
+def test_extremes_are_answered_to_programs_too() -> None:
+    """And no other answer in their place."""
+    text = "[region]\nposition = [[4, 6], [4, 6]]\ndegrees = 0\n[conditions]\nreachable = true\nlength = 3\n[answer]\n"
+    robot = Robot.load(FILES["3-rpr-merlet-p"])
+    ranges = robot.region(f"{text}kind = 'extremes'\nof = 'joint_values'\nprecision = '1/10'\n")
+    assert isinstance(ranges, tuple)
+    assert [leg.name for leg in ranges] == ["leg 1", "leg 2", "leg 3"]
+    index = robot.region(f"{text}kind = 'extremes'\nof = 'transmission'\nprecision = '1'\n")
+    assert isinstance(index, IndexRange)
+    assert 0 <= index.least.lo <= index.greatest.hi <= 1
+    with pytest.raises(InputError, match="varies a number of a model file"):
+        robot.region(f"{text}kind = 'threshold'\nparameter = 'base.joints.2.1'\nbetween = [1, 2]\n")
 
 
 @pytest.mark.parametrize(

@@ -25,6 +25,7 @@ from pkm_exact.regions.bernstein import bernstein_coefficients, error_factor, on
 from pkm_exact.regions.chart import Chart
 from pkm_exact.regions.compiled_formula import compiled_formula
 from pkm_exact.regions.formula import Atom, Sign
+from pkm_exact.regions.largest_region import largest
 from pkm_exact.regions.paving import halving_axes, leaves
 from pkm_exact.regions.placed_legs import PlacedLeg
 from pkm_exact.regions.question_reader import of_size, question_from_toml
@@ -32,7 +33,7 @@ from pkm_exact.regions.region_components import components
 from pkm_exact.regions.region_conditions import Conditions, asked_of, turned_within
 from pkm_exact.regions.region_legs import OnCrank, RegionLeg, RegionMachine, region_machine
 from pkm_exact.regions.region_points import PointJudge
-from pkm_exact.regions.region_solver import RegionAnswer, answered, largest
+from pkm_exact.regions.region_solver import RegionAnswer, answered
 from pkm_exact.regions.region_workers import workers
 
 Capture = pytest.CaptureFixture[str]

@@ -16,9 +16,10 @@ from pkm_exact.stages import Amount
 
 if TYPE_CHECKING:
     from pkm_exact.interactive.progress import Progress
+    from pkm_exact.regions.largest_region import LargestAnswer
     from pkm_exact.regions.region_legs import RegionMachine
     from pkm_exact.regions.region_question import RegionQuestion
-    from pkm_exact.regions.region_solver import LargestAnswer, RegionAnswer
+    from pkm_exact.regions.region_solver import RegionAnswer
 
 
 @click.command()
@@ -186,8 +187,9 @@ def _extremes(machine: RegionMachine, asked: RegionQuestion, question: str, layo
 def _answer(
     machine: RegionMachine, asked: RegionQuestion, by: int | str, output: str | None, progress: Progress
 ) -> RegionAnswer | LargestAnswer:
+    from pkm_exact.regions.largest_region import largest
     from pkm_exact.regions.question_reader import of_size
-    from pkm_exact.regions.region_solver import answered, largest
+    from pkm_exact.regions.region_solver import answered
     from pkm_exact.regions.region_workers import workers
 
     def shown(size: Fraction, proved: bool) -> None:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.regions.arc_area import arc_area
 from pkm_exact.regions.chart import POSITIONS
+from pkm_exact.regions.largest_region import LargestAnswer
 from pkm_exact.regions.region_components import components
-from pkm_exact.regions.region_solver import LargestAnswer, RegionAnswer
+from pkm_exact.regions.region_solver import RegionAnswer
 from pkm_exact.roots.interval import Interval
 
 if TYPE_CHECKING:
@@ -88,6 +89,9 @@ def _largest_text(answer: LargestAnswer) -> str:
     else:
         word = "refuted" if answer.refused.counterexample is not None else "not proved"
         lines.append(f"{word}: {what} {rounded_up(answer.refused_size)}")
+    if (distance := answer.distance) is not None:
+        low, high = rounded_down(distance.lo), rounded_up(distance.hi)
+        lines.append(f"distance of the nearest singular pose of this orientation: between {low} and {high}")
     return "\n".join(lines) + "\n"
 
 
@@ -144,6 +148,7 @@ def as_json(answer: RegionAnswer | LargestAnswer) -> str:
             "size": str(answer.size),
             "next_size": None if answer.refused_size is None else str(answer.refused_size),
             "next_verdict": None if answer.refused is None else verdict(answer.refused),
+            "distance": None if answer.distance is None else [str(answer.distance.lo), str(answer.distance.hi)],
             "proved": None if answer.proved is None else as_object(answer.proved),
         }
     else:

@@ -26,7 +26,10 @@ if TYPE_CHECKING:
     from pkm_exact.interactive.answers import Solution
     from pkm_exact.policy import Policy
     from pkm_exact.poses.pose import Pose
-    from pkm_exact.regions.region_solver import LargestAnswer, RegionAnswer
+    from pkm_exact.regions.index_extremes import IndexRange
+    from pkm_exact.regions.joint_ranges import JointRange
+    from pkm_exact.regions.largest_region import LargestAnswer
+    from pkm_exact.regions.region_solver import RegionAnswer
     from pkm_exact.regions.singularity_locus import Locus
     from pkm_exact.statics.at_pose import AtPose
 
@@ -157,7 +160,9 @@ class Asked(Machine):
 
         return machine_at(self, pose, configuration, modes)
 
-    def region(self, question: str | os.PathLike[str], *, workers: int = 1) -> RegionAnswer | LargestAnswer | Locus:
+    def region(
+        self, question: str | os.PathLike[str], *, workers: int = 1
+    ) -> RegionAnswer | LargestAnswer | Locus | IndexRange | tuple[JointRange, ...]:
         """The answer to a question about all poses of a region.
 
         Parameters
@@ -170,7 +175,8 @@ class Asked(Machine):
         Raises
         ------
         InputError
-            If the question is not one about this robot; the message says what to do.
+            If the question is not one about this robot; the message says what to do. The answer "threshold" varies a
+            number of a model file: it has the command only.
 
         Examples
         --------
@@ -179,17 +185,24 @@ class Asked(Machine):
         >>> Robot.load("models/3-rpr-merlet-p.toml").region(text).is_proved
         True
         """
+        from pkm_exact.regions.index_extremes import index_range
+        from pkm_exact.regions.joint_ranges import joint_ranges
+        from pkm_exact.regions.largest_region import largest
         from pkm_exact.regions.question_reader import of_size, question_from_toml, read_question
         from pkm_exact.regions.region_legs import region_machine
-        from pkm_exact.regions.region_solver import answered, largest
+        from pkm_exact.regions.region_solver import answered
         from pkm_exact.regions.region_workers import workers as working
         from pkm_exact.regions.singularity_locus import locus
 
         machine = region_machine(self)
         is_text = isinstance(question, str) and "\n" in question
         asked = question_from_toml(str(question), machine) if is_text else read_question(question, machine)
+        if asked.answer.kind == "threshold":
+            raise InputError("answer.kind: a threshold varies a number of a model file; use `certify-poses region`")
         if asked.answer.kind == "locus":
             return locus(machine, asked)
+        if asked.answer.kind == "extremes":
+            return joint_ranges(machine, asked) if asked.answer.of == "joint_values" else index_range(machine, asked)
         with working(machine, workers) as run:
             if asked.answer.kind == "largest":
                 return largest(machine, asked, lambda size: of_size(asked, machine, size), run=run)
