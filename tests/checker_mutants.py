@@ -93,8 +93,9 @@ class Journal:
         if entry is None or entry["checker"] != self.checker or entry["line"] != mutant.line:
             return None
         if entry["killer"] is None:
-            is_enough = entry["corpus"] == self.corpus and (self.most < inf or _is_complete(entry["how"]))
-            return Outcome(None, entry["how"]) if is_enough else None
+            known = Outcome(None, entry["how"])
+            is_enough = entry["corpus"] == self.corpus and (self.most < inf or known.is_complete)
+            return known if is_enough else None
         return Outcome(entry["killer"], entry["how"]) if entry["killer"] in self.names else None
 
     def hint(self, mutant: Mutant) -> str | None:
@@ -108,12 +109,6 @@ class Journal:
         self.path.parent.mkdir(parents=True, exist_ok=True)
         with self.path.open("a", encoding="utf-8") as stream:
             stream.write(json.dumps(entry) + "\n")
-
-
-def _is_complete(how: str) -> bool:
-    """Whether all certificates that reach a mutant were tried in vain."""
-    tried, _, there, *_ = how.split(" ")
-    return tried == there
 
 
 # The run

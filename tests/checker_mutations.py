@@ -9,9 +9,9 @@ from __future__ import annotations
 import ast
 import copy
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from types import CodeType
@@ -52,6 +52,7 @@ class Mutant:
     """One change: the entry ``index`` (None: all of it) of the field ``field`` of ``parent`` becomes ``new``.
 
     ``lines`` are those of the file that must be reached for it to show, ``guarded`` also what a condition guards.
+    ``number`` counts those of one description: a function may ask the same twice.
     """
 
     checker: str
@@ -67,6 +68,7 @@ class Mutant:
     field: str
     index: int | None
     new: ast.AST
+    number: int = 1
 
     @property
     def module(self) -> str:
@@ -80,11 +82,11 @@ class Mutant:
 
     @property
     def key(self) -> tuple[str, str, str]:
-        """What names it."""
-        return self.place, self.was, self.becomes
+        """What names it: from the second on, those of equal description have their number behind it."""
+        return self.place, self.was, self.becomes + (f" #{self.number}" if self.number > 1 else "")
 
     def __str__(self) -> str:
-        return f"{self.path.relative_to(PACKAGE)}:{self.line}: {self.function}: {self.was}  ->  {self.becomes}"
+        return f"{self.path.relative_to(PACKAGE)}:{self.line}: {self.function}: {self.was}  ->  {self.key[2]}"
 
     def code(self) -> CodeType:
         """The changed definition, or module, compiled; the tree is as before when it returns."""
@@ -108,7 +110,12 @@ def _future() -> ast.stmt:
 @cache
 def mutants(checker: str) -> tuple[Mutant, ...]:
     """All mutants of a checker, in the order of its source."""
-    return tuple(mutant for path in SOURCES[checker] for mutant in _of_file(checker, path))
+    seen: Counter[tuple[str, str, str]] = Counter()
+    found = []
+    for mutant in (mutant for path in SOURCES[checker] for mutant in _of_file(checker, path)):
+        seen[mutant.key] += 1
+        found.append(replace(mutant, number=seen[mutant.key]))
+    return tuple(found)
 
 
 def _of_file(checker: str, path: Path) -> Iterator[Mutant]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import ast
 import builtins
-import importlib
 import os
 import pickle
 import signal
@@ -17,6 +16,7 @@ import sys
 from array import array
 from collections import Counter, defaultdict
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 from checker_mutations import Mutant
@@ -125,37 +125,42 @@ def is_probed_function(mutant: Mutant) -> bool:
 
 def differing(
     mutants: Sequence[Mutant],
-    examples: Sequence[Any],
+    examples: Sequence[tuple[int, Any]],
     check: Callable[[bytes], Any],
     replace: Callable[[Mutant, Any], None],
     unlimited: Callable[[], None],
 ) -> dict[Key, array[int]]:
-    """For each mutant that is looked at, the examples on which its expression differs; in a process of its own."""
+    """For each mutant that is looked at, the numbers of the examples on which its expression differs."""
     probed = {number: mutant.key for number, mutant in enumerate(mutants) if is_probed(mutant)}
     found: dict[Key, array[int]] = {key: array("H") for key in probed.values()}
-    for start in range(0, len(examples), BATCH):
-        for name in {mutant.module for mutant in mutants}:
-            importlib.import_module(name)
-        reader, writer = os.pipe()
-        child = os.fork()
-        if child == 0:
-            os.close(reader)
-            _probe_all(mutants, list(enumerate(examples))[start : start + BATCH], check, replace, unlimited, writer)
-        os.close(writer)
-        answers: dict[int, list[int] | None] = {}
-        with os.fdopen(reader, "rb") as stream:
-            while True:
-                try:
-                    place, numbers = pickle.load(stream)  # noqa: S301 - our own child
-                except (EOFError, pickle.UnpicklingError):
-                    break
-                answers[place] = numbers
-        os.waitpid(child, 0)
-        for place in range(start, min(start + BATCH, len(examples))):
+    for start in range(0, len(examples) if probed else 0, BATCH):
+        batch = examples[start : start + BATCH]
+        answers = _answers_of_a_child(partial(_probe_all, mutants, batch, check, replace, unlimited))
+        for place, _ in batch:
             numbers = answers.get(place)
             for number in probed if numbers is None else numbers:
                 found[probed[number]].append(place)
     return found
+
+
+def _answers_of_a_child(work: Callable[[int], None]) -> dict[int, list[int] | None]:
+    """What a process of its own writes about examples, until it ends."""
+    reader, writer = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(reader)
+        work(writer)
+    os.close(writer)
+    answers: dict[int, list[int] | None] = {}
+    with os.fdopen(reader, "rb") as stream:
+        while True:
+            try:
+                place, numbers = pickle.load(stream)  # noqa: S301 - our own child
+            except (EOFError, pickle.UnpicklingError):
+                break
+            answers[place] = numbers
+    os.waitpid(child, 0)
+    return answers
 
 
 BATCH = 1000

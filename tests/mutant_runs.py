@@ -23,7 +23,7 @@ from types import CodeType, FrameType, FunctionType, ModuleType
 from typing import Any
 from zipfile import ZipFile
 
-from checker_mutations import PACKAGE, SOURCES, Mutant, mutants, uses
+from checker_mutations import PACKAGE, SOURCES, Mutant, uses
 from mutant_probes import Key, differing
 
 ROOTS = {"first": "pkm_exact.certify.check", "plain": "pkm_exact.certify.pure"}
@@ -41,6 +41,8 @@ PATIENCE = 1.0, 5.0
 
 HINTS = 5
 """So many certificates that told other mutants from the checker are tried first."""
+FIRST_LOOK = 1.0
+"""Seconds of the checker's work: where so many certificates show nothing it is asked on which ones a mutant differs."""
 
 LARGE = 1 << 20
 """Certificates of so many bytes are not kept in memory."""
@@ -125,7 +127,7 @@ class Reach:
             names = re.findall(r"\w+", re.split("[:=]", mutant.was)[0])
             lines = guarded = {line for name in names for line in uses(mutant.checker, name)}
         found = {number for line in lines for number in self.by_line.get(line, ())}
-        found = set(self.differ.get(mutant.key, found))
+        found &= set(self.differ.get(mutant.key, found))
         there = sorted(found & {number for line in guarded for number in self.refused.get(line, ())})
         accepted = [number for number in sorted(found) if self.examples[number].answer[0] == "accepted"]
         return list(dict.fromkeys([*there[:4], *accepted[:6], *there, *accepted, *sorted(found)]))
@@ -158,10 +160,7 @@ def measured(checker: str, examples: Sequence[Example]) -> Reach:
         for kept, lines in zip(places, traces[number], strict=True):
             for line in lines:
                 kept[line].append(place)
-    reach = Reach([examples[number] for number in order], *map(dict, places))
-    chosen = mutants(checker)
-    reach.differ = differing(chosen, reach.examples, answer, _replace, partial(_unlimited, checker))
-    return reach
+    return Reach([examples[number] for number in order], *map(dict, places))
 
 
 def _unlimited(checker: str) -> None:
@@ -288,6 +287,12 @@ class Outcome:
         """Whether no example tells it from the checker."""
         return self.killer is None
 
+    @property
+    def is_complete(self) -> bool:
+        """Whether all examples that reach a mutant were tried in vain."""
+        tried, _, there, *_ = self.how.split(" ")
+        return self.survives and tried == there
+
 
 def outcome(mutant: Mutant, reach: Reach, first: Sequence[str] = (), most: float = inf) -> Outcome:
     """Try the examples that reach a mutant, those named first before all, as many as take ``most`` seconds."""
@@ -359,15 +364,31 @@ def _difference(answer: Callable[[bytes], Answer], example: Example) -> str:
 def outcomes(
     chosen: Sequence[Mutant], reach: Reach, first: Callable[[Mutant], str | None] = lambda _: None, most: float = inf
 ) -> Iterator[tuple[Mutant, Outcome]]:
-    """What becomes of mutants, one after another; what told the last ones from the checker is tried first."""
+    """What becomes of mutants: of most after a first look, of the others when it is known where they differ at all.
+
+    What told others of the same function, or of any, from the checker is tried first.
+    """
     for checker in {mutant.checker for mutant in chosen}:
         check(checker)  # imported once, in this process
     gc.collect()
     gc.freeze()
-    last: list[str] = []
+    hints: dict[str, list[str]] = defaultdict(list)
+    left = []
     for mutant in chosen:
-        hint = first(mutant)
-        found = outcome(mutant, reach, last if hint is None else [hint, *last], most)
+        known, names = first(mutant), (mutant.place, "")
+        likely = [*([] if known is None else [known]), *(name for place in names for name in hints[place])]
+        found = outcome(mutant, reach, likely, min(most, FIRST_LOOK))
+        if found.killer is None and not found.is_complete and most > FIRST_LOOK:
+            left.append(mutant)
+            continue
         if found.killer is not None:
-            last = [found.killer, *(name for name in last if name != found.killer)][:HINTS]
+            for place in names:
+                hints[place] = [found.killer, *(name for name in hints[place] if name != found.killer)][:HINTS]
         yield mutant, found
+    for checker in {mutant.checker for mutant in left}:
+        there = [mutant for mutant in left if mutant.checker == checker]
+        numbers = sorted({number for mutant in there for number in reach.of(mutant)})
+        examples = [(number, reach.examples[number]) for number in numbers]
+        reach.differ = differing(there, examples, check(checker), _replace, partial(_unlimited, checker))
+        for mutant in there:
+            yield mutant, outcome(mutant, reach, [], most)

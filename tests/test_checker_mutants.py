@@ -93,6 +93,14 @@ def test_every_file_of_both_checkers_is_changed() -> None:
     assert changed == {path for files in SOURCES.values() for path in files if path.name not in without}
 
 
+@pytest.mark.parametrize("checker", SOURCES)
+def test_equal_descriptions_get_a_number(checker: str) -> None:
+    every = mutants(checker)
+    assert len({mutant.key for mutant in every}) == len(every)
+    assert {mutant.key[2] == mutant.becomes for mutant in every if mutant.number == 1} == {True}
+    assert {mutant.key[2].endswith(f" #{mutant.number}") for mutant in every if mutant.number > 1} == {True}
+
+
 @pytest.fixture(scope="module")
 def reaches(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Reach]:
     """Of few certificates, for both checkers."""

@@ -2,6 +2,7 @@
 
 import pytest
 from certificate_tools import both_resealed, last_line
+from forged_at_infinity import AT_INFINITY
 from forged_margins import MARGINS, huge
 from forged_sections import SECTIONS
 from forged_tolerances import TIGHT
@@ -10,9 +11,9 @@ from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 
 
-@pytest.mark.parametrize("name", [*MARGINS, *SECTIONS, *TIGHT])
+@pytest.mark.parametrize("name", [*MARGINS, *SECTIONS, *TIGHT, *AT_INFINITY])
 def test_a_margin(name: str) -> None:
-    make, status = (MARGINS | SECTIONS | TIGHT)[name]
+    make, status = (MARGINS | SECTIONS | TIGHT | AT_INFINITY)[name]
     answer = both_resealed(make())
     assert answer.status == status, last_line(answer)
 

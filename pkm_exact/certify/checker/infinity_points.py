@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import reduce
+from itertools import combinations_with_replacement
 from math import gcd
 from typing import Any
 
@@ -18,7 +19,7 @@ from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.mechanism_document import Infinity
 from pkm_exact.certify.checker.mechanism_forms import Mechanism, cleared
 from pkm_exact.certify.checker.solutions import modulo, primitive_part, proved_coprime, vanishes
-from pkm_exact.certify.checker.study_motion import CYCLIC, Metric, combination
+from pkm_exact.certify.checker.study_motion import Metric, combination
 from pkm_exact.certify.checker.verdict import rejected
 
 
@@ -57,39 +58,22 @@ def _parts(z: Sequence[Any]) -> tuple[Any, list[Any], list[Any], list[list[Any]]
 
 
 def _quadrics(z: Sequence[fmpz_poly], metric: Metric) -> Iterator[fmpz_poly]:
-    """What vanishes on the closure at infinity, multiplied by the metric where it divides."""
+    """What vanishes on the closure at infinity, multiplied by the metric where it divides.
+
+    R = a b^T then, with isotropic a and b, C and u are multiples of a and G^-1 b or R is 0: no further quadric of the
+    motions says more.
+    """
     _, u, c, r = _parts(z)
     g = metric
     volume = g[0] * g[1] * g[2]
-    for i in range(3):
-        for j in range(3):
-            yield combination(g, [r[k][i] * r[k][j] for k in range(3)])
-            yield combination([volume // value for value in g], [r[i][k] * r[j][k] for k in range(3)])
-    for _, j, k in CYCLIC:
-        for _, b, d in CYCLIC:
-            yield r[j][b] * r[k][d] - r[j][d] * r[k][b]
+    yield combination(g, [value * value for value in c])
+    for i, j in combinations_with_replacement(range(3), 2):
+        yield combination(g, [r[k][i] * r[k][j] for k in range(3)])
+        yield combination([volume // value for value in g], [r[i][k] * r[j][k] for k in range(3)])
     for i in range(3):
         yield combination((1, 1, 1), [r[i][j] * u[j] for j in range(3)])
         yield combination(g, [r[j][i] * c[j] for j in range(3)])
-    yield combination(g, [value * value for value in c])
     yield combination(g, [value * value for value in u])
-    yield from _crossed(u, c, r, metric)
-
-
-def _crossed(
-    u: Sequence[fmpz_poly], c: Sequence[fmpz_poly], r: Sequence[Sequence[fmpz_poly]], g: Metric
-) -> Iterator[fmpz_poly]:
-    """volume G^-1 (C x R e_m) - R volume G^-1 (u x e_m) for the three unit vectors."""
-    weights = [g[1] * g[2], g[2] * g[0], g[0] * g[1]]
-    for m in range(3):
-        column = [r[i][m] for i in range(3)]
-        turned = [fmpz_poly([0])] * 3
-        for i, j, k in CYCLIC:
-            # (u x e_m)_i = u_j [m = k] - u_k [m = j]
-            turned[i] = weights[i] * (u[j] if m == k else -1 * u[k] if m == j else fmpz_poly([0]))
-        for i, j, k in CYCLIC:
-            left = weights[i] * (c[j] * column[k] - c[k] * column[j])
-            yield left - combination((1, 1, 1), [r[i][n] * turned[n] for n in range(3)])
 
 
 def _singular(z: Sequence[fmpz_poly], h0: fmpz_poly, metric: Metric) -> int:

@@ -1,0 +1,122 @@
+"""No pose, as points at infinity are said to count for all: linear forms and points made to fit all checks but one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import partial
+from random import Random
+
+from flint import fmpq_mat, fmpq_poly, fmpz_poly
+from forged_infinity import eliminant_of, infinity_of
+from forged_margins import NO_POSE, REJECTED, Case
+from held_mechanisms import Content, mechanism
+from mechanism_certificates import mechanism_content
+
+from pkm_exact.constraints.linear import LinearForm
+
+Values = Sequence[complex]
+"""A point: s, u (3), C (3), R by rows (9); Gaussian integers."""
+SQUARE, U, C, R = 0, 1, 4, 7
+
+
+def _point(**parts: Values) -> list[complex]:
+    """A point with some of u, C and R, the other coordinates 0."""
+    found: list[complex] = [0] * 16
+    for name, start in (("u", U), ("c", C), ("r", R)):
+        for place, value in enumerate(parts.get(name, ()), start):
+            found[place] = value
+    return found
+
+
+def _outer(a: Values, b: Values) -> list[complex]:
+    return [x * y for x in a for y in b]
+
+
+def _forms(point: Values) -> list[list[int]]:
+    """Six forms at random that vanish at a point, its conjugate, and where s alone is not 0."""
+    places = range(1, 16)
+    rows = [[int(part(point[k])) for k in places] for part in (lambda x: complex(x).real, lambda x: complex(x).imag)]
+    kernel, _ = fmpq_mat([[*row] for row in rows if any(row)]).rref()
+    pivots = {next(j for j in range(15) if kernel[i, j]): i for i in range(kernel.nrows())}
+    random = Random(7)
+    found = []
+    for _ in range(6):
+        form = {j: random.randint(-9, 9) for j in range(15) if j not in pivots}
+        solved = {j: -sum(kernel[i, k] * value for k, value in form.items()) for j, i in pivots.items()}
+        found.append([0, *(int((form | solved)[j]) for j in range(15)), random.randint(1, 9)])
+    return found
+
+
+def _ladder(point: Values, steps: Sequence[int], multiplicity: int, place: int = SQUARE) -> Content:
+    """The points that differ from a given one in one coordinate, which is k: at t = k, or at k + i and k - i."""
+    values = [fmpq_poly([int(complex(x).real)]) for x in point]
+    one = next(k for k in range(16) if point[k] == 1)
+    chart, form = [0] * 16, [0] * 16
+    chart[one] = form[place] = 1
+    turned = next((k for k in range(16) if point[k] == 1j), None)
+    if turned is not None:
+        form[turned] = 1
+    parts = []
+    for k in steps:
+        i, here = fmpq_poly([-k, 1]), list(values)
+        for j in range(16):
+            here[j] = values[j] + int(complex(point[j]).imag) * i
+        here[place] = fmpq_poly([k])
+        factor = fmpz_poly([-k, 1]) if turned is None else fmpz_poly([k * k + 1, -2 * k, 1])
+        parts.append((factor, [value % fmpq_poly(factor) for value in here]))
+    return infinity_of(parts, chart, form, multiplicity)
+
+
+def _no_pose(forms: Sequence[Sequence[int]], infinity: Content) -> Content:
+    """A mechanism with these forms, said to have no pose at all."""
+    constraints = [LinearForm(tuple(map(Fraction, form))) for form in forms]
+    entries = {"robot": mechanism("spatial", (1, 1, 1), constraints), "infinity": infinity}
+    return mechanism_content("contradictory leg") | NO_POSE | {"completeness_route": "counting-at-infinity"} | entries
+
+
+ISOTROPIC, CONJUGATE, STRAIGHT = (1, 1j, 0), (1, -1j, 0), (0, 0, 1)
+CORNER = {name: [int(k == place) for k in range(9)] for name, place in (("first", 0), ("second", 4), ("last", 8))}
+OFF_THE_MOTIONS: dict[str, tuple[list[complex], bool]] = {
+    "u.u": (_point(u=STRAIGHT), True),
+    "C.C": (_point(c=STRAIGHT), True),
+    **{f"the {name} diagonal entry of R alone": (_point(r=r), False) for name, r in CORNER.items()},
+    "R u": (_point(u=CONJUGATE, r=_outer(ISOTROPIC, ISOTROPIC)), False),
+    "R^T C": (_point(c=CONJUGATE, r=_outer(ISOTROPIC, ISOTROPIC)), False),
+    "R^T R": (_point(r=_outer(STRAIGHT, ISOTROPIC)), False),
+    "R R^T": (_point(r=_outer(ISOTROPIC, STRAIGHT)), False),
+}
+"""Points at which one of the quadrics is not 0, and whether each counts twice, R being 0."""
+
+
+def _off_the_motions(name: str) -> Content:
+    """Forty points, or twenty that count twice."""
+    point, is_double = OFF_THE_MOTIONS[name]
+    pairs = any(complex(x).imag for x in point)
+    number = 40 // ((1 + is_double) * (1 + pairs))
+    return _no_pose(_forms(point), _ladder(point, range(1, number + 1), 40))
+
+
+def _off_a_form(number: int) -> Content:
+    """Twenty singular points of the motions, which are on all forms but one."""
+    point = _point(u=ISOTROPIC)
+    forms = _forms(point)
+    forms[number][SQUARE] = 1
+    return _no_pose(forms, _ladder(point, range(1, 11), 40))
+
+
+def _nowhere_squarefree() -> Content:
+    """Any points of the forms, at the double roots of h = g^2: whatever is quadratic in 2 g z is 0 there."""
+    point = _point(u=(1, 2, 3), r=range(9))
+    infinity = _ladder(point, range(10), 40)
+    g = eliminant_of(infinity)
+    doubled = [2 * g * fmpz_poly([int(c, 16) for c in z]) for z in infinity["coordinates"]]
+    spelled = [[hex(int(c)) for c in polynomial.coeffs()] for polynomial in (g * g, *doubled)]
+    return _no_pose(_forms(point), infinity | {"eliminant": spelled[0], "coordinates": spelled[1:]})
+
+
+AT_INFINITY: dict[str, Case] = {
+    **{f"points where {name} is not 0": (partial(_off_the_motions, name), REJECTED) for name in OFF_THE_MOTIONS},
+    **{f"points that are not on the form {number}": (partial(_off_a_form, number), REJECTED) for number in (0, 3, 5)},
+    "an eliminant that is a square": (_nowhere_squarefree, REJECTED),
+}
