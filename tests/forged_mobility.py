@@ -232,6 +232,13 @@ LEGS: dict[str, Row] = {
         "rejected",
         CROSS,
     ),
+    "balls and slides, cut otherwise": (
+        certificate(
+            legs([BALL, PX, PY], [PX, PY, BALL]), ["a2"], ["a1.1"], subgroups(("a1 a2 a3", 3), ("b1 b2 b3", 2))
+        ),
+        "rejected",
+        CROSS,
+    ),
     "a cut leg without the group": (
         certificate(legs([PX], [PY, ("R", FAR, [Y])]), [], None, subgroups(("a1", 0), ("b1 b2", 1))),
         "rejected",

@@ -279,12 +279,41 @@ def slide(*reach: Any, **entries: Any) -> Content:
     return region([driven], **{"modes": [1], **entries})
 
 
+def aside(*reach: Any, box: Any, **entries: Any) -> Content:
+    """q = x + y_1 with the mode 1, x - y_1 with -1, y_1^2 = 25 - y^2."""
+    driven = leg((0, 0, 0), (0, 0, 0), reach or None, direction=(1, 0, 0), rod=25)
+    plane = {"place": ["x", "y", 0], "variables": ["x", "y"], "box": box, "position": []}
+    return region([driven], **plane, **{"modes": [1], **entries})
+
+
 SMALL = Fraction(1, 1 << 60)
 COPLANAR = [leg((0, 0, 0), (1, 0, 0)), leg((0, 0, 0), (0, 1, 0)), leg((0, 0, 0), (0, 0, 1))]
 """Pushed by (x, 0, 0): the determinant of what becomes of them is 1 + x."""
 PUSHED = {"motion": "translation", "conditions": ["no_type_2"], "modes": [0] * 3, "box": [[-2, 2]]}
 
 CASES: dict[str, Row] = {
+    **{
+        f"a slide between its ends, mode {mode}, {low} to {high}": (
+            aside(low, high, box=[[0, 1], [3, 4]], modes=[mode]),
+            "accepted" if good else "rejected",
+            GOOD if good else INSIDE,
+        )
+        for mode, low, high, good in (
+            *((1, 3, 5, True), (1, "7/2", 9, False), (1, 0, "9/2", False), (1, 0, "7/2", False)),
+            *((-1, -4, -2, True), (-1, "-7/2", 9, False), (-1, -9, "-5/2", False), (-1, -9, "-7/2", False)),
+        )
+    },
+    **{
+        f"a root from {'3 on' if exact else 'less on'}, {high}": (
+            aside("-1/2", high, box=[[0, "1/8"], box]),
+            "accepted" if good else "rejected",
+            GOOD if good else INSIDE,
+        )
+        for exact, box, high, good in (
+            *((True, ["16/5", 4], 4, True), (True, ["16/5", 4], "7/2", False)),
+            *((False, [3, "19/5"], "33/8", True), (False, [3, "19/5"], "15/4", False)),
+        )
+    },
     "a leg, exactly": (region(), "accepted", GOOD),
     "a leg, too short": (region([leg((0,) * 3, (0,) * 3, (3 + SMALL, 4))]), "rejected", INSIDE),
     "a leg, too long": (region([leg((0,) * 3, (0,) * 3, (3, 4 - SMALL))]), "rejected", INSIDE),
@@ -434,6 +463,11 @@ CASES: dict[str, Row] = {
         "rejected",
         OUTSIDE,
     ),
+    "never outside, negative": (
+        as_map(region(COPLANAR, **{**PUSHED, "box": [[-3, -2]]}), "o"),
+        "rejected",
+        OUTSIDE,
+    ),
     "two legs of three": (region(COPLANAR[:2], **{**PUSHED, "modes": [0] * 2}), "malformed", "conditions: as many"),
     "four legs of three": (
         region([*COPLANAR, ALONG], **{**PUSHED, "modes": [0] * 4}),
@@ -563,6 +597,21 @@ ROOTS: dict[str, Row] = {
         region(FREELY, position=[["351/100", 4]], paving="sui", claim="undecided"),
         "rejected",
         "paving: the part of letter 3",
+    ),
+    "beyond a first part of a shape": (region(shape=[part(-1), part(1)]), "rejected", EMPTY),
+    "the middle on the edge of a shape": (region(shape=[part("-7/2", (1, 0, 0))]), "accepted", GOOD),
+    "a map of places": (
+        region(
+            FREELY,
+            variables=["x", "y", "z"],
+            place=["x", "y", "z"],
+            box=[[2, 4], [0, 3], [1, 2]],
+            position=[[2, 4], [0, 3], [1, 2]],
+            claim="map",
+            measure=["6", "6"],
+        ),
+        "accepted",
+        "measure: between",
     ),
     "beyond a shape": (_cut("449/100"), "accepted", GOOD),
     "not beyond a shape": (_cut("23/5"), "rejected", "paving: the part of letter 5"),
@@ -708,12 +757,28 @@ def _quadrants() -> dict[str, Row]:
     return found
 
 
+def _wide_ranges() -> dict[str, Row]:
+    """A crank somewhere in three quadrants is nowhere outside of them, though it may be outside of a half of them."""
+    found: dict[str, Row] = {}
+    for angle in (40, 135, 220, 310):
+        c, s = (Fraction(x).limit_denominator(100) for x in (cos(radians(angle)), sin(radians(angle))))
+        place = {"place": ["x", 2 * s, 2], "box": [[2 * c, 2 * c + Fraction(1, 1 << 14)]], "modes": [1]}
+        for start in (0, 90, 180, 270):
+            crank = leg((0, 0, 0), (0, 0, 0), (start, start + 270), **CRANK, rod="5001/1000")
+            content = as_map(region([crank], **place), "o")
+            good = min(Placed(content, point_of(content)).margins()) > 0
+            status, line = ("rejected", OUTSIDE) if good else ("accepted", "measure")
+            found[f"a crank at {angle} degrees, out of three quadrants from {start} on"] = content, status, line
+    return found
+
+
 WIDE_CRANK = leg((0, 0, 0), (0, 0, 0), u=(1, 0, 0), v=(0, 2, 0), weight=4, rod="361/100")
 UNREACHED = {"place": ["x", 3, 0], "box": [[0, "1/100"]], "modes": [1], "conditions": ["reachable"]}
 TALL = leg((0, 0, 0), (0, 1, 0), ("1/2", 9))
 ANGLED: dict[str, Row] = {
     **_cosines(),
     **_quadrants(),
+    **_wide_ranges(),
     "a crank of weight 4 too far away": (region([WIDE_CRANK], **UNREACHED), "rejected", INSIDE),
     "a crank of weight 4 too far away, there": (pointed(region([WIDE_CRANK], **UNREACHED)), "accepted", BROKEN),
     "no leg": (region([], modes=[]), "malformed", ""),
@@ -847,6 +912,7 @@ FORMAT: dict[str, Row] = {
     "a slide from less than 0 on": (slide(-1, 8), "accepted", GOOD),
     "a crank": _crank("accepted"),
     "a crank of right angles": _crank("accepted", (-90, 450)),
+    "a crank of the ninetieth right angle": _crank("accepted", (8100, 8190)),
     "a crank from 45 degrees": _crank("malformed", (45, 90)),
     "a crank to 135 degrees": _crank("malformed", (90, 135)),
     "a crank of weight 4": _crank("accepted", v=(0, 2, 0), weight=4),

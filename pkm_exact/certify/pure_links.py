@@ -245,8 +245,8 @@ class Mechanism:
         r = [[self.constant(int(i == j)) for j in range(3)] for i in range(3)]
         if body.turn is not None:
             cosine, sine = body.turn
-            r[0][:2] = [self.unknown(cosine), self.unknown(sine, -1)]
-            r[1][:2] = [self.unknown(sine), self.unknown(cosine)]
+            r[0][0] = r[1][1] = self.unknown(cosine)
+            r[0][1], r[1][0] = self.unknown(sine, -1), self.unknown(sine)
         if body.r is not None:
             r = [[self.unknown(place) for place in row] for row in body.r]
         return Placed(c, r)
@@ -346,8 +346,8 @@ class Bounds(NamedTuple):
         return Bounds(self.low + other.low, self.high + other.high)
 
     def __mul__(self, other: Bounds) -> Bounds:  # type: ignore[override]
-        ends = [x * y for x in self for y in other]
-        return Bounds(min(ends), max(ends))
+        low, *_, high = sorted(x * y for x in self for y in other)
+        return Bounds(low, high)
 
 
 def scaled_value(terms: Mapping[pure.Monomial, int], x: Sequence[Bounds], k: int, degree: int) -> Bounds:
@@ -375,8 +375,8 @@ def slope(terms: Mapping[pure.Monomial, int], place: int) -> pure.Terms:
 def holds_one(polynomials: Sequence[pure.Terms], box: Box) -> bool:
     """Check 3. All numbers are exact: F' in units of 2^(-K degree), Y in units of 2^-p."""
     n, k = len(polynomials), box.exponent
-    degree = max(sum(monomial) for terms in polynomials for monomial in terms) - 1
     slopes = [[slope(terms, place) for place in range(n)] for terms in polynomials]
+    degree = max((sum(monomial) for row in slopes for terms in row for monomial in terms), default=0)
     middle = [Bounds(m, m) for m in box.centre]
     around = [Bounds(m - box.radius, m + box.radius) for m in box.centre]
     bits = (degree + 1) * (k + pure.most_bits(box.centre)) + pure.most_bits(v for t in polynomials for v in t.values())
@@ -408,17 +408,14 @@ def is_contracted(
     y: Sequence[Sequence[int]], slopes: Sequence[Sequence[Bounds]], values: Sequence[int], radius: int, scale: int
 ) -> bool:
     """Whether |Y F(m)|_i + sum_j |1 - Y F'(X)|_ij r < r for every i, in units of 2^(-K - scale)."""
-    n, one = len(y), 1 << scale
-    for i in range(n):
-        reach = abs(sum(a * b for a, b in zip(y[i], values, strict=True)))
-        for j in range(n):
-            low = high = 0
-            for a, row in zip(y[i], slopes, strict=True):
-                ends = (a * row[j].low, a * row[j].high)
-                low, high = low + min(ends), high + max(ends)
-            unit = one if i == j else 0
+    for i, weights in enumerate(y):
+        reach = abs(sum(a * b for a, b in zip(weights, values, strict=True)))
+        for j in range(len(y)):
+            ends = [sorted((a * row[j].low, a * row[j].high)) for a, row in zip(weights, slopes, strict=True)]
+            low, high = (sum(side) for side in zip(*ends, strict=True))
+            unit = (i == j) << scale
             reach += radius * max(abs(unit - low), abs(unit - high))
-        if reach >= radius * one:
+        if reach >= radius << scale:
             return False
     return True
 

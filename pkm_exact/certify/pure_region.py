@@ -700,14 +700,14 @@ def root_ends(table: Table) -> tuple[Fraction, Fraction]:
 
 
 def rational_root(square: Fraction, *, up: bool) -> Fraction:
-    """A root rounded down or up, by less than 2^-80 of it; 0 of what is not positive."""
+    """A root rounded down or up to a multiple of 2^-k, by less than 2^-80 of it; 0 of what is not positive."""
     if square <= 0:
         return ZERO
     size = square.numerator.bit_length() - square.denominator.bit_length()
     shift = max(0, ROOT_BITS + 2 - size // 2)
     scaled = square * (1 << 2 * shift)
     floor = isqrt(scaled.numerator // scaled.denominator)
-    return Fraction(floor + up, 1 << shift) if not up or floor * floor != scaled else Fraction(floor, 1 << shift)
+    return Fraction(floor + (up and floor * floor < scaled), 1 << shift)
 
 
 # ---------------------------------------------------------------------------------------------------------------------

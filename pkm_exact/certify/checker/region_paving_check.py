@@ -255,7 +255,7 @@ def _is(condition: Condition, range_of: Any, *, wanted: bool) -> bool:
 
 
 def _root_below(square: Fraction) -> Fraction:
-    """A rational root of a number, rounded down; 0 if it is negative."""
+    """The root of a number, rounded down to a multiple of 1 / ``_scale``; 0 if it is negative."""
     if square <= 0:
         return Fraction(0)
     scale = _scale(square)
@@ -263,10 +263,12 @@ def _root_below(square: Fraction) -> Fraction:
 
 
 def _root_above(square: Fraction) -> Fraction:
+    """The same, rounded up: a root that is such a multiple stays what it is."""
     if square <= 0:
         return Fraction(0)
     scale = _scale(square)
-    return Fraction(isqrt(-(-square.numerator * scale * scale // square.denominator)) + 1, scale)
+    above = -(-square.numerator * scale * scale // square.denominator)
+    return Fraction(isqrt(above - 1) + 1, scale)
 
 
 def _scale(square: Fraction) -> int:
