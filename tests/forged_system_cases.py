@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from copy import deepcopy
 from fractions import Fraction
+from math import isqrt
 from typing import Any
 
 from handmade_systems import (
@@ -142,8 +143,54 @@ def ranked(
     return listed(names, texts, points, multiplicities=multiplicities, **options) | complete("modular-rank", total)
 
 
+def _summed(terms: dict[str, Any]) -> str:
+    """A polynomial from its monomials and their coefficients."""
+    return "+".join(f"{value}*{monomial}" if monomial else f"{value}" for monomial, value in terms.items() if value)
+
+
+def _lost_factor() -> Content:
+    """Three of four roots: at one of them, modulo the prime, and at no root without it, the derivative is 0.
+
+    It is 0 for T = 0, which is the root P modulo P; a weight 2 there would fill the place of the root left out.
+    """
+    h = [-2 * P, 3 * P + 2, -P - 3, 1]
+    x = Fraction(6 * P, 3 * P + 2)
+    left_out = x + 1 / (1 / (x - P) + 1 / (x - 1) + 2 / (x - 2))
+    found = [Fraction(left_out.denominator)]
+    for root in (P, 1, 2, 2, left_out):
+        found = [a - root * b for a, b in zip([Fraction(0), *found], [*found, Fraction(0)], strict=True)]
+    text = _summed({f"x^{k}" if k else "": c for k, c in enumerate(found)})
+    return ranked("x", (text.replace("+-", "-").replace("x^1+", "x+").replace("x^1-", "x-"),), one(*h), [1, 2, 1], 5)
+
+
+def _lost_rank(bits: int, *more: str) -> Content:
+    """Two of three points: at (1, 0) the second gradient is a multiple of the first one modulo the prime only."""
+    k = 1 << 40
+    first = P // k << bits
+    second = (P << bits) - first * k
+    texts = (f"x^2-{k}*x*y-x", f"{first}*x^2-{first}*x+{second}*x*y+y^2", *more)
+    names, points = ("x,y,z", [(0, 0, 0), (1, 0, 0)]) if more else ("x,y", [(0, 0), (1, 0)])
+    weight = 4 if more else 2
+    return ranked(names, texts, represented(points, (1, *(0 for _ in points[0][1:]))), weight, 2 * weight)
+
+
 P = (1 << pure.MERSENNE[0]) - 1
 BITS = pure.MERSENNE[0] + 9
+CELLS = 3 << 32
+"""Roots 1 and 5 times the inverse of this are in neighbouring cells of the coarsest grid, and no ends of them."""
+MEET = isqrt(3 * P) | 1
+CLOSE = (MEET**2 - 3 * P) // 4
+"""T^2 - MEET T + CLOSE has the discriminant 3 P."""
+
+
+def _cube(c: int, b: int, a: int) -> str:
+    """Of c + b x + a x^2."""
+    found = [1]
+    for _ in range(3):
+        found = [c * x + b * y + a * z for x, y, z in zip([*found, 0, 0], [0, *found, 0], [0, 0, *found], strict=True)]
+    return "+".join(f"{value}*x^{k}" if k > 1 else (f"{value}*x" if k else f"{value}") for k, value in enumerate(found))
+
+
 LINED = represented([(0, 0), (1, 0)], (1, 0))
 MIXED: dict[str, Row] = {
     "double roots of 2": (ranked("x", ("x^6-7*x^4+16*x^2-12",), one(6, 0, -5, 0, 1), [1, 2, 2, 1], 6), "accepted"),
@@ -216,6 +263,88 @@ MIXED: dict[str, Row] = {
     "close roots": (
         listed("x", (f"{1 << 90}*x^2-x",), one(0, -1, 1 << 90), exponent=100, **complete("refined-bezout", 2)),
         "accepted",
+    ),
+    "a root at the prime whose derivative is 0 modulo it alone": (_lost_factor(), "rejected"),
+    "a gradient that is a multiple of another modulo the prime": (_lost_rank(26), "rejected"),
+    "gradients that are so in space": (_lost_rank(26, "z^2"), "rejected"),
+    "a double root at 0, a simple one at a prime": (
+        ranked("x", (f"x^3-{P}*x^2",), one(0, -P, 1), [2, 1], 3),
+        "accepted",
+    ),
+    "a fourfold point, and a simple one that meets it modulo the prime": (
+        ranked(
+            "x,y",
+            (f"x*y-{P}*y^2", f"x^3-{P * P - P}*x*y-x^2"),
+            represented([(0, 0), (P, 1), (1, 0)], (1, 0)),
+            [4, 1, 1],
+            6,
+        ),
+        "accepted",
+    ),
+    "a kernel of long numbers": (
+        ranked("x,y", (f"x^2-{1 << 60}*x+y", f"{1 << 60}*x-y"), represented([(0, 0)], (1, 0)), 2, 2),
+        "accepted",
+    ),
+    "double roots in cells side by side": (
+        ranked(
+            "x",
+            (f"{CELLS**4}*x^4-{12 * CELLS**3}*x^3+{46 * CELLS**2}*x^2-{60 * CELLS}*x+25",),
+            one(5, -6 * CELLS, CELLS**2),
+            2,
+            4,
+            exponent=40,
+        ),
+        "accepted",
+    ),
+    "triple roots that meet modulo a prime": (
+        listed("x", (_cube(CLOSE, -MEET, 1),), one(CLOSE, -MEET, 1), multiplicities=3)
+        | complete("exact-elimination", 6, elimination=[]),
+        "accepted",
+    ),
+    "gradients that are alike at opposite points": (
+        listed(
+            "x,y",
+            ("x+y^2-1", "x*y+y^3-y+x^2"),
+            represented([(0, -1), (0, 1)], (0, 1)),
+            multiplicities=None,
+        ),
+        "accepted",
+    ),
+    "gradients that are alike at opposite points, called simple": (
+        listed("x,y", ("x+y^2-1", "x*y+y^3-y+x^2"), represented([(0, -1), (0, 1)], (0, 1)), multiplicities=1),
+        "rejected",
+    ),
+    "points apart in the second unknown alone": (
+        listed(
+            "x,y",
+            (f"{3 << 300}*x-y", "y^2-y"),
+            represented([(0, 0), (Fraction(1, 3 << 300), 1)], (1, 0)),
+            **complete("refined-bezout", 2),
+        ),
+        "accepted",
+    ),
+    "what does not commute": (
+        listed(
+            "x,y",
+            ("x^2-y", "x*y-2*x", "y^2-x"),
+            represented([(0, 0)], (1, 1)),
+            **complete("exact-elimination", 1, elimination=[]),
+        ),
+        "rejected",
+    ),
+    "another parameter of a multiple solution": (
+        put(MADE["multiple"], ["-1", "-1"], "solutions", 0, "parameter"),
+        "rejected",
+    ),
+    "groups of a line, of double points": (
+        listed(
+            "x,y",
+            LINE,
+            represented([(0, 0), (0, 5)], (0, 1)),
+            multiplicities=2,
+            **complete("multihomogeneous-bezout", 2, groups=[[0], [1]]),
+        ),
+        "rejected",
     ),
     "groups of a line": (
         listed(

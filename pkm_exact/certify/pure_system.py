@@ -607,7 +607,7 @@ def lifted_part(slopes: Slopes, part: Part, p: int) -> Part | None:
     """The factor over Z, if it is one and the rank at its roots is proved; otherwise None."""
     h0 = slopes.points.h0
     a = h0 if len(part.factor) == len(h0) else pure.lifted_factor(part.factor, p)
-    if len(a) != len(part.factor) or (a is not h0 and not pure.is_factor(a, h0)):
+    if not pure.is_factor(a, h0):
         return None
     ring = pure.Residues(part.factor, p)
     slope = ring.element(pure.derivative(a))
@@ -675,7 +675,7 @@ def weighed(slopes: Slopes, dimension: int) -> Weighed:
     found, left, total = [], len(slopes.points.h0) - 1, 0
     for part in ranks(slopes, dimension):
         lack = dimension - part.rank
-        weight = 1 if not lack else 1 << lack if len(slopes.entries) == dimension else 1 + lack
+        weight = 1 << lack if len(slopes.entries) == dimension else 1 + lack
         number = len(part.factor) - 1 if lack else left
         left -= number
         total += number * weight
@@ -1115,10 +1115,11 @@ def proved_by_elimination(
 
 
 def powers_modulo(representation: pure.Representation, weights: Sequence[int], p: int) -> list[list[int]] | None:
-    """1, u, .., u^(D - 1) modulo p and h0, for the combination u of the variables; None if p is not suitable."""
+    """1, u, .., u^(D - 1) modulo p and h0, for the combination u of the variables; None if p is not suitable.
+
+    It is above the leading coefficient.
+    """
     h0 = pure.primitive_part(representation.h)
-    if not h0[-1] % p:
-        return None
     ring = pure.Residues(h0, p)
     slope = ring.element(pure.derivative(representation.h)).polynomial()
     inverse = pure.inverse_modulo(slope, h0, p)
