@@ -84,8 +84,9 @@ def check_mechanism_claims(document: MechanismDocument) -> Iterator[str]:
 def _check_parts(document: MechanismDocument) -> None:
     """What a certificate may have depends on its method and its route."""
     if document.method == "krawczyk":
-        if document.isolated is None or document.representation is not None:
-            raise rejected("method: krawczyk needs boxes, and no representation")
+        alone = document.representation is None and document.self_motion is None
+        if document.isolated is None or not alone:
+            raise rejected("method: krawczyk needs boxes, and neither a representation nor a self-motion")
     elif document.isolated is not None and not document.claim.startswith("positive-dimensional"):
         raise rejected("method: exact, but solutions in boxes are listed, and none of positive dimension is claimed")
     for part, route in ((document.infinity, "counting-at-infinity"), (document.elimination, "exact-elimination")):
@@ -223,8 +224,6 @@ def _moving(document: MechanismDocument) -> Iterator[str]:
         raise rejected("claim: positive-dimensional-proved, but no self-motion is given")
     if document.route is not None:
         raise rejected("claim: beside positive dimension, completeness is claimed")
-    if document.method != "exact":
-        raise rejected("claim: a self-motion is proved by the method exact")
     if document.isolated is None:
         if (document.complex_solutions, document.distinct_solutions, len(document.poses)) != (0, 0, 0):
             raise rejected("claim: beside positive dimension, isolated solutions are claimed without boxes")
