@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
+from itertools import product as every_choice
 from math import comb, sqrt
 from random import Random
 
@@ -27,6 +28,7 @@ from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
 from pkm_exact.roots.interval import Interval
 from pkm_exact.statics.at_pose import AtPose
+from pkm_exact.statics.capability import ordinary_vertices
 from pkm_exact.statics.eigenvalues import eigenvalues
 from pkm_exact.statics.exact_rows import column_squares
 from pkm_exact.statics.failures_of_actuators import determinant, relative_manipulability
@@ -408,10 +410,45 @@ def test_constraints_that_are_not_actuated_leave_fewer_twists() -> None:
     found = machine_at(robot, solved("3-rps").poses[0])
     assert float(enclosed_indices(found.measures(length=1))[0]["condition"]) > 1
     assert "all of whose constraints are actuated" in enclosed_indices(found.measures(speeds=1))[1]["v_iso_p"]
-    with pytest.raises(InputError, match="only some of its motions"):
-        found.velocity_polytope(1)
     borne = forces(found, [0, 0, -1, 0, 0, 0])
     assert len(borne.names) == 6
+
+
+@pytest.mark.parametrize("where", ["exact", "enclosed"])
+def test_polytopes_where_constraints_are_not_actuated(where: str) -> None:
+    """The three freedoms of legs on hinges: twists that the hinges allow, wrenches up to what they bear."""
+    robot = model("3-rps")
+    found = machine_at(
+        robot,
+        solved("3-rps").poses[1] if where == "enclosed" else {"position": [0, 0, "1/2"], "quaternion": [1, 0, 0, 0]},
+    )
+    measures = found.measures(speeds=1, forces=5, length=1)
+    freedom = measures.freedom
+    assert freedom.components == ("vz", "wx", "wy")
+    twists, wrenches = found.velocity_polytope(1), found.wrench_polytope(5)
+    assert [(len(p.vertices), len(p.facets)) for p in (twists, wrenches)] == [(8, 6)] * 2
+    jacobian, rows = found.jacobian.to_numpy(), found.wrenches.to_numpy()
+    expansion = np.array([[float(x.mid()) for x in row] for row in freedom.expansion.table()])
+    for vertex in ordinary_vertices(twists):
+        twist = expansion @ [float(x) for x in vertex]
+        assert np.abs(jacobian @ twist) == pytest.approx(np.ones(3), abs=1e-6)
+        assert np.abs(rows[[1, 3, 5]] @ twist).max() < 1e-6  # the hinges
+        powers = [
+            np.dot([float(x) for x in vertex], [float(x) for x in wrench]) for wrench in ordinary_vertices(wrenches)
+        ]
+        assert max(powers) == pytest.approx(15, abs=1e-6)  # three legs, force 5 times speed 1
+    values, _ = enclosed_indices(found.measures(speeds=1, forces=5, length=1, resolutions=1))
+    scaled = jacobian @ np.linalg.qr(np.linalg.svd(rows[[1, 3, 5]])[2][3:].T)[0]
+    assert float(values["v_iso"]) == pytest.approx(1 / np.linalg.norm(scaled, axis=1).max(), rel=1e-6)
+    assert float(values["f_iso"]) == pytest.approx(5 / np.linalg.norm(np.linalg.inv(scaled), axis=0).max(), rel=1e-6)
+    corners = [
+        np.linalg.solve(np.vstack([jacobian, rows[[1, 3, 5]]]), [*s, 0, 0, 0]) for s in every_choice((-1, 1), repeat=3)
+    ]
+    for name, part in (("resolution_p", slice(3)), ("resolution_o", slice(3, 6))):
+        assert float(values[name]) == pytest.approx(max(np.linalg.norm(c[part]) for c in corners), rel=1e-6)
+    if where == "exact":
+        assert twists.vertices[0] == (-RootSum.root(Fraction(2)), RootSum(), RootSum())
+        assert all(isinstance(x, int) for facet in wrenches.facets for x in facet.normal)
 
 
 def test_the_command_has_all_of_it_in_json(capsys: Capture) -> None:
@@ -444,6 +481,7 @@ def test_the_command_has_all_of_it_in_json(capsys: Capture) -> None:
         assert set(found[name]) == {"vertices", "facets", "volume"}
         assert len(found[name]["vertices"]) == count
         assert len(found[name]["facets"]) == 6
+    assert found["polytope_components"] == ["vx", "vy", "wz"]
     assert len(found["ellipsoid"]["half_axes"]) == 3
     assert all(sign in (1, -1) for sign in found["forces"]["signs"])
     assert main([*words, "--limits", "speed=x"]) == 2

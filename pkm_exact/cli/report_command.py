@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -24,7 +25,14 @@ from pkm_exact.wording import printable
     metavar="MODEL",
     help="Its model file, to draw cranks and slides, and to say which limits each pose keeps.",
 )
-def report(certificate: str, output: str, model: str | None) -> int:
+@click.option(
+    "--limits",
+    "limits",
+    multiple=True,
+    metavar="KEY=VALUES",
+    help="What actuators can do, for indices and polytopes; can be repeated: speeds=1/2, forces=4.2, length=0.1, ..",
+)
+def report(certificate: str, output: str, model: str | None, limits: tuple[str, ...]) -> int:
     """Write one web page that shows what the certificate CERT.json proves, and every pose to turn and copy.
 
     The certificate is checked first. The page holds all its data: it opens without a network, and can be sent around
@@ -34,6 +42,7 @@ def report(certificate: str, output: str, model: str | None) -> int:
     Examples:
       certify-poses report certs/rolland-6-6.json -o rolland.html
       certify-poses report certs/hexa.json --model models/hexa.toml -o hexa.html
+      certify-poses report certs/3-rrr.json --limits speeds=1 --limits length=2 -o planar.html
 
     Exit codes: 0 written; 1 the certificate is rejected, nothing is written. Others as for certify-poses.
     """
@@ -42,6 +51,9 @@ def report(certificate: str, output: str, model: str | None) -> int:
         if source is not None and Path(source).exists():
             arguments.require_other_file(target, source, "-o", what)
     arguments.require_writable(target, "-o")
+    from pkm_exact.cli.statics_answers import given_limits
+
+    given = given_limits(limits)
     from pkm_exact.interactive.progress import Progress
     from pkm_exact.pictures.scene import RejectedError, accepted_with_lines
     from pkm_exact.report_page.words import meaning_of
@@ -53,13 +65,19 @@ def report(certificate: str, output: str, model: str | None) -> int:
     except RejectedError as error:
         click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
         return ExitCode.REJECTED
-    page = _page(document, lines, certificate, model)
+    page = _page(document, lines, certificate, model, given)
     arguments.write_output(target, page.encode("utf-8"))
     sys.stdout.write(f"{printable(output)}: {meaning_of(document).headline}\n")
     return ExitCode.DONE
 
 
-def _page(document: dict[str, object], lines: tuple[str, ...], certificate: str, model: str | None) -> str:
+def _page(
+    document: dict[str, object],
+    lines: tuple[str, ...],
+    certificate: str,
+    model: str | None,
+    limits: dict[str, Any],
+) -> str:
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.report_page.page import report_page
 
@@ -69,6 +87,6 @@ def _page(document: dict[str, object], lines: tuple[str, ...], certificate: str,
         )
     robot = None if model is None else announced_model(model)
     try:
-        return report_page(document, lines, Path(certificate).name, robot)
+        return report_page(document, lines, Path(certificate).name, robot, limits)
     except InputError as error:
         raise InputError(f"{certificate}: {error}") from None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,11 +15,11 @@ from pkm_exact.cli.given_pose import GivenPose, given_pose, pose_of, pose_option
 from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.cli.shell_completion import configurations
 from pkm_exact.errors import InputError
-from pkm_exact.wording import printable, shown
+from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
-    from pkm_exact.cli.statics_answers import StaticsAnswers
     from pkm_exact.geometry.machine import Machine
+    from pkm_exact.statics.asked_answers import StaticsAnswers
     from pkm_exact.statics.at_pose import AtPose
 
 
@@ -238,11 +237,9 @@ def _chosen(number: int | None, count: int) -> int:
 
 def _at_certified_pose(source: str, number: int | None, model: str | None) -> AtPose | None:
     """The machine at a pose of an accepted certificate; None if it is rejected."""
-    from pkm_exact.certify.certified_machine import certified_configuration, certified_machine, certified_problem
+    from pkm_exact.certify.statics_of_poses import at_certified_poses
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.pictures.scene import RejectedError, accepted_document
-    from pkm_exact.poses.pose_spelling import pose_of as box_of
-    from pkm_exact.statics.machine_at_pose import machine_at_solution
 
     try:
         document = accepted_document(Path(source))
@@ -251,23 +248,15 @@ def _at_certified_pose(source: str, number: int | None, model: str | None) -> At
         return None
     if "poses" not in document or "robot" not in document:
         raise InputError(f"{source}: is no certificate of poses; give one that certify-poses solve wrote")
-    problem, chosen = certified_problem(document), None
-    machine: Machine = certified_machine(document)
     if model is None:
         note = "legs of a certificate are taken as actuators; --model MODEL says how slides or cranks drive them"
         click.echo(f"{PROGRAM}: note: {printable(source)}: {note}", err=True)
-    else:
-        machine = announced_model(model)
-        name = certified_configuration(document)
-        chosen = machine.configuration(name)
-        if machine.problem(chosen).digest != problem.digest:
-            raise InputError(
-                f"{model}: configuration {shown(chosen.name)} is not the robot of {source}; give its model"
-            )
     try:
         place = _chosen(number, len(document["poses"])) - 1
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
-    entry = document["poses"][place]
-    pose = replace(box_of(entry), multiplicity=entry["multiplicity"])
-    return machine_at_solution(machine, problem, pose, chosen)
+    machine = None if model is None else announced_model(model)
+    try:
+        return at_certified_poses(document, machine, [place])[0]
+    except InputError as error:
+        raise InputError(f"{model or source}: {error}") from None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any
 
-from pkm_exact.cli.statics_answers import StaticsAnswers
+from pkm_exact.statics.asked_answers import StaticsAnswers
 from pkm_exact.statics.at_pose import AtPose
 
 

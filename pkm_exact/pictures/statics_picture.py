@@ -64,14 +64,15 @@ def statics_panels(measures: Measures, ellipsoid: LargestEllipsoid | None = None
     """
     limits, found = measures.limits, []
     kept = _kept(measures)
-    is_section = len(kept) < len(measures.freedom.at.motion.twist)
+    is_section = len(kept) < len(measures.freedom.components)
     if limits.speeds is not None:
         speeds, freedom = limits.speeds, measures.freedom
         polytope = _asked(
             lambda: velocity_section(freedom, speeds, kept) if is_section else velocity_polytope(freedom, speeds)
         )
         title = "velocities without turning" if is_section else "velocities"
-        shape = None if ellipsoid is None else ellipsoid_matrix(measures, ellipsoid, kept)
+        has_shape = ellipsoid is not None and not measures.freedom.at.held.structural
+        shape = ellipsoid_matrix(measures, ellipsoid, kept) if ellipsoid is not None and has_shape else None
         found.append(StaticsPanel(title, _names(measures, TWIST, kept), polytope, shape))
     if limits.forces is not None:
         low, high = limits.force_ends or ((), ())
@@ -129,13 +130,22 @@ def statics_figure(measures: Measures, ellipsoid: LargestEllipsoid | None = None
 
 
 def _kept(measures: Measures) -> list[int]:
-    """Which components of the twist are drawn: all of three or fewer, else those of the velocity."""
-    twist = measures.freedom.at.motion.twist
-    return [place for place, k in enumerate(twist) if len(twist) <= _MOST or k < 3]
+    """Which of the free components are drawn: all of three or fewer, else those of the velocity."""
+    freedom = measures.freedom
+    places = freedom.free.places
+    if len(places) <= _MOST:
+        return list(range(len(places)))
+    if freedom.at.held.structural:
+        raise InputError(
+            f"picture: its {len(places)} freedoms are too many to be drawn, and constraints couple velocities and "
+            "turns, so that there is no section without turning"
+        )
+    return [k for k, place in enumerate(places) if freedom.at.motion.twist[place] < 3]
 
 
 def _names(measures: Measures, names: tuple[str, ...], kept: list[int]) -> tuple[str, ...]:
-    return tuple(names[measures.freedom.at.motion.twist[place]] for place in kept)
+    freedom = measures.freedom
+    return tuple(names[freedom.at.motion.twist[freedom.free.places[place]]] for place in kept)
 
 
 def _asked(ask: Callable[[], Polytope]) -> Polytope:

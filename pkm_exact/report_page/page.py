@@ -51,7 +51,13 @@ SCRIPTS: Final = ("view.js", "controls.js", "table.js", "report.js")
 _PRESETS: Final = {"reset": "Reset", "top": "Top", "front": "Front", "side": "Side"}
 
 
-def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, robot: Machine | None = None) -> str:
+def report_page(
+    document: Mapping[str, Any],
+    lines: tuple[str, ...],
+    file: str,
+    robot: Machine | None = None,
+    limits: Mapping[str, Any] | None = None,
+) -> str:
     """The page on an accepted certificate, of poses or of tolerances.
 
     Parameters
@@ -64,6 +70,8 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
         Name of the certificate's file, without folders.
     robot : Machine, optional
         The model; with it, cranks and slides are drawn, and it is said which of its limits each pose keeps.
+    limits : mapping, optional
+        What actuators can do, as for ``statics.limits_of_actuators``: speeds, forces, length, ..
 
     Raises
     ------
@@ -89,6 +97,7 @@ def report_page(document: Mapping[str, Any], lines: tuple[str, ...], file: str, 
     extra = _tolerance_facts(document) if tolerances else {}
     sections = {
         "claim": claim_section(meaning, counts),
+        "statics": _statics({"poses": []} if tolerances else document, robot, limits or {}),
         "reasons": reasons_section(meaning, limits_of(document), notes),
         "explorer": _explorer(scene, poses, tolerances=tolerances) if poses.rows else Markup(),
         "robot": mechanism_section(mechanism, scene.configuration)
@@ -129,6 +138,24 @@ def _counts(document: Mapping[str, Any], scene: Scene) -> dict[str, str]:
     if modes := groups(pose.det_sign for pose in scene.poses):
         counts["assembly modes"] = modes
     return counts
+
+
+def _statics(document: Mapping[str, Any], robot: Machine | None, limits: Mapping[str, Any]) -> Markup:
+    """What the machine can do at the poses; nothing if there are none."""
+    from pkm_exact.certify.statics_of_poses import at_certified_poses
+    from pkm_exact.report_page.statics_section import statics_section
+
+    if not document["poses"]:
+        if limits:
+            raise InputError("limits: are for the poses of a certificate of poses, and there are none; leave them out")
+        return Markup()
+    drives = "Legs are taken as actuators; slides and cranks are known to the page if it is made with the model."
+    remark = "" if robot is not None else drives
+    try:
+        poses = at_certified_poses(document, robot)
+    except InputError:  # its lengths were given freely, or are those of another configuration: the legs are the same
+        poses = at_certified_poses(document)
+    return statics_section(poses, limits, remark)
 
 
 def _tolerance_counts(document: Mapping[str, Any]) -> dict[str, str]:

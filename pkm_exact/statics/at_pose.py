@@ -105,8 +105,10 @@ def at_box(
     position: Sequence[Interval],
     rotation: Sequence[Sequence[Interval]],
     rank: int | None,
+    *,
+    is_multiple: bool = False,
 ) -> AtPose:
     """A machine at a pose that lies in a box of ordinary coordinates."""
     who = machine.name, machine.unit, machine.motion, machine.metric
     box = tuple(position), tuple(map(tuple, rotation))
-    return AtPose(*who, held, *box, is_exact=False, known_rank=rank)
+    return AtPose(*who, held, *box, is_exact=False, known_rank=rank, is_multiple=is_multiple)

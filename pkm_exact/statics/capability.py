@@ -3,8 +3,10 @@
     {t : |q'_i| <= greatest speed},  q' = J t        twists: a box cut by the range of J
     {J^T s : lo_i <= s_i <= hi_i}                    wrenches on the environment: a zonotope
 
-Exact where the pose is and the rows of J are rational up to square roots of numbers; else in balls, if these are narrow
-enough to tell which faces there are.
+Where constraints are not actuated, twists and wrenches are those in the free components (``free_components``): a twist
+has others that follow, and of wrenches that differ by what the constraints bear one is listed. Exact where the pose is
+and the rows of J are rational up to square roots of numbers; else in balls, if these are narrow enough to tell which
+faces there are.
 """
 
 from __future__ import annotations
@@ -16,7 +18,6 @@ from typing import Any
 
 from flint import arb, arb_mat
 
-from pkm_exact.errors import InputError
 from pkm_exact.polytopes.enclosures import ball_of, interval_of
 from pkm_exact.polytopes.polytope import Facet, Polytope
 from pkm_exact.polytopes.signs import UndecidedError, sign
@@ -30,10 +31,9 @@ from pkm_exact.statics.freedom import Freedom
 
 def velocity_slabs(freedom: Freedom, speeds: Sequence[Fraction]) -> Slabs:
     """The twists that the actuators can follow, in rational coordinates where they are exact."""
-    _require_free(freedom)
-    exact = freedom.directions
+    exact = freedom.free_directions
     if exact is None:
-        jacobian = freedom.ball_jacobian
+        jacobian = freedom.free_jacobian
         rows: Any = tuple(tuple(jacobian[i, j] for j in range(jacobian.ncols())) for i in range(jacobian.nrows()))
         return Slabs(rows, tuple(-ball_of(x) for x in speeds), tuple(ball_of(x) for x in speeds))
     bounds = [_short(weight.inverse() * speed) for weight, speed in zip(exact.weights, speeds, strict=True)]
@@ -58,8 +58,7 @@ def velocity_section(freedom: Freedom, speeds: Sequence[Fraction], kept: Sequenc
 
 def wrench_zonotope(freedom: Freedom, low: Sequence[Fraction], high: Sequence[Fraction]) -> Zonotope | None:
     """The wrenches that the actuators can exert, exactly; None if they are not exact."""
-    _require_free(freedom)
-    exact = freedom.directions
+    exact = freedom.free_directions
     if exact is None:
         return None
     weights = tuple(map(_short, exact.weights))
@@ -72,7 +71,7 @@ def wrench_polytope(freedom: Freedom, low: Sequence[Fraction], high: Sequence[Fr
         found = wrench_zonotope(freedom, low, high)
         if found is not None:
             return found.polytope()
-        jacobian = freedom.ball_jacobian
+        jacobian = freedom.free_jacobian
         rows = [[jacobian[i, j] for j in range(jacobian.ncols())] for i in range(jacobian.nrows())]
         return _ball_zonotope(rows, low, high)
 
@@ -89,14 +88,6 @@ def wrench_section(
         pairs = list(zip(facets[::2], facets[1::2], strict=True))  # of opposite normals, as _ball_zonotope has them
         rows = tuple(tuple(up.normal[j] for j in kept) for up, _ in pairs)
         return Slabs(rows, tuple(-down.offset for _, down in pairs), tuple(up.offset for up, _ in pairs)).polytope()
-
-
-def _require_free(freedom: Freedom) -> None:
-    if freedom.at.held.structural:
-        raise InputError(
-            "polytope: constraints that are not actuated leave the platform only some of its motions; polytopes are "
-            "for machines all of whose constraints are actuated"
-        )
 
 
 def _short(value: RootSum) -> Any:

@@ -22,8 +22,9 @@ from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
 from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.exact_rows import column_squares
+from pkm_exact.statics.free_components import FreeComponents, free_components
 from pkm_exact.statics.pose_rows import PoseRows
-from pkm_exact.statics.ranks import pivots, proved_rank, rationalised
+from pkm_exact.statics.ranks import kernel, pivots, proved_rank, rationalised
 
 
 @dataclass(frozen=True)
@@ -121,21 +122,124 @@ class Freedom:
         at = self.at
         if at.exact_rows is None or at.held.structural:
             return None
-        rows, weights = [], []
+        rows = []
         for k, actuator in enumerate(at.held.actuators):
             row = at.exact_rows[actuator.equation]
             ratio = rationalised(row.wrench)
             if ratio is None or not any(ratio):
                 return None
             place = next(j for j, x in enumerate(ratio) if x)
-            scale = Fraction(lcm(*(x.denominator for x in ratio)))
-            integers = [int(x * scale) for x in ratio]
-            scale /= gcd(*integers)
-            weight = RootSum.of(row.wrench[place]) * (1 / (ratio[place] * scale)) * row.rates[k].inverse()
-            sign = weight.sign()
-            rows.append(tuple(int(x * scale) * sign for x in ratio))
-            weights.append(weight * sign)
-        return Directions(tuple(rows), tuple(weights), tuple(column_squares(at.metric, at.motion.twist)))
+            rows.append((ratio, RootSum.of(row.wrench[place]) * (1 / ratio[place]) * row.rates[k].inverse()))
+        return _directions(rows, column_squares(at.metric, at.motion.twist))
+
+    @cached_property
+    def free(self) -> FreeComponents:
+        """Components of a twist that determine the others; all of them where every constraint is actuated."""
+        count = len(self.at.twist)
+        if not self.at.held.structural:
+            unit = tuple(tuple(Fraction(int(i == k)) for i in range(count)) for k in range(count))
+            return FreeComponents(tuple(range(count)), unit)
+        with working_precision(BITS):
+            exact = self._exactly_allowed
+            basis = self._allowed if exact is None else exact
+            if not basis:
+                raise InputError("statics: the constraints that are not actuated leave the platform no twist here")
+            ordinary = [1.0] * count
+            if exact is not None:
+                ordinary = [float(k) ** -0.5 for k in column_squares(self.at.metric, self.at.motion.twist)]
+            return free_components(basis, [a * b for a, b in zip(ordinary, self._lever_scales, strict=True)])
+
+    @property
+    def _lever_scales(self) -> list[float]:
+        """1 for translations, for turns a length of the machine: of the moments of its constraints by their forces."""
+        wrenches = self.at.wrenches.to_numpy()[list(self.at.held.structural)]
+        turning = [k >= 3 for k in self.at.motion.twist]
+        forces = max((abs(row[j]) for row in wrenches for j, turns in enumerate(turning) if not turns), default=0.0)
+        moments = max((abs(row[j]) for row in wrenches for j, turns in enumerate(turning) if turns), default=0.0)
+        lever = moments / forces if forces and moments else 1.0
+        return [lever if turns else 1.0 for turns in turning]
+
+    @property
+    def components(self) -> tuple[str, ...]:
+        """Names of the free components of twists."""
+        return tuple(self.at.twist[place] for place in self.free.places)
+
+    @cached_property
+    def _exactly_allowed(self) -> list[list[Fraction]] | None:
+        """A rational basis of the allowed twists, in rational coordinates; None where they have none that is known."""
+        at = self.at
+        if at.exact_rows is None:
+            return None
+        rows = []
+        for index in at.held.structural:
+            row = at.exact_rows[index]
+            entries = [RootSum.of(x) for x in row.wrench]
+            for actuator, rate in row.rates.items():
+                own = at.exact_rows[at.held.actuators[actuator].equation]
+                factor = rate * own.rates[actuator].inverse()
+                entries = [x - factor * y for x, y in zip(entries, own.wrench, strict=True)]
+            ratio = rationalised(entries)
+            if ratio is None:
+                return None
+            rows.append(ratio)
+        return kernel(rows, len(at.twist))
+
+    @cached_property
+    def free_directions(self) -> Directions | None:
+        """The same as ``directions`` for the free components: the rows of J E."""
+        at = self.at
+        if not at.held.structural:
+            return self.directions
+        if self._exactly_allowed is None or at.exact_rows is None:
+            return None
+        rows = []
+        for k, actuator in enumerate(at.held.actuators):
+            row = at.exact_rows[actuator.equation]
+            entries = [
+                sum((RootSum.of(x) * e[j] for x, e in zip(row.wrench, self.free.expansion, strict=True)), RootSum())
+                for j in range(len(self.free.places))
+            ]
+            ratio = rationalised(entries)
+            if ratio is None or not any(ratio):
+                return None
+            place = next(j for j, x in enumerate(ratio) if x)
+            rows.append((ratio, entries[place] * (1 / ratio[place]) * row.rates[k].inverse()))
+        squares = column_squares(at.metric, at.motion.twist)
+        return _directions(rows, [squares[place] for place in self.free.places])
+
+    @cached_property
+    def expansion(self) -> arb_mat:
+        """E in balls and ordinary coordinates: all components of a twist from the free ones."""
+        with working_precision(BITS):
+            found = self.free
+            if any(isinstance(x, arb) for row in found.expansion for x in row):
+                return arb_mat([list(row) for row in found.expansion])
+            roots = [RootSum.root(k) for k in column_squares(self.at.metric, self.at.motion.twist)]
+            return arb_mat(
+                [
+                    [ball_of(roots[place] * roots[i].inverse() * x) for place, x in zip(found.places, row, strict=True)]
+                    for i, row in enumerate(found.expansion)
+                ]
+            )
+
+    @cached_property
+    def free_jacobian(self) -> arb_mat:
+        """J E in balls: speeds of the actuators by the free components of the twist."""
+        with working_precision(BITS):
+            return self.ball_jacobian * self.expansion if self.at.held.structural else self.ball_jacobian
+
+
+def _directions(rows: Sequence[tuple[list[Fraction], RootSum]], squares: Sequence[Fraction]) -> Directions:
+    """Rows that are a number times a rational row, as positive weights times integer rows."""
+    integral, weights = [], []
+    for ratio, factor in rows:
+        scale = Fraction(lcm(*(x.denominator for x in ratio)))
+        scale /= gcd(*(int(x * scale) for x in ratio))
+        weight = factor * (1 / scale)
+        sign = weight.sign()
+        integral.append(tuple(int(x * scale) * sign for x in ratio))
+        weights.append(weight * sign)
+    return Directions(tuple(integral), tuple(weights), tuple(squares))
 
 
 def ball_kernel(rows: list[list[Any]], count: int) -> list[list[arb]]:

@@ -65,7 +65,7 @@ def _transmission(m: Measures) -> arb:
     return len(squares) / (sum(squares, arb(0)) * sum((1 / x for x in squares), arb(0))).sqrt()
 
 
-def _fvi(m: Measures, places: list[int], speed: str, force: str) -> arb:
+def _fvi(m: Measures, places: list[int] | None, speed: str, force: str) -> arb:
     wanted_speed, wanted_force = m.known(speed), m.known(force)
     reached = m.isotropic_speed(places) / _rational(wanted_speed)
     return reached.min(m.isotropic_force(places) / _rational(wanted_force))
@@ -85,11 +85,11 @@ def _turning(m: Measures) -> list[int]:
     return m.columns(turning=True)
 
 
-def _whole(m: Measures) -> list[int]:
-    """All components; of both sorts only with a length by which turns are multiplied."""
+def _of_all(m: Measures) -> Measures:
+    """For all directions that constraints allow; of translations and turns only with a length."""
     if m.freedom.has_both and m.limits.length is None:
         raise RefusedError("mixes translations and turns: give a length, or see its parts with the endings _p and _o")
-    return list(range(len(m.freedom.at.twist)))
+    return m
 
 
 STATICS_INDICES: Final[tuple[StaticsIndex, ...]] = (
@@ -118,16 +118,17 @@ STATICS_INDICES: Final[tuple[StaticsIndex, ...]] = (
     StaticsIndex(
         "v_iso",
         "length/time",
-        "norm of the twist, turns by the length, reached in every direction",
+        "norm of the twist, turns by the length, reached in every direction that constraints allow",
         f"{SHAYYA}, equation 7",
-        lambda m: m.isotropic_speed(_whole(m)),
+        lambda m: _of_all(m).isotropic_speed(None),
     ),
     StaticsIndex(
         "f_iso",
         "force",
-        "norm of the wrench, moments divided by the length, borne in every direction by actuator forces of least norm",
+        "norm of the wrench, moments divided by the length, borne in every direction that constraints do not bear, by "
+        "actuator forces of least norm",
         f"{SHAYYA}, equation 7",
-        lambda m: m.isotropic_force(_whole(m)),
+        lambda m: _of_all(m).isotropic_force(None),
     ),
     StaticsIndex(
         "v_iso_p",
@@ -169,7 +170,7 @@ STATICS_INDICES: Final[tuple[StaticsIndex, ...]] = (
         "1",
         "least ratio of isotropic speed and force to those wanted",
         f"{SHAYYA}, equation 6",
-        lambda m: _fvi(m, _whole(m), "speed", "force"),
+        lambda m: _fvi(_of_all(m), None, "speed", "force"),
     ),
     StaticsIndex(
         "fvi_p",

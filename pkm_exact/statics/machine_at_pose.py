@@ -53,7 +53,8 @@ def machine_at_solution(machine: Machine, problem: ForwardProblem, pose: Pose, c
     elif pose.multiplicity == 1 and problem.equation_count == problem.motion.dimension:
         rank = problem.motion.dimension
     found = held_in_solution(machine, problem, configuration)
-    return at_box(machine, found, pose.position, pose.rotation, rank)
+    is_multiple = pose.multiplicity is not None and pose.multiplicity > 1
+    return at_box(machine, found, pose.position, pose.rotation, rank, is_multiple=is_multiple)
 
 
 def _require_own_pose(at: AtPose) -> None:

@@ -79,13 +79,26 @@ class Measures:
     def unscaled(self) -> arb_mat:
         """J, of a machine all of whose constraints are actuated."""
         if self.freedom.at.held.structural:
-            raise RefusedError("is for machines all of whose constraints are actuated")
+            raise RefusedError(
+                "is about single components of twists or wrenches: for machines all of whose constraints are actuated"
+            )
         return self.freedom.ball_jacobian
+
+    @cached_property
+    def allowed(self) -> arb_mat | None:
+        """J on an orthonormal basis of the twists that constraints allow, if some are not actuated."""
+        if not self.freedom.at.held.structural:
+            return None
+        length = self.known("length") if self.freedom.has_both else None
+        return self.freedom.scaled(length)
 
     @cached_property
     def inverse(self) -> arb_mat:
         """J^+ = (J^T J)^-1 J^T."""
-        matrix = self.unscaled
+        return self._inverse(self.unscaled)
+
+    @staticmethod
+    def _inverse(matrix: arb_mat) -> arb_mat:
         if matrix.nrows() < matrix.ncols():
             raise RefusedError("has no meaning with fewer actuators than freedoms")
         with working_precision(BITS):
@@ -104,14 +117,16 @@ class Measures:
             raise RefusedError(f"has no meaning for a motion without {'turns' if turning else 'translations'}")
         return found
 
-    def isotropic_speed(self, columns: Sequence[int], spin: Sequence[Any] | None = None) -> arb:
-        """The speed that is reached in every direction of these components, the others 0 or an imposed spin."""
-        speeds, factors = self.known("speeds"), self._factors(columns)
-        matrix = self.unscaled
+    def isotropic_speed(self, columns: Sequence[int] | None, spin: Sequence[Any] | None = None) -> arb:
+        """The speed that is reached in every direction of these components, the others 0 or an imposed spin.
+
+        None stands for all directions that constraints allow.
+        """
+        speeds, (matrix, places, factors) = self.known("speeds"), self._on(columns)
         with working_precision(BITS):
             least: arb | None = None
             for i, speed in enumerate(speeds):
-                norm = sum(((matrix[i, j] / factors[j]) ** 2 for j in columns), arb(0)).sqrt()
+                norm = sum(((matrix[i, j] / factors[j]) ** 2 for j in places), arb(0)).sqrt()
                 left = ball_of(speed)
                 if spin is not None:
                     turning = self.columns(turning=True)
@@ -128,15 +143,19 @@ class Measures:
             raise RefusedError("is infinite: no actuator takes part in these motions")
         return least
 
-    def isotropic_force(self, rows: Sequence[int]) -> arb:
-        """The force that is borne in every direction of these components, actuator forces of least norm."""
-        forces, matrix, factors = self.known("forces"), self.inverse, self._factors(rows)
+    def isotropic_force(self, rows: Sequence[int] | None) -> arb:
+        """The force that is borne in every direction of these components, actuator forces of least norm.
+
+        None stands for all directions that constraints do not bear.
+        """
+        forces, (jacobian, places, factors) = self.known("forces"), self._on(rows)
+        matrix = self._inverse(jacobian) if rows is None else self.inverse
         if self.limits.least_forces is not None:
             raise RefusedError("is for forces that are limited both ways alike; see the wrench polytope")
         with working_precision(BITS):
             least: arb | None = None
             for i, force in enumerate(forces):
-                norm = sum(((matrix[j, i] * factors[j]) ** 2 for j in rows), arb(0)).sqrt()
+                norm = sum(((matrix[j, i] * factors[j]) ** 2 for j in places), arb(0)).sqrt()
                 if norm.contains(0):
                     if not norm.is_zero():
                         raise RefusedError("is not decided: the pose is not enclosed narrowly enough")
@@ -146,6 +165,14 @@ class Measures:
         if least is None:
             raise RefusedError("is infinite: no actuator takes part in these forces")
         return least
+
+    def _on(self, places: Sequence[int] | None) -> tuple[arb_mat, Sequence[int], list[arb]]:
+        """J, which of its columns are meant, and by what the components that belong to them are multiplied."""
+        if places is None and self.allowed is not None:
+            count = self.allowed.ncols()
+            return self.allowed, range(count), [arb(1)] * count
+        chosen = range(len(self.freedom.at.twist)) if places is None else places
+        return self.unscaled, chosen, self._factors(chosen)
 
     def _factors(self, places: Sequence[int]) -> list[arb]:
         """By what components of a twist are multiplied: turns by the length, where translations are meant too."""
@@ -169,12 +196,14 @@ class Measures:
 
     def greatest_error(self, columns: Sequence[int]) -> arb:
         """The greatest norm of these components over all errors: at a vertex, as it is convex."""
-        polytope = self.error_polytope
+        polytope, expansion = self.error_polytope, self.freedom.expansion
         with working_precision(BITS):
+            roots = [ball_of(square).sqrt() for square in polytope.squares]
             found = arb(0)
             for vertex in polytope.vertices:
-                square = sum((ball_of(polytope.squares[j]) * ball_of(vertex[j]) ** 2 for j in columns), arb(0))
-                found = found.max(square)
+                free = arb_mat([[root * ball_of(x)] for root, x in zip(roots, vertex, strict=True)])
+                twist = expansion * free
+                found = found.max(sum((twist[j, 0] ** 2 for j in columns), arb(0)))
             return found.sqrt()
 
     @cached_property

@@ -52,6 +52,8 @@ class PoseRows:
     is_exact : bool
     known_rank : int or None
         Exact rank of all wrenches, where it is known beforehand.
+    is_multiple : bool
+        Whether the pose is proved to be a multiple solution.
     """
 
     name: str
@@ -63,6 +65,7 @@ class PoseRows:
     rotation: Any
     is_exact: bool
     known_rank: int | None = field(default=None)
+    is_multiple: bool = field(default=False)
 
     @property
     def twist(self) -> tuple[str, ...]:
@@ -169,7 +172,8 @@ class PoseRows:
         if self.exact_rows is not None:
             return kinds_at_rational_pose(self.held, self.exact_rows, self.motion, self.metric)
         with working_precision(BITS):
-            return kinds_in_balls(self.held, self.ball_rows, self.motion, self.metric, self.known_rank)
+            where = self.motion, self.metric, self.known_rank
+            return kinds_in_balls(self.held, self.ball_rows, *where, is_multiple=self.is_multiple)
 
     @property
     def rank(self) -> int | None:

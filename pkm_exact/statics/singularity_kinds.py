@@ -105,8 +105,13 @@ def kinds_at_rational_pose(held: Held, rows: Sequence[ExactRow], motion: Motion,
     return Kinds(rank, below, tuple(found), tuple(undecided))
 
 
-def kinds_in_balls(held: Held, rows: Sequence[BallRow], motion: Motion, metric: Metric, rank: int | None) -> Kinds:
-    """The same where the pose is enclosed; ``rank`` is the exact one of all wrenches, where it is known."""
+def kinds_in_balls(
+    held: Held, rows: Sequence[BallRow], motion: Motion, metric: Metric, rank: int | None, *, is_multiple: bool = False
+) -> Kinds:
+    """The same where the pose is enclosed; ``rank`` is the exact one of all wrenches, where it is known.
+
+    At a multiple solution of as many equations as freedoms it is proved to be smaller than these.
+    """
     equations, structural, count = held.equations, held.structural, motion.dimension
     every = tuple(equation.name for equation in equations)
     found: list[Singularity] = []
@@ -115,12 +120,17 @@ def kinds_in_balls(held: Held, rows: Sequence[BallRow], motion: Motion, metric: 
     proved = _proved(rows, range(len(rows)))
     if rank is None and proved == min(count, len(rows)):
         rank = proved
+    is_multiple = is_multiple and len(rows) == count
+    if rank is None and is_multiple and proved == count - 1:
+        rank = proved
     below, usual = _proved(rows, structural), 0
     if structural:
         usual = generic_rank([equations[index] for index in structural], motion, metric)
     if below < usual:
         undecided.append(CONSTRAINT)
-    if rank is None:
+    if rank is None and is_multiple and below == usual:
+        found.append(Singularity(TYPE_2, every))
+    elif rank is None:
         undecided.append(TYPE_2)
     elif rank < min(count, len(rows)):
         if is_architecture([equation.form for equation in equations], motion):
