@@ -4,23 +4,26 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection
 from threading import Thread
-from time import monotonic
+from time import monotonic, sleep
 from typing import Any
 
 LONGEST_WAIT = 3600.0
 """Seconds of one wait for a message; a system call takes no arbitrarily large number."""
+PATIENCE = 2.0
+"""Seconds that a process has to end what it began (``end_in_order``) before it is killed."""
 
 
 @contextmanager
 def process_apart(work: Callable[..., None], *arguments: Any) -> Iterator[tuple[Connection, Any]]:
     """A new process that runs ``work(sender, *arguments)``, and the end of a pipe that receives what it sends.
 
-    It is killed when the block is left. ``work`` should begin with ``end_with_parent()``.
+    It is ended when the block is left. ``work`` should begin with ``end_with_parent()``.
     """
     context = get_context("spawn")
     receiver, sender = context.Pipe(duplex=False)
@@ -31,6 +34,8 @@ def process_apart(work: Callable[..., None], *arguments: Any) -> Iterator[tuple[
     try:
         yield receiver, process
     finally:
+        process.terminate()
+        process.join(PATIENCE)
         process.kill()
         process.join()
         receiver.close()
@@ -64,7 +69,17 @@ def _wait_for_parent() -> None:
     parent = parent_process()
     if parent is not None:
         parent.join()
+        os.kill(os.getpid(), signal.SIGTERM)
+        sleep(PATIENCE)
         os._exit(1)
+
+
+def end_in_order() -> None:
+    """Let this process, when it is to end, end the programs that it runs, and remove its temporary folders.
+
+    Where FLINT is at work, which cannot be interrupted, there are none, and it is killed after ``PATIENCE``.
+    """
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
 
 
 @contextmanager

@@ -159,7 +159,7 @@ def test_ranks_are_found_where_roots_differ() -> None:
     double = [factor for factor, weight in weights.parts if weight == 2]
     assert sum(len(factor) - 1 for factor in double) == 2
     for factor in double:
-        assert all(pure.value_at(factor, t, 0) for t in (1, 3))
+        assert all(pure.Fixed(factor, t, 0).at(t, 0, 1)[0] for t in (1, 3))
 
 
 @pytest.mark.parametrize("name", FORGERIES)

@@ -4,7 +4,7 @@ import ast
 import json
 import subprocess
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from pathlib import Path
 from random import Random
@@ -288,6 +288,77 @@ def test_roots_close_to_each_other_to_a_grid_point_and_to_the_axis() -> None:
         roots = pure.isolated([int(c) for c in h.coeffs()])
         assert [(root.m, root.m + (not root.exact)) for root in roots] == cells
         assert all(root.k == exponent for root in roots)
+
+
+huge = st.integers(-(10**60), 10**60) | integers | st.just(0)
+cells = st.tuples(huge | st.integers(-3, 3), st.integers(0, 250))
+
+
+def _value(polynomial: Sequence[int], x: Fraction) -> Fraction:
+    return sum((c * x**i for i, c in enumerate(polynomial)), Fraction(0))
+
+
+@given(st.lists(huge, max_size=8), cells, st.integers(0, 99), st.integers(0, 99), st.integers(1, 300))
+def test_values_in_fixed_point_are_as_near_as_they_say(
+    polynomial: list[int], cell: tuple[int, int], place: int, within: int, q: int
+) -> None:
+    """At a grid point of the cell, and at any point between two; the cell may be finer than the precision."""
+    (m, k), finer = cell, 7
+    values = pure.Fixed(polynomial, m, k)
+    at, grid = (m << finer) + place, k + finer
+    unit = Fraction(2) ** (values.s - q)
+    for exact in (True, False):
+        near, error = values.near(at, grid, q, exact=exact)
+        x = Fraction(at, 1 << grid) + (0 if exact else Fraction(within, 99 << grid))
+        assert abs(_value(polynomial, x) - near * unit) <= error * unit
+        if q >= at.bit_length() and exact:
+            assert error <= 2 * len(polynomial)
+
+
+@given(st.lists(huge, min_size=1, max_size=8), cells, st.integers(0, 128), st.integers(0, 40), st.booleans())
+def test_signs_of_values_are_exact(
+    polynomial: list[int], cell: tuple[int, int], place: int, bits: int, is_root: bool
+) -> None:
+    """0 only at roots, which may be grid points of many digits; other values have so many right bits."""
+    (m, k), finer = cell, 7
+    at, grid = (m << finer) + place, k + finer
+    if is_root:
+        polynomial = [int(c) for c in (fmpz_poly(polynomial) * fmpz_poly([-at, 1 << grid])).coeffs()] or [0]
+    values = pure.Fixed(polynomial, m, k)
+    found, q = values.at(at, grid, bits)
+    value = _value(polynomial, Fraction(at, 1 << grid))
+    assert (found > 0, found < 0) == (value > 0, value < 0)
+    unit = Fraction(2) ** (values.s - q)
+    assert abs(value - found * unit) * 2**bits <= abs(found) * unit
+
+
+@given(st.lists(st.lists(huge, max_size=6), max_size=4), cells, st.booleans(), st.integers(1, 300))
+def test_values_of_several_polynomials_have_one_unit(
+    polynomials: list[list[int]], cell: tuple[int, int], exact: bool, p: int
+) -> None:
+    """Their quotients by the value of 1 are what they are."""
+    m, k = cell
+    x = Fraction(2 * m + (not exact), 2 << k)
+    *found, one = pure.enclosed([*polynomials, [1]], pure.Root(m, k, exact), p)
+    assert 0 < (one.high - one.low) << p < one.low
+    assert len(found) == len(polynomials)
+    for polynomial, interval in zip(polynomials, found, strict=True):
+        quotient = interval.over(one)
+        assert quotient.low <= _value(polynomial, x) * (1 << p) <= quotient.high
+
+
+def test_a_root_of_a_factor_is_seen_at_the_ends_of_its_cell() -> None:
+    """x^2 - 2, 3 x - 1 and x - 3/2: roots that are exact, to the left, within and to the right of cells."""
+    for k in (32, 300):
+        exact, one = pure.Root(3 << (k - 1), k, True), 1 << k
+        third = pure.Root((1 << k) // 3, k, False)
+        assert pure.has_root([-3, 2], exact)
+        assert not pure.has_root([-4, 2], exact)
+        assert pure.has_root([-1, 3], third)
+        for shift in (-one, -2, -1, 1, 2, one):
+            assert not pure.has_root([-1, 3], third._replace(m=third.m + shift))
+        assert pure.has_root([1, -3], third)
+        assert not pure.has_root([-2, 0, 1], third)
 
 
 @given(st.tuples(*[integers] * 4), st.tuples(integers, integers, st.integers(1, 10**6), integers))

@@ -1,6 +1,10 @@
 """Oracles that lie: a factor dropped, a root added, coefficients off by one. And a program that says nothing useful."""
 
+import os
 from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from time import sleep
 
 import pytest
 from flint import fmpz_poly
@@ -11,6 +15,7 @@ from pkm_exact.backends.msolve_oracle import msolve_proposal, parsed_proposal
 from pkm_exact.backends.msolve_program import MsolveError, find_msolve
 from pkm_exact.claim import Claim
 from pkm_exact.errors import InputError
+from pkm_exact.interactive.limited_solve import solve_within_limits
 from pkm_exact.interactive.system_answers import solve_system
 from pkm_exact.systems.solution_search import SolutionSearch
 from pkm_exact.systems.system_engine import SYSTEM_POLICY, OracleError, solved_system
@@ -140,3 +145,35 @@ def test_msolve_proposes_a_representation() -> None:
     found = msolve_proposal(SYSTEM, seconds=60)
     assert found is not None
     assert found.degree == 4
+
+
+W = Fraction(1)
+SLEEPER = """#!/bin/sh
+echo $$ > {note}
+exec sleep 100
+"""
+
+
+def test_a_program_that_is_asked_ends_with_us(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Interrupted, or when the time is over, we leave neither the program nor its files behind."""
+    note, folder, program = tmp_path / "pid", tmp_path / "temporary", tmp_path / "msolve"
+    folder.mkdir()
+    program.write_text(SLEEPER.format(note=note))
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    monkeypatch.setenv("TMPDIR", str(folder))
+
+    def interrupted(stage: str) -> None:
+        while stage == "oracle" and not (note.exists() and note.read_text().endswith("\n")):
+            sleep(0.01)
+        if stage == "oracle":
+            assert list(folder.iterdir())
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        solve_within_limits(
+            SYSTEM, seconds=60, megabytes=None, width=Fraction(1), oracle="msolve", progress=interrupted
+        )
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(note.read_text()), 0)
+    assert not list(folder.iterdir())

@@ -1109,14 +1109,56 @@ def sign_changes(coefficients: Sequence[int]) -> int:
     return sum(a != b for a, b in pairwise(signs))
 
 
-def value_at(polynomial: Polynomial, m: int, k: int) -> int:
-    """The value at m / 2^k, times 2^(k degree)."""
-    bits, terms = max(m.bit_length(), k), len(polynomial)
-    spend(terms * (300 + product_cost(bits, terms * bits + most_bits(polynomial))))
-    value = 0
-    for power, coefficient in enumerate(reversed(polynomial)):
-        value = value * m + (coefficient << (k * power))
-    return value
+class Fixed:
+    """Values of a polynomial at points of a cell [m, m + 1] / 2^k, in fixed point, with bounds of their errors.
+
+    With |x| <= 2^b in the cell and y = x / 2^b, they are the sums of a_i 2^(b i) y^i, by Horner's rule, as multiples of
+    2^(s - q), where all |a_i| 2^(b i) are below 2^s. As |y| <= 1, errors do not grow: rounding down adds less than 2
+    for each coefficient, and where y is known to 2^-j, not better, each factor of y adds its own size times 2^-j.
+    """
+
+    def __init__(self, polynomial: Sequence[int], m: int, k: int) -> None:
+        self.polynomial = polynomial
+        self.b = abs(m).bit_length() - k
+        self.s = max((c.bit_length() + self.b * i for i, c in enumerate(polynomial) if c), default=0)
+        self.q = 128
+        self.known: dict[int, list[int]] = {}
+
+    def coefficients(self, q: int) -> list[int]:
+        """All a_i 2^(b i) as multiples of 2^(s - q), rounded down, highest first."""
+        if q not in self.known:
+            spend(len(self.polynomial) * (500 + (q + most_bits(self.polynomial)) // 30))
+            shifts = ((c, q - self.s + self.b * i) for i, c in enumerate(self.polynomial))
+            self.known[q] = [c << shift if shift >= 0 else c >> -shift for c, shift in shifts][::-1]
+        return self.known[q]
+
+    def near(self, m: int, k: int, q: int, *, exact: bool) -> tuple[int, int]:
+        """The value at m / 2^k, or at any point between that and (m + 1) / 2^k, and a bound of its error."""
+        lost = max(m.bit_length() - q, 0)
+        exact = exact and not m & ((1 << lost) - 1)
+        m, j = m >> lost, k + self.b - lost
+        spend(len(self.polynomial) * (900 + product_cost(m.bit_length(), q) + q // 10))
+        value = factors = 0
+        for coefficient in self.coefficients(q):
+            factors += abs(value)
+            value = (value * m >> j) + coefficient
+        return value, 2 * len(self.polynomial) + (0 if exact else (factors >> j) + 1)
+
+    def at(self, m: int, k: int, bits: int) -> tuple[int, int]:
+        """The value at m / 2^k to so many leading bits, as a multiple of 2^(s - q), and q; 0 only if it is 0.
+
+        It is a multiple of 2^(-k degree), so that it is 0 if a smaller one cannot be told from 0.
+        """
+        least = k * (len(self.polynomial) - 1) + max(self.s, 0) + len(self.polynomial).bit_length() + 2
+        most = max(least, k + self.b + 1) + bits
+        while True:
+            q = min(self.q, most)
+            value, error = self.near(m, k, q, exact=True)
+            if abs(value) >> bits > error:
+                return value, q
+            if q == most:
+                return 0, q
+            self.q *= 2
 
 
 def refined(h0: Polynomial, root: Root, k: int) -> Root:
@@ -1126,30 +1168,35 @@ def refined(h0: Polynomial, root: Root, k: int) -> Root:
     guessed by the secant; after a right guess, which two signs prove, step is doubled, otherwise halved.
     """
     m, grid, exact = root
-    degree, step = len(h0) - 1, 1
-    low, high = value_at(h0, m, grid), value_at(h0, m + 1, grid)
-    is_positive = (low or value_at(derivative(h0), m, grid)) > 0
+    step, values = 1, Fixed(h0, m, grid)
+    low, high = values.at(m, grid, 8), values.at(m + 1, grid, 8)
+    is_positive = (low if low[0] else Fixed(derivative(h0), m, grid).at(m, grid, 1))[0] > 0
     while not exact and grid < k:
         step = min(step, k - grid)
-        if step == 1 or not low or not high:
+        if step == 1 or not low[0] or not high[0]:
             m, grid = 2 * m, grid + 1
-            middle = value_at(h0, m + 1, grid)
-            exact = not middle
-            m, low, high = (
-                (m + 1, middle, high << degree) if exact or (middle > 0) == is_positive else (m, low << degree, middle)
-            )
+            middle = values.at(m + 1, grid, 8)
+            exact = not middle[0]
+            m, low, high = (m + 1, middle, high) if exact or (middle[0] > 0) == is_positive else (m, low, middle)
             step = 2
             continue
-        spend(division_cost(step, low.bit_length()))
-        guess = (m << step) + (low << step) // (low - high)
-        ends = value_at(h0, guess, grid + step), value_at(h0, guess + 1, grid + step)
-        if not all(ends):
-            m, grid, exact = guess + (not ends[1]), grid + step, True
-        elif (ends[0] > 0) == is_positive != (ends[1] > 0):
-            m, grid, low, high, step = guess, grid + step, *ends, 2 * step
+        guess = (m << step) + secant(low, high, step)
+        ends = tuple(values.at(place, grid + step, 2 * step + 4) for place in (guess, guess + 1))
+        if not all(value for value, _ in ends):
+            m, grid, exact = guess + (not ends[1][0]), grid + step, True
+        elif (ends[0][0] > 0) == is_positive != (ends[1][0] > 0):
+            m, grid, (low, high), step = guess, grid + step, ends, 2 * step
         else:
             step //= 2
     return Root(m << (k - grid), k, exact)
+
+
+def secant(low: tuple[int, int], high: tuple[int, int], step: int) -> int:
+    """In which of 2^step parts of a cell the secant has its zero, from values of different signs at the ends."""
+    q = max(low[1], high[1])
+    left, right = (value << (q - own) for value, own in (low, high))
+    spend(division_cost(left.bit_length() + step, max(left.bit_length(), right.bit_length())))
+    return (left << step) // (left - right)
 
 
 def isolated(h0: Polynomial) -> list[Root]:
@@ -1175,6 +1222,14 @@ def coarser(root: Root, k: int) -> Root:
 def are_apart(roots: Sequence[Root]) -> bool:
     """Whether no closed cell holds a neighbouring root."""
     return not any(a.m == b.m or (a.m + 1 == b.m and b.exact and not a.exact) for a, b in pairwise(roots))
+
+
+def has_root(factor: Polynomial, root: Root) -> bool:
+    """Whether a root of a polynomial is one of a factor of it: an exact one, or the only one in its closed cell."""
+    m, k, exact = root
+    values = Fixed(factor, m, k)
+    low = values.at(m, k, 0)[0]
+    return not low if exact else (low > 0) != (values.at(m + 1, k, 0)[0] > 0)
 
 
 class Interval:
@@ -1313,11 +1368,10 @@ def cell(value: Interval, shift: int, *, late: bool) -> tuple[int, int] | None:
 def coordinates(representation: Representation, g: Metric, root: Root, p: int) -> list[Interval] | None:
     """Position, rotation and quaternion at a root; None if the precision does not suffice."""
     h = representation.h
-    padded = [[*numerator, *[0] * (len(h) - len(numerator))] for numerator in representation.numerators]
-    slope = enclosed([*derivative(h), 0], root, p)
+    slope, *values = enclosed([derivative(h), *representation.numerators], root, p)
     if slope.contains_zero():
         return None
-    return ordinary([enclosed(numerator, root, p).over(slope) for numerator in padded], g, p)
+    return ordinary([value.over(slope) for value in values], g, p)
 
 
 def ordinary(x: Sequence[Interval], g: Metric, p: int) -> list[Interval] | None:
@@ -1333,19 +1387,19 @@ def ordinary(x: Sequence[Interval], g: Metric, p: int) -> list[Interval] | None:
     return [*position, *rotation, *(value.over(length) for value in quaternion)]
 
 
-def enclosed(polynomial: Polynomial, root: Root, p: int) -> Interval:
-    """The value at the root, times a power of 2 that depends on the root and the length of the polynomial only.
-
-    The value at the lower end of the cell is exact; over the cell it changes by less than its width, 2^-k, times the
-    sum of i |a_i| 2^(b (i - 1)), where 2^b is above all numbers in the cell.
-    """
+def enclosed(polynomials: Sequence[Polynomial], root: Root, p: int) -> list[Interval]:
+    """The values at the root, all times one power of 2 that depends on the root and the polynomials."""
     m, k, exact = root
-    value = value_at(polynomial, m, k)
-    b = max(0, (abs(m) + 1).bit_length() - k)
-    spend(len(polynomial) * (500 + (len(polynomial) * (b + k) + most_bits(polynomial)) // 30))
-    slope = sum(i * abs(c) << (b * (i - 1)) for i, c in enumerate(polynomial) if i)
-    error = 0 if exact else slope << (k * (len(polynomial) - 2))
-    return Interval(value - error, value + error, p)
+    q = max(p, k) + max(map(len, polynomials)).bit_length() + 8
+    values = [Fixed(polynomial, m, k) for polynomial in polynomials]
+    unit = min(each.s for each in values)
+    found = []
+    for each in values:
+        value, error = each.near(m, k, q, exact=exact)
+        shift = each.s - unit
+        spend(500 + (q + shift) // 30)
+        found.append(Interval(value - error << shift, value + error << shift, p))
+    return found
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -1462,8 +1516,7 @@ def doubled(factor: Polynomial, representation: Representation) -> dict[Ends, in
     """2 at the real roots of a factor of h0, by the texts of their isolating intervals."""
     found = {}
     for root in isolated(primitive_part(representation.h)):
-        low, high = value_at(factor, root.m, root.k), value_at(factor, root.m + 1, root.k)
-        if (not low and root.exact) or (not root.exact and low * high < 0):
+        if has_root(factor, root):
             found[ends(root.m, root.m + (not root.exact), root.k)] = 2
     return found
 
@@ -2201,14 +2254,14 @@ def multiplicities(v: Polynomial, representation: Representation) -> dict[Ends, 
     h0 = primitive_part(representation.h)
     found = {}
     for root in isolated(h0):
-        finer, p = root, 64
+        p = 64
         while True:
-            slope = enclosed(derivative(h0), finer, p)
+            slope, value = enclosed([derivative(h0), v], refined(h0, root, max(p, root.k)), p)
             if not slope.contains_zero():
-                value = enclosed(padded(v, len(h0) - 1), finer, p).over(slope)
+                value = value.over(slope)
                 if value.high - value.low < 1 << (p - 1):
                     break
-            finer = refined(h0, finer, 2 * max(finer.k, 32))
+            p *= 2
         found[ends(root.m, root.m + (not root.exact), root.k)] = (value.low + value.high + (1 << p)) >> (p + 1)
     return found
 

@@ -488,13 +488,8 @@ def coordinates_at(
 ) -> list[pure.Interval] | None:
     """Enclosures of N_i(t) / h'(t); None if the precision does not suffice."""
     finer = pure.refined(h0, root, max(p, root.k))
-    length = len(representation.h)
-    slope = pure.enclosed([*pure.derivative(representation.h), 0], finer, p)
-    if slope.contains_zero():
-        return None
-    return [
-        pure.enclosed(pure.padded(numerator, length), finer, p).over(slope) for numerator in representation.numerators
-    ]
+    slope, *values = pure.enclosed([pure.derivative(representation.h), *representation.numerators], finer, p)
+    return None if slope.contains_zero() else [value.over(slope) for value in values]
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -690,8 +685,7 @@ def weights_of(weights: Weighed, h0: Polynomial) -> dict[pure.Ends, int]:
         key = pure.ends(root.m, root.m + (not root.exact), root.k)
         found[key] = 1
         for factor, weight in weights.parts:
-            low, high = pure.value_at(factor, root.m, root.k), pure.value_at(factor, root.m + 1, root.k)
-            if weight > 1 and ((not low and root.exact) or (not root.exact and low * high < 0)):
+            if weight > 1 and pure.has_root(factor, root):
                 found[key] = weight
     return found
 

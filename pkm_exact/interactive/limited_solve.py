@@ -11,7 +11,7 @@ from typing import Any
 from pkm_exact.algebra.system import PolynomialSystem, polynomial_ring
 from pkm_exact.errors import InternalError, PkmExactError, UnexpectedError
 from pkm_exact.interactive.system_answers import SystemSolution, solve_system
-from pkm_exact.processes import end_with_parent, messages, process_apart
+from pkm_exact.processes import end_in_order, end_with_parent, messages, process_apart
 from pkm_exact.stages import Progress, Relay, Relayed
 
 _Terms = list[dict[tuple[int, ...], int]]
@@ -61,6 +61,7 @@ def _work(
 ) -> None:
     """What the process does: the names of stages on the way, and at the end what was found, or an exception."""
     end_with_parent()
+    end_in_order()
     try:
         if megabytes is not None:
             _limit_memory(megabytes)

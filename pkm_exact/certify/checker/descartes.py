@@ -85,14 +85,27 @@ class RealRoot:
 
     def _split(self, place: fmpq) -> None:
         """Cut the interval at a place within it."""
-        charge(value_cost(*self._size, _words(place)))
-        value = self._h(place)
+        near = self._near(place)
+        if near.contains(0):
+            charge(value_cost(*self._size, _words(place)))
+        value = self._h(place) if near.contains(0) else near
         if value == 0:
             self.low = self.high = place
         elif (value < 0) == self._rises:
             self.low = place
         else:
             self.high = place
+
+    def _near(self, place: fmpq) -> arb:
+        """An enclosure of the value at a place, in more and more bits as long as it contains 0."""
+        terms, words = self._size
+        for bits in (self._bits, 2 * self._bits, 4 * self._bits):
+            charge(20000 + terms * (ball_cost(limbs(bits)) + 3 * words))
+            with ctx.workprec(bits):
+                value = self._h(arb(place))
+            if not value.contains(0):
+                break
+        return value
 
 
 def _words(value: fmpq) -> int:
