@@ -85,10 +85,7 @@ class RealRoot:
 
     def _split(self, place: fmpq) -> None:
         """Cut the interval at a place within it."""
-        near = self._near(place)
-        if near.contains(0):
-            charge(value_cost(*self._size, _words(place)))
-        value = self._h(place) if near.contains(0) else near
+        value = self._value(place)
         if value == 0:
             self.low = self.high = place
         elif (value < 0) == self._rises:
@@ -96,16 +93,17 @@ class RealRoot:
         else:
             self.high = place
 
-    def _near(self, place: fmpq) -> arb:
-        """An enclosure of the value at a place, in more and more bits as long as it contains 0."""
+    def _value(self, place: fmpq) -> arb | fmpq:
+        """The value at a place, or an enclosure of it without 0."""
         terms, words = self._size
         for bits in (self._bits, 2 * self._bits, 4 * self._bits):
             charge(20000 + terms * (ball_cost(limbs(bits)) + 3 * words))
             with ctx.workprec(bits):
                 value = self._h(arb(place))
             if not value.contains(0):
-                break
-        return value
+                return value
+        charge(value_cost(*self._size, _words(place)))
+        return self._h(place)
 
 
 def _words(value: fmpq) -> int:
