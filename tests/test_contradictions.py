@@ -287,16 +287,22 @@ def test_a_wrong_step_of_the_numeric_engine_gives_no_answer(fault: str, monkeypa
 
 
 @pytest.mark.parametrize("is_real", [True, False])
-def test_wrong_boxes_that_are_believed_give_no_answer(is_real: bool, monkeypatch: Patch) -> None:
+@pytest.mark.parametrize("in_doubles", [True, False])
+def test_wrong_boxes_that_are_believed_give_no_answer(is_real: bool, in_doubles: bool, monkeypatch: Patch) -> None:
     certification = import_module("pkm_exact.numeric.certification")
-    right = certification.nearest_box
+    doubles = import_module("pkm_exact.numeric.double_boxes")
+    right = doubles._box if in_doubles else certification.nearest_box
 
     def aside(*arguments: Any) -> Any:
         box = right(*arguments)
         first, (real, imaginary), *rest = box.centre
         return replace(box, centre=(first, (real + 1000, imaginary), *rest)) if box.is_real == is_real else box
 
-    monkeypatch.setattr(certification, "nearest_box", aside)
+    if in_doubles:
+        monkeypatch.setattr(doubles, "_box", aside)
+    else:
+        monkeypatch.setattr(certification, "_in_doubles", lambda _, points: [None] * len(points))
+        monkeypatch.setattr(certification, "nearest_box", aside)
     monkeypatch.setattr(certification, "certified", lambda _, boxes: [True] * len(boxes))
     with pytest.raises(InternalContradictionError):
         solve_krawczyk(shipped(L))

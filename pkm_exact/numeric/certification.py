@@ -9,15 +9,18 @@ holds no real solution, and the conjugate box holds another one. What is neither
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
+from dataclasses import dataclass
+from math import isfinite, ldexp
 from typing import TypeAlias
 
 import numpy as np
 from flint import acb, acb_mat, arb
 
-from pkm_exact.balls import Balls
+from pkm_exact.balls import Balls, unit_matrix_for
+from pkm_exact.numeric.box_order import in_order, meeting
 from pkm_exact.numeric.certified_boxes import GUARD_BITS, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
+from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX, NEARLY_BITS, double_boxes
 from pkm_exact.numeric.study_system import Complex
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
 from pkm_exact.precision import working_precision
@@ -25,20 +28,20 @@ from pkm_exact.stages import Amount, Watch
 
 GRIDS = (28, 44, 72, 120, 200, 340, 600, 1000)
 """Exponents of the grids of e, tried one after another."""
+FIRST_REFINED = 72
+"""Of these grids, the one for which solutions are refined first."""
+WIDEST = 0.55
+"""Norm of Y F' - 1, relative to the radii, above which no box succeeds."""
 NEWTON_STEPS = 60
 """Steps after which an approximation that still moves is given up; Newton's method needs half a dozen."""
 SETTLED_BITS = 30
 """The last step is this many bits smaller than a unit of the grid: which grid point is nearest is then certain."""
 SETTLING_STEPS = 6
 """Steps near the limit after which a last one that is still too large shows that more bits are needed."""
-NEARLY_BITS = 26
-"""Numbers that are smaller than a power of 2 by less than this part of it count as large as it is."""
 SURELY_CONVERGING = arb(2) ** -20
 """Relative steps as small as this are not damped any more."""
 GREATEST_DAMPING = 1 << 10
 """Steps are not made shorter than by this factor."""
-CLEARLY_COMPLEX = 1e-6
-"""Imaginary parts, relative to the point, from which a point is not taken for its own conjugate."""
 SAME = 1e-10
 """Points this close to each other, relative to their size, are taken for the same."""
 
@@ -57,30 +60,110 @@ def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None
     watch : callable, optional
         Gets how many solutions are certified, after each grid.
     """
-    left = [_column(point) for point in _without_conjugates(points)]
-    found: dict[Box, acb_mat] = {}
+    points = _without_conjugates(points)
+    boxes = _in_doubles(system, points)
+    found: dict[Box, acb_mat | Complex] = {box: point for box, point in zip(boxes, points, strict=True) if box}
+    left = [_start(system, point) for point, box in zip(points, boxes, strict=True) if box is None]
     for exponent in GRIDS:
-        limits = [limit for point in left if (limit := refined(system, point, exponent)) is not None]
-        candidates = {nearest_box(system, point, exponent): point for point, is_settled in limits if is_settled}
+        now = [start for start in left if start.exponent <= exponent]
+        left = [start for start in left if start.exponent > exponent]
+        limits = [limit for start in now if (limit := _limit(system, start, exponent)) is not None]
+        candidates = {nearest_box(system, limit.point, exponent): limit for limit in limits if limit.known >= exponent}
         good = certified(system, list(candidates))
         proved = {box for box, is_good in zip(candidates, good, strict=True) if is_good and _is_decided(box)}
-        left = [point for point, is_settled in limits if not is_settled]
-        left += [point for box, point in candidates.items() if box not in proved]
-        found |= {box: candidates[box] for box in candidates if box in proved}
+        left += [limit for limit in limits if limit.known < exponent]
+        left += [limit for box, limit in candidates.items() if box not in proved]
+        found |= {box: candidates[box].point for box in candidates if box in proved}
         # Boxes that meet hold one solution or two; a finer grid tells.
-        doubtful = _meeting(list(found))
-        left += [found.pop(box) for box in doubtful]
+        doubtful = meeting(list(found))
+        left += [_Start(_column(found.pop(box))) for box in doubtful]
         if watch is not None:
             count = sum(1 if box.is_real else 2 for box in found)
             watch(Amount(count, len(points), "paths certified", detail=f"grid 2^-{exponent}"))
         if not left:
             break
-    boxes = sorted(found, key=_centre)
+    listed = in_order(found)
     return IsolatedSolutions(
         system.chart,
-        tuple(box for box in boxes if box.is_real),
-        tuple(box for box in boxes if not box.is_real),
+        tuple(box for box in listed if box.is_real),
+        tuple(box for box in listed if not box.is_real),
     )
+
+
+def _in_doubles(system: ChartSystem, points: Complex) -> list[Box | None]:
+    """The box of each point that doubles suffice to prove; None where they do not."""
+    if system.in_doubles is None:
+        return [None] * len(points)
+    found = double_boxes(system.in_doubles, points, GRIDS[0])
+    system.double_solutions.update(found.solutions)
+    return [box if box is not None and _is_decided(box) else None for box in found.boxes]
+
+
+@dataclass(frozen=True, eq=False)
+class _Start:
+    """What is left of an approximate solution.
+
+    Attributes
+    ----------
+    point : acb_mat
+    known : int
+        It is known far better than this grid tells; 0 if nothing is known.
+    exponent : int
+        Of the first grid that is to be tried.
+    """
+
+    point: acb_mat
+    known: int = 0
+    exponent: int = 0
+
+
+def _start(system: ChartSystem, point: Complex) -> _Start:
+    """An approximation, refined at once as far as is mostly needed: grids that are too coarse are not tried then."""
+    column = _column(point)
+    limit = refined(system, column, FIRST_REFINED)
+    if limit is None or not limit[1]:
+        return _Start(column)
+    return _Start(limit[0], FIRST_REFINED, _first_grid(system, limit[0]))
+
+
+def _first_grid(system: ChartSystem, point: acb_mat) -> int:
+    """The first grid on which the box around a solution may be narrow enough; on coarser ones it surely is not.
+
+    With Y the inverse of F' at the solution, let w be the norm of Y F'(X) - 1 over a box X there, relative to its
+    radii. The centre m is within half a unit, 1 / 8 of the radii, so that Y F'(m) = 1 + E with |E| <= w / 8, and with
+    the inverse at m the norm is w / (1 + w / 8) at least: more than 1 / 2, what it may be, if w > 0.54.
+    """
+    equations = system.in_doubles
+    with working_precision(FIRST_REFINED + GUARD_BITS):
+        inverse = _inverse(system, point)
+        values = [_dyadic(value) for value in point.entries()]
+    exponents = _grids(system, values, FIRST_REFINED)
+    if equations is None or inverse is None or min(exponents) < FIRST_REFINED - GRIDS[0]:
+        return GRIDS[0]
+    radii = np.array([RADIUS * 2.0 ** -exponents[index // 4] for index in system.support])
+    is_real = max(abs(float(value.imag)) for value in point.entries()) < 2.0 ** -GRIDS[0]
+    sizes = np.abs(inverse.real) if is_real else 2 * (np.abs(inverse.real) + np.abs(inverse.imag))
+    width = float(np.max(sizes @ (equations.variations(radii[None])[0] @ radii) / radii))
+    if not isfinite(width):
+        return GRIDS[0]
+    return next((exponent for exponent in GRIDS if ldexp(width, FIRST_REFINED - exponent) <= WIDEST), GRIDS[-1])
+
+
+def _inverse(system: ChartSystem, point: acb_mat) -> Complex | None:
+    """The inverse of F', rounded to double."""
+    try:
+        found = system.jacobian(point).solve(unit_matrix_for(point), algorithm="approx")
+    except ZeroDivisionError:
+        return None
+    return np.array([complex(value) for value in found.entries()]).reshape(system.size, system.size)
+
+
+def _limit(system: ChartSystem, start: _Start, exponent: int) -> _Start | None:
+    """The start refined for a grid; None without convergence."""
+    if start.known >= exponent:
+        return start
+    limit = refined(system, start.point, exponent)
+    return None if limit is None else _Start(limit[0], exponent * limit[1])
 
 
 def _without_conjugates(points: Complex) -> Complex:
@@ -98,34 +181,9 @@ def _is_decided(box: Box) -> bool:
     return box.is_real or box.is_disjoint(box.conjugate())
 
 
-def _meeting(boxes: Sequence[Box]) -> list[Box]:
-    """The boxes that meet another one, or its conjugate: neighbours in the real part of e0, which conjugates share."""
-    meeting: set[Box] = set()
-    ends = sorted((_interval(box) for box in boxes), key=lambda entry: entry[:2])
-    for place, (_, high, box) in enumerate(ends):
-        for low, _, other in ends[place + 1 :]:
-            if low > high:
-                break
-            if not (box.is_disjoint(other) and box.is_disjoint(other.conjugate())):
-                meeting |= {box, other}
-    return [box for box in boxes if box in meeting]
-
-
-def _interval(box: Box) -> tuple[Fraction, Fraction, Box]:
-    """The ends of the box in the real part of e0, and the box."""
-    middle, scale = box.centre[0][0], 1 << box.exponents[0]
-    return Fraction(middle - RADIUS, scale), Fraction(middle + RADIUS, scale), box
-
-
-def _centre(box: Box) -> list[tuple[Fraction, Fraction]]:
-    """The centre as a key to sort by."""
-    return [
-        (Fraction(real, 1 << box.exponent(index)), Fraction(imaginary, 1 << box.exponent(index)))
-        for index, (real, imaginary) in enumerate(box.centre)
-    ]
-
-
-def _column(point: Sequence[complex]) -> acb_mat:
+def _column(point: Complex | acb_mat) -> acb_mat:
+    if isinstance(point, acb_mat):
+        return point
     return acb_mat(len(point), 1, [acb(float(value.real), float(value.imag)) for value in point])
 
 

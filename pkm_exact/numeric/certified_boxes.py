@@ -13,13 +13,11 @@ from flint import acb, acb_mat, arb, arb_mat
 from pkm_exact.balls import Balls, box_around_zero
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.krawczyk_operator import is_inside, krawczyk
-from pkm_exact.poses.isolated_solutions import RADIUS, Box
+from pkm_exact.poses.isolated_solutions import RADIUS, ROOM, Box
 from pkm_exact.precision import working_precision
 
 GUARD_BITS: Final = 64
 """A box on the grid 2^-k is tested with 2 k + 64 bits: enough unless the matrix is too ill-conditioned for it."""
-ROOM: Final = 2
-"""Boxes must be mapped into what is this many times smaller: checkers round otherwise, and need some room."""
 
 
 def certified(system: ChartSystem, boxes: Sequence[Box]) -> list[bool]:

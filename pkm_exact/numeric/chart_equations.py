@@ -10,12 +10,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
 from flint import acb_mat, arb, arb_mat, fmpz_mat
 
 from pkm_exact.balls import Balls, unit_matrix_for
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.geometry.study import Quadric, pose_quadrics, support
+from pkm_exact.geometry.study import Quadric, motion_quadrics, pose_quadrics, support
 from pkm_exact.numeric.charts import chart_values
+from pkm_exact.numeric.double_forms import DoubleForms
+from pkm_exact.numeric.double_krawczyk import DoubleEquations, DoubleSolution
+from pkm_exact.poses.isolated_solutions import Box
 
 
 class ChartSystem:
@@ -34,6 +38,8 @@ class ChartSystem:
         self.support = support(problem)
         self.quadrics = pose_quadrics(problem)
         """Over Z; n - 1 of them."""
+        self.double_solutions: dict[Box, DoubleSolution] = {}
+        """Where the solutions in real boxes are, as far as doubles have told."""
 
     @property
     def size(self) -> int:
@@ -73,6 +79,20 @@ class ChartSystem:
     def _last(self) -> list[int]:
         """The derivative of w.e."""
         return [self.chart[index] if index < 4 else 0 for index in self.support]
+
+    @cached_property
+    def in_doubles(self) -> DoubleEquations | None:
+        """The same equations for points in doubles; None if the numbers are too large for that."""
+        place = {index: position for position, index in enumerate(self.support)}
+        polynomials = [{(place[k], place[m]): value for (k, m), value in quadric.items()} for quadric in self.quadrics]
+        polynomials.append({(place[k], self.size): weight for k, weight in enumerate(self.chart) if weight})
+        polynomials[-1][self.size, self.size] = -1
+        norm = motion_quadrics(self.problem.metric)[-1]
+        try:
+            weights = np.array([float(norm.get((k, k), 0)) for k in self.support])
+            return DoubleEquations(self.support, DoubleForms.of(polynomials), weights)
+        except OverflowError:
+            return None
 
     def jacobian(self, point: Balls) -> Balls:
         """F' at a point or in a box, a column."""

@@ -17,14 +17,16 @@ from pkm_exact.geometry.study import support
 from pkm_exact.numeric.certification import isolated_solutions
 from pkm_exact.numeric.certified_boxes import GUARD_BITS, centre, enclosing_balls
 from pkm_exact.numeric.chart_equations import ChartSystem
+from pkm_exact.numeric.double_jacobians import double_jacobians
+from pkm_exact.numeric.double_poses import double_cells, double_coordinates
 from pkm_exact.numeric.krawczyk_operator import around_zero, is_inside, krawczyk
 from pkm_exact.numeric.start import StartSection, generic_start, start_quadrics
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates
 from pkm_exact.numeric.tracker import polished, track
 from pkm_exact.poses.boxes import Enclosures, disjoint_cells, in_order, ordinary_coordinates, pose_in_cells
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
-from pkm_exact.poses.jacobian import LEAST_PRECISION, pose_jacobians
-from pkm_exact.poses.pose import Pose
+from pkm_exact.poses.jacobian import LEAST_PRECISION, characteristic_length, pose_jacobians
+from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.precision import working_precision
 from pkm_exact.stages import Watch
 
@@ -36,6 +38,8 @@ GREATEST_CHANGE: Final = 1e-3
 """An end point that Newton's method still moves by more than this is not taken for a solution."""
 LOST_BITS: Final = 12
 """Bits by which the limit of Newton's method may be less exact than if every step doubled their number."""
+COORDINATES: Final = 16
+"""Of a pose: position, rotation matrix, quaternion."""
 NARROWINGS: Final = 64
 """Times that an enclosure is narrowed; its width is about squared each time."""
 
@@ -137,9 +141,22 @@ def real_poses(
     IsolatedSolutions, int, tuple of Pose
         The second is the exponent of the boxes' grid.
     """
-    enclosures = box_enclosures(system, isolated.real)
-    exponent, cells = disjoint_cells(enclosures, len(isolated.real), width)
-    jacobians = pose_jacobians(enclosures, system.problem, [None] * len(isolated.real))
+    enclosures, count = box_enclosures(system, isolated.real), len(isolated.real)
+    solutions = [system.double_solutions.get(box) for box in isolated.real]
+    known = [row for row, found in enumerate(solutions) if found is not None]
+    coordinates = double_coordinates([found for found in solutions if found], system.support, system.problem.metric)
+
+    def cells_in_doubles(exponent: int) -> list[list[Interval | None]]:
+        rows: list[list[Interval | None]] = [[None] * COORDINATES for _ in range(count)]
+        for row, found in zip(known, double_cells(coordinates, exponent), strict=True):
+            rows[row] = found
+        return rows
+
+    exponent, cells = disjoint_cells(enclosures, count, width, known=cells_in_doubles)
+    found = double_jacobians(system.problem, coordinates, characteristic_length(system.problem))
+    in_doubles = dict(zip(known, found, strict=True))
+    ranks = [None] * count
+    jacobians = pose_jacobians(enclosures, system.problem, ranks, [in_doubles.get(row) for row in range(count)])
     poses = [
         replace(pose_in_cells(row, None), jacobian=jacobian) for row, jacobian in zip(cells, jacobians, strict=True)
     ]

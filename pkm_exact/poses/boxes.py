@@ -96,25 +96,31 @@ def _at_roots(
 
 
 def disjoint_cells(
-    enclosures: Enclosures, count: int, width: Fraction, *, size: int = 16, apart: int = 12
+    enclosures: Enclosures,
+    count: int,
+    width: Fraction,
+    *,
+    size: int = 16,
+    apart: int = 12,
+    known: Callable[[int], list[list[Interval | None]]] | None = None,
 ) -> tuple[int, list[list[Interval]]]:
     """The grid exponent and the cells of all coordinates of the poses; no two poses have overlapping boxes.
 
-    Points of another ``size`` serve as well; the boxes differ in one of the first ``apart`` coordinates.
+    Points of another ``size`` serve as well; the boxes differ in one of the first ``apart`` coordinates. Cells that are
+    ``known`` on a grid, given by its exponent, are not looked for.
     """
     exponent = exponent_for_width(width)
     while True:
-        cells = _cells(enclosures, exponent, count, size)
+        decided: list[list[Interval | None]] = [[None] * size for _ in range(count)]
+        cells = _cells(enclosures, exponent, decided if known is None else known(exponent))
         if _are_disjoint(cells, apart):
             return exponent, cells
         exponent += 8
 
 
-def _cells(enclosures: Enclosures, exponent: int, count: int, size: int) -> list[list[Interval]]:
-    """Position (3), rotation (9) and quaternion (4) of every real pose as grid intervals."""
-    precision = exponent + 128
-    decided: list[list[Interval | None]] = [[None] * size for _ in range(count)]
-    late = 0
+def _cells(enclosures: Enclosures, exponent: int, decided: list[list[Interval | None]]) -> list[list[Interval]]:
+    """Position (3), rotation (9) and quaternion (4) of every real pose as grid intervals; some are decided before."""
+    precision, late = exponent + 128, 0
     while left := [index for index, row in enumerate(decided) if None in row]:
         fine = True
         with working_precision(precision):

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 RADIUS = 4
 """Half the width of a box, in units of its grid."""
+ROOM = 2
+"""Boxes must be mapped into what is this many times smaller: checkers round otherwise, and need some room."""
 
 
 @dataclass(frozen=True)

@@ -75,17 +75,25 @@ def _spread(joints: Sequence[Vector], metric: Sequence[int]) -> Fraction:
     return square
 
 
-def pose_jacobians(enclosures: Enclosures, problem: ForwardProblem, ranks: Sequence[int | None]) -> list[LegJacobian]:
+def pose_jacobians(
+    enclosures: Enclosures,
+    problem: ForwardProblem,
+    ranks: Sequence[int | None],
+    known: Sequence[LegJacobian | None] | None = None,
+) -> list[LegJacobian]:
     """The Jacobians at the real poses; the precision rises until each is decided.
 
     Parameters
     ----------
     ranks : sequence of int or None
         Exact ranks where they are known (``singularity``); None at poses that are proved simple.
+    known : sequence of LegJacobian or None, optional
+        Those that need not be looked for.
     """
     length, full = characteristic_length(problem), problem.motion.dimension
     found: list[LegJacobian | None] = [
-        None if rank is None or rank == full else LegJacobian(0, rank, _ZERO, None, length) for rank in ranks
+        before if rank is None or rank == full else LegJacobian(0, rank, _ZERO, None, length)
+        for rank, before in zip(ranks, known or [None] * len(ranks), strict=True)
     ]
     precision = LEAST_PRECISION
     while None in found:

@@ -1,0 +1,148 @@
+"""Boxes of solutions that doubles suffice to prove: those, to the bit, that ball arithmetic would find.
+
+The box is the one around the grid point nearest to the solution, which is proved to be the nearest. Where a doubt is
+left, as between two grid points, the solution is left to ball arithmetic (``certification``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pkm_exact.numeric.double_krawczyk import (
+    DoubleEquations,
+    DoubleSolution,
+    double_proofs,
+    inverses_of,
+    newton_step,
+    products,
+)
+from pkm_exact.numeric.study_system import Complex, Real
+from pkm_exact.poses.isolated_solutions import RADIUS, ROOM, Box
+
+CLEARLY_COMPLEX: Final = 1e-6
+"""Imaginary parts, relative to the point, from which a point is not taken for its own conjugate."""
+NEARLY_BITS: Final = 26
+"""Numbers that are smaller than a power of 2 by less than 2^-26 of it count as large as it is."""
+DOUBT: Final = 2.0**-30
+"""Sizes that are closer to such a limit are not decided by doubles."""
+SURE: Final = 0.5 - 2.0**-20
+"""A grid point that is closer, in units, is the nearest one whatever small errors there are."""
+NEAR: Final = 2.0**-26
+"""An approximation that is farther off, relative to the sizes of e and f, is not surely one of the solution found."""
+STEPS: Final = 3
+"""Newton steps with more exact values of F, at most."""
+ARRIVED: Final = 2.0**-10
+"""Newton steps that are this small, in units, have arrived."""
+GREATEST: Final = 2.0**52
+"""Grid points, in units, that doubles hold exactly are smaller."""
+
+
+@dataclass(frozen=True, eq=False)
+class DoubleBoxes:
+    """What doubles prove of approximate solutions.
+
+    Attributes
+    ----------
+    boxes : list of Box or None
+        The box of each point; None where doubles do not suffice.
+    solutions : dict of Box to DoubleSolution
+        Of the real boxes.
+    """
+
+    boxes: list[Box | None]
+    solutions: dict[Box, DoubleSolution] = field(default_factory=dict)
+
+
+def double_boxes(equations: DoubleEquations, points: Complex, exponent: int) -> DoubleBoxes:
+    """The boxes of the solutions near the given points, on the grid 2^-exponent, and on a coarser one where f is large.
+
+    Parameters
+    ----------
+    equations : DoubleEquations
+    points : (p, n) complex array
+        Approximate solutions in the equations' chart.
+    exponent : int
+    """
+    sizes = np.abs(points).max(axis=1, initial=0)
+    complex_ones = np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes
+    found = DoubleBoxes([None] * len(points))
+    with np.errstate(all="ignore"):
+        for chosen, values in ((~complex_ones, points.real), (complex_ones, points)):
+            if chosen.any():
+                _add_boxes(equations, values[chosen], exponent, np.flatnonzero(chosen), found)
+    return found
+
+
+def _add_boxes(
+    equations: DoubleEquations, begun: NDArray[Any], exponent: int, places: NDArray[np.intp], found: DoubleBoxes
+) -> None:
+    """The boxes of points that are all real, or all complex, at their places in what is found."""
+    points, values, off = _arrived(equations, begun, exponent)
+    exponents, units, decided = _grids(equations, points, exponent)
+    grid = np.floor(np.stack([points.real, points.imag], axis=-1) / units[:, :, None] + 0.5)
+    centres = (grid[..., 0] + 1j * grid[..., 1] if np.iscomplexobj(points) else grid[..., 0]) * units
+    inverses = inverses_of(equations.jacobians(centres))
+    proofs = double_proofs(equations, inverses, centres, RADIUS * units, ROOM, (points - centres, values, off))
+    decided &= proofs.proved & (np.abs(grid) < GREATEST).all(axis=(1, 2))
+    distance = np.maximum(np.abs(proofs.moved.real), np.abs(proofs.moved.imag)) + proofs.errors
+    decided &= (distance < SURE * units).all(axis=1)
+    decided &= (np.abs(begun - centres) <= NEAR * 2.0**exponent * units).all(axis=1)
+    if np.iscomplexobj(points):  # what is real after all is left to others
+        decided &= centres.imag.any(axis=1)
+    chosen = np.flatnonzero(decided)
+    rows = zip(exponents[chosen].tolist(), grid[chosen].astype(np.int64).tolist(), strict=True)
+    for row, (sizes, numbers) in zip(chosen.tolist(), rows, strict=True):
+        box = _box(sizes, numbers, equations.support)
+        found.boxes[places[row]] = box
+        if box.is_real:
+            found.solutions[box] = DoubleSolution(points[row], proofs.steps[row], proofs.errors[row])
+
+
+def _arrived(
+    equations: DoubleEquations, points: NDArray[Any], exponent: int
+) -> tuple[NDArray[Any], NDArray[Any], Real]:
+    """Where Newton's method leads until steps are far smaller than units; F there, and how far it is off."""
+    points, inverses = newton_step(equations, points)
+    values, off = equations.forms.at(points)
+    small = ARRIVED * _grids(equations, points, exponent)[1]
+    left = np.arange(len(points))
+    for _ in range(STEPS):
+        steps = products(inverses, values[left])
+        moves = ~(np.abs(steps) < small[left]).all(axis=1)
+        left = left[moves]
+        if not len(left):
+            break
+        points[left] -= steps[moves]
+        inverses = inverses_of(equations.jacobians(points[left]))
+        values[left], off[left] = equations.forms.at(points[left])
+    return points, values, off
+
+
+def _grids(
+    equations: DoubleEquations, points: NDArray[Any], exponent: int
+) -> tuple[NDArray[np.intp], Real, NDArray[np.bool_]]:
+    """The exponents of the grids of e and f, (p, 2), as ``certification`` chooses them; units; whether it is sure."""
+    halves = np.array(equations.support) // 4
+    largest = np.maximum(np.abs(points.real), np.abs(points.imag))
+    sizes = [largest[:, halves == half].max(axis=1, initial=0) for half in (0, 1)]
+    (e, also_e), (f, also_f) = (
+        [np.frexp(size * (1 + 2.0**-NEARLY_BITS) * factor)[1] for factor in (1 - DOUBT, 1 + DOUBT)] for size in sizes
+    )
+    shifts = np.maximum(f - also_e, 0)
+    is_sure = (shifts == np.maximum(also_f - e, 0)) & np.isfinite(largest).all(axis=1) & (sizes[0] > 0)
+    exponents = np.stack([np.full(len(points), exponent), np.maximum(exponent - shifts, 0)], axis=1)
+    return exponents, np.ldexp(1.0, -exponents[:, halves]), is_sure
+
+
+def _box(exponents: Sequence[int], grid: Sequence[Sequence[int]], support: Sequence[int]) -> Box:
+    """Of the box and its conjugate, the one whose first coordinate that is not real has a positive imaginary part."""
+    centre = [(0, 0)] * 8
+    sign = next((-1 if imaginary < 0 else 1 for _, imaginary in grid if imaginary), 1)
+    for index, (real, imaginary) in zip(support, grid, strict=True):
+        centre[index] = (real, sign * imaginary)
+    return Box((exponents[0], exponents[1]), tuple(centre))

@@ -1,0 +1,149 @@
+"""Jacobians at many poses at once, in doubles with bounds: signs of determinants, and singular values.
+
+They are those of ``poses.jacobian``. With A computed to within E entry by entry, and singular vectors U, V of it that
+are guesses, U^T A V is nearly diagonal: its singular values are within the Frobenius norm of all that is not (its other
+entries, |U|^T E |V|, and roundings) of the diagonal (Weyl). Those of A are these times factors between the extreme
+singular values of U^-1 and V^-1, which |U^T U - 1| bounds. The sign of the determinant is that of the factorisation
+P A = L R with partial pivoting: L R is off by gamma(n) |L| |R| entry by entry (Higham, Accuracy and Stability of
+Numerical Algorithms, theorem 9.3), where |l| <= 1 and |r| <= 2^(n-1) max |a|. If that and E together are smaller than
+the smallest singular value, all matrices on the way from L R to A are regular, and their determinants have one sign.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import sqrt
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pkm_exact.constraints.form import ordinary
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric.double_poses import DoubleCoordinates
+from pkm_exact.numeric.double_rounding import LARGE, OUTWARD, SMALL, gamma
+from pkm_exact.numeric.study_system import Real
+from pkm_exact.poses.jacobian import FINEST_EXPONENT, OUTPUT_BITS
+from pkm_exact.poses.leg_jacobian import LegJacobian
+from pkm_exact.roots.interval import Interval
+
+_FEW: Final = 18
+"""Roundings in a row in an entry of a Jacobian: data (8), sums of up to six products of two or three factors (8)."""
+DOUBT: Final = 2.0**-42
+"""Ends of intervals that are relatively closer to the grid of the intervals returned are not decided by doubles."""
+_LEVI_CIVITA: Final = np.array(
+    [[[(i - j) * (j - k) * (k - i) / 2 for k in range(3)] for j in range(3)] for i in range(3)], dtype=float
+)
+
+
+def double_jacobians(problem: ForwardProblem, found: DoubleCoordinates, length: Fraction) -> list[LegJacobian | None]:
+    """The Jacobians at poses whose coordinates are given; None where doubles do not decide them.
+
+    Parameters
+    ----------
+    problem : ForwardProblem
+    found : DoubleCoordinates
+        Of p poses.
+    length : Fraction
+        Makes turns comparable to translations.
+    """
+    count, size = len(found.values), problem.motion.dimension
+    if problem.equation_count != size or problem.squares or not count:
+        return [None] * count
+    with np.errstate(all="ignore"):
+        try:
+            matrices, off = _rows(problem, _forms(problem, length), float(length), found)
+            is_good = (np.isfinite(matrices) & np.isfinite(off) & (np.abs(matrices) < LARGE)).all(axis=(1, 2))
+            is_good &= (np.abs(found.values) < LARGE).all(axis=1)
+            matrices[~is_good], off[~is_good] = np.eye(size), 1.0
+            return _decided(matrices, off, length)
+        except (OverflowError, np.linalg.LinAlgError):
+            return [None] * count
+
+
+def _forms(problem: ForwardProblem, length: Fraction) -> Real:
+    """(m, 17): the forms in ordinary coordinates, divided by the size of their wrenches."""
+    roots = [sqrt(g) for g in problem.metric]
+    scales = [scale for found in problem.constraints for scale in found.scales(problem.metric, length)]
+    rows = [
+        np.array(ordinary([float(value) for value in form], roots)) / sqrt(scale)
+        for form, scale in zip(problem.forms, scales, strict=True)
+    ]
+    return np.array(rows)
+
+
+def _rows(problem: ForwardProblem, forms: Real, length: float, found: DoubleCoordinates) -> tuple[Real, Real]:
+    """The Jacobians, and how far their entries are off at most."""
+    square, turned, position, rotation = forms[:, 0], forms[:, 1:4], forms[:, 4:7], forms[:, 7:16].reshape(-1, 3, 3)
+    sign = np.abs(_LEVI_CIVITA)
+    c, r = found.values[:, :3], found.values[:, 3:12].reshape(-1, 3, 3)
+    c_off, r_off = found.errors[:, :3], found.errors[:, 3:12].reshape(-1, 3, 3)
+
+    def wrenches(c: Real, r: Real, *tables: Real) -> tuple[Real, Real, Real]:
+        """a, the force and the moment; with absolute values, what they are at most."""
+        square, turned, position, rotation, sign = tables
+        moved = np.einsum("pij,mj->pmi", r, turned)
+        force = 2 * square[:, None] * c[:, None] + moved + position
+        moment = np.einsum("ijk,pmj,pk->pmi", sign, moved, c) + np.einsum("ijk,pjl,mkl->pmi", sign, r, rotation)
+        return moved, force, moment
+
+    _, force, moment = wrenches(c, r, square, turned, position, rotation, _LEVI_CIVITA)
+    tables = *(np.abs(table) for table in (square, turned, position, rotation)), sign
+    moved, most_force, most_moment = wrenches(np.abs(c), np.abs(r), *tables)
+    moved_off, force_off, moment_off = wrenches(c_off, r_off, *tables)
+    force_off -= tables[2]  # what does not depend on the pose is not off by that
+    for left, right in ((moved, c_off), (moved_off, np.abs(c))):
+        moment_off += np.einsum("ijk,pmj,pk->pmi", sign, left, right)
+    force_off += gamma(_FEW) * (most_force + 2 * tables[2])
+    moment_off += gamma(_FEW) * most_moment
+    twist = list(problem.motion.twist)
+    matrices = np.concatenate([force, moment / length], axis=2)[:, :, twist]
+    off = np.concatenate([force_off, moment_off / length], axis=2)[:, :, twist]
+    return matrices, (off + gamma(4) * np.abs(matrices)) * OUTWARD + SMALL
+
+
+def _decided(matrices: Real, off: Real, length: Fraction) -> list[LegJacobian | None]:
+    """Determinants and singular values, of matrices with these bounds of their entries' errors."""
+    size = matrices.shape[1]
+    left, _, right = np.linalg.svd(matrices)
+    products = left.transpose(0, 2, 1) @ matrices @ right.transpose(0, 2, 1)
+    around = np.abs(left.transpose(0, 2, 1)) @ (np.abs(matrices) * 2 * gamma(size + 1) + off)
+    rest = around @ np.abs(right.transpose(0, 2, 1)) * (1 + gamma(4 * size))
+    diagonal = np.einsum("pii->pi", products)
+    shift = _norm(np.abs(products * (1 - np.eye(size))) + rest)
+    unit = [_norm(np.abs(v.transpose(0, 2, 1) @ v - np.eye(size)) + gamma(2 * size)) for v in (left, right)]
+    is_unit = (unit[0] < 1 / 4) & (unit[1] < 1 / 4)
+    stretch = np.sqrt((1 + unit[0]) * (1 + unit[1])) * OUTWARD
+    shrink = np.sqrt((1 - unit[0]) * (1 - unit[1])) / OUTWARD
+    sizes = np.abs(diagonal)
+    low, high = (sizes - shift[:, None]) / stretch[:, None], (sizes + shift[:, None]) / shrink[:, None]
+    least, largest = (low.min(axis=1), high.min(axis=1)), (low.max(axis=1), high.max(axis=1))
+    growth = gamma(size) * size**2 * 2.0 ** (size - 1) * np.abs(matrices).max(axis=(1, 2))
+    is_regular = is_unit & (least[0] > (growth + _norm(off)) * OUTWARD + SMALL)
+    signs = np.linalg.slogdet(matrices)[0]
+    smallest = _intervals(*least, is_regular)
+    conditions = _intervals(largest[0] / least[1], largest[1] / least[0], is_regular)
+    return [
+        LegJacobian(int(sign), size, sigma, condition, length) if sigma and condition and sign else None
+        for sign, sigma, condition in zip(signs.tolist(), smallest, conditions, strict=True)
+    ]
+
+
+def _norm(matrices: Real) -> Real:
+    """Frobenius norms, rounded upwards."""
+    found: Real = np.sqrt((matrices * matrices).sum(axis=(1, 2))) * OUTWARD
+    return found
+
+
+def _intervals(low: Real, high: Real, chosen: NDArray[np.bool_]) -> list[Interval | None]:
+    """Between neighbours of the grid with ``OUTPUT_BITS`` significant bits, where values lie for certain."""
+    low, high = low * (1 - DOUBT), high * (1 + DOUBT)
+    shifts = OUTPUT_BITS + 1 - np.frexp(high)[1]
+    first, last = np.floor(np.ldexp(low, shifts)), np.ceil(np.ldexp(high, shifts))
+    is_sure = chosen & (last == first + 1) & (low > 0) & np.isfinite(last) & (shifts <= FINEST_EXPONENT)
+    rows = zip(np.where(is_sure, first, 0).astype(np.int64).tolist(), shifts.tolist(), is_sure.tolist(), strict=True)
+    return [Interval(_dyadic(value, shift), _dyadic(value + 1, shift)) if sure else None for value, shift, sure in rows]
+
+
+def _dyadic(value: int, shift: int) -> Fraction:
+    return Fraction(value, 1 << shift) if shift >= 0 else Fraction(value << -shift)
