@@ -79,6 +79,7 @@ bench: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/bench_krawczyk.py --json build/bench/krawczyk.json
 	@$(BIN)/python benchmarks/bench_systems.py --json build/bench/systems.json
 	@$(BIN)/python benchmarks/bench_following.py --json build/bench/following.json
+	@$(BIN)/python benchmarks/bench_zonotope.py --json build/bench/zonotope.json
 
 # Strict: what the builder has doubts about, such as a link that leads nowhere, is an error.
 docs: $(VENV)/.installed-docs

@@ -97,6 +97,13 @@ def test_a_command_that_does_not_end_is_ended(tmp_path: Path, monkeypatch: pytes
     assert 100 << 20 <= done.memory < 200 << 20
 
 
+def test_zonotopes_are_measured(tmp_path: Path) -> None:
+    done = _run("bench_zonotope.py", "--runs", "1", "--json", str(tmp_path / "times.json"))
+    rows = json.loads((tmp_path / "times.json").read_text())
+    assert [(row["facets"], row["vertices"]) for row in rows] == [(30, 32), (70, 84), (112, 240)], done.stderr
+    assert all(row["agree"] and row["seconds"]["pkm_exact"] > 0 for row in rows)
+
+
 @pytest.mark.slow
 def test_following_is_measured(tmp_path: Path) -> None:
     done = _run("bench_following.py", "--runs", "1", "--json", str(tmp_path / "times.json"))

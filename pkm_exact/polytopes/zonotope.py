@@ -8,12 +8,12 @@ facets that more than n - 1 generators span are found once. Lengths w_k may be s
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import combinations, product
-from math import comb, gcd
+from itertools import combinations
+from math import comb, gcd, lcm
 from typing import Any, Final
 
 from flint import fmpz_mat
@@ -109,11 +109,28 @@ class Zonotope:
 
     def _reach(self, products: Sequence[int]) -> Any:
         """The greatest normal.x, from normal.g_k."""
+        if self._whole is not None:
+            ends, common = self._whole
+            return Fraction(sum(v * pair[v > 0] for v, pair in zip(products, ends, strict=True)), common)
         total: Any = Fraction(0)
-        for value, weight, low, high in zip(products, self.weights, self.low, self.high, strict=True):
+        for value, pair in zip(products, self._lengths, strict=True):
             if value:
-                total = total + (value * (high if value > 0 else low)) * weight
+                total = total + value * pair[value > 0]
         return total
+
+    @cached_property
+    def _lengths(self) -> tuple[tuple[Any, Any], ...]:
+        """By what each generator is multiplied at the least and the greatest of its range."""
+        ranges = zip(self.low, self.high, self.weights, strict=True)
+        return tuple((low * weight, high * weight) for low, high, weight in ranges)
+
+    @cached_property
+    def _whole(self) -> tuple[list[tuple[int, int]], int] | None:
+        """The same as integers by a common denominator, if they are rational."""
+        if not all(isinstance(length, Fraction | int) for pair in self._lengths for length in pair):
+            return None
+        common = lcm(*(Fraction(length).denominator for pair in self._lengths for length in pair))
+        return [(int(low * common), int(high * common)) for low, high in self._lengths], common
 
     @property
     def cells(self) -> tuple[tuple[int, ...], ...]:
@@ -123,28 +140,38 @@ class Zonotope:
     @cached_property
     def _cells(self) -> tuple[tuple[int, ...], ...]:
         """A vertex for each, as signs: at which end of its range each generator is."""
-        cells: set[tuple[int, ...]] = set()
+        bits = _bits(len(self.generators))
+        return tuple(tuple(1 if mask & bit else -1 for bit in bits) for mask in self._masks)
+
+    @cached_property
+    def _masks(self) -> tuple[int, ...]:
+        """The cells as integers in increasing order, a bit for each generator at the greatest of its range."""
+        masks: set[int] = set()
+        bits = _bits(len(self.generators))
         for normal, products in self.hyperplanes:
-            for side in (1, -1):
-                flat = [index for index, value in enumerate(products) if value == 0]
-                fixed = [side if value > 0 else -side for value in products]
-                for signs in _cells_of([self.generators[index] for index in flat], normal):
-                    cell = fixed.copy()
-                    for index, sign in zip(flat, signs, strict=True):
-                        cell[index] = sign
-                    cells.add(tuple(cell))
-        return tuple(sorted(cells))
+            flat = [index for index, value in enumerate(products) if value == 0]
+            up = _mask(bits, (value > 0 for value in products))
+            masks.update([up | mask for mask in _masks_of(self.generators, flat, normal)])
+        every = (1 << len(self.generators)) - 1
+        return tuple(sorted(masks.union([every ^ mask for mask in masks])))  # it is symmetric about its middle
 
     @cached_property
     def vertices(self) -> tuple[tuple[Any, ...], ...]:
         """All of them."""
-        return tuple(self._point(cell) for cell in self._cells)
+        if self._whole is None:
+            return tuple(self._point(cell) for cell in self._cells)
+        ends, common = self._whole
+        steps = [(bit, low, high) for bit, (low, high) in zip(_bits(len(ends)), ends, strict=True)]
+        rows = [[high if mask & bit else low for bit, low, high in steps] for mask in self._masks]
+        found = (fmpz_mat(rows) * self._table.transpose()).tolist()
+        if common == 1:
+            return tuple([tuple([Fraction(int(value)) for value in row]) for row in found])
+        return tuple([tuple([Fraction(int(value), common) for value in row]) for row in found])
 
     def _point(self, cell: Sequence[int]) -> tuple[Any, ...]:
-        ends = [high if s > 0 else low for s, low, high in zip(cell, self.low, self.high, strict=True)]
-        lengths = [end * weight for end, weight in zip(ends, self.weights, strict=True)]
+        chosen = [pair[s > 0] for s, pair in zip(cell, self._lengths, strict=True)]
         return tuple(
-            sum((length * g[j] for length, g in zip(lengths, self.generators, strict=True) if g[j]), Fraction(0))
+            sum((length * g[j] for length, g in zip(chosen, self.generators, strict=True) if g[j]), Fraction(0))
             for j in range(self.dimension)
         )
 
@@ -193,17 +220,14 @@ class Zonotope:
 
     def polytope(self) -> Polytope:
         """The same by vertices and facets."""
-        cells = self._cells
-        facets = []
+        masks, bits, facets = self._masks, _bits(len(self.generators)), []
         for normal, products in self.hyperplanes:
+            decided = _mask(bits, (value != 0 for value in products))
             for side in (1, -1):
-                on = [
-                    index
-                    for index, cell in enumerate(cells)
-                    if all(s == (side if v > 0 else -side) for s, v in zip(cell, products, strict=True) if v)
-                ]
+                wanted = _mask(bits, (side * value > 0 for value in products))
+                on = tuple(index for index, mask in enumerate(masks) if mask & decided == wanted)
                 outer = tuple(side * x for x in normal)
-                facets.append(Facet(outer, self._reach([side * v for v in products]), tuple(on)))
+                facets.append(Facet(outer, self._reach([side * v for v in products]), on))
         return Polytope(self.vertices, tuple(facets), self.squares)
 
 
@@ -221,16 +245,32 @@ def _normal(rows: Sequence[Sequence[int]], n: int) -> tuple[int, ...] | None:
     return tuple(x // divisor for x in entries)
 
 
-def _cells_of(generators: Sequence[tuple[int, ...]], normal: Sequence[int]) -> list[tuple[int, ...]]:
-    """The cells of the zonotope of generators that span the hyperplane with this normal."""
+def _bits(count: int) -> list[int]:
+    """A bit for each generator, the first the most significant: so cells are sorted as tuples of signs are."""
+    return [1 << k for k in range(count - 1, -1, -1)]
+
+
+def _mask(bits: Sequence[int], chosen: Iterable[bool]) -> int:
+    """The sum of the chosen bits."""
+    return sum([bit for bit, wanted in zip(bits, chosen, strict=True) if wanted])
+
+
+def _masks_of(generators: Sequence[tuple[int, ...]], flat: Sequence[int], normal: Sequence[int]) -> list[int]:
+    """The cells of the zonotope of the generators that span the hyperplane with this normal, as bits of all."""
     n = len(normal) - 1
-    if len(generators) == n:
-        return list(product((-1, 1), repeat=n))
+    every = _bits(len(generators))
+    bits = [every[index] for index in flat]
+    if len(flat) == n:
+        found = [0]
+        for bit in bits:
+            found += [mask | bit for mask in found]
+        return found
     dropped = next(j for j, x in enumerate(normal) if x)
-    flat = tuple(g[:dropped] + g[dropped + 1 :] for g in generators)
+    rest = tuple(generators[index][:dropped] + generators[index][dropped + 1 :] for index in flat)
     if n == 1:
-        signs = tuple(1 if g[0] > 0 else -1 for g in flat)
-        return [signs, tuple(-s for s in signs)]
-    one = Fraction(1)
-    count = len(flat)
-    return list(Zonotope(flat, (one,) * count, (-one,) * count, (one,) * count, (one,) * n)._cells)
+        ups = _mask(bits, (g[0] > 0 for g in rest))
+        return [ups, sum(bits) ^ ups]
+    one, count = Fraction(1), len(rest)
+    inner = Zonotope(rest, (one,) * count, (-one,) * count, (one,) * count, (one,) * n)
+    own = _bits(count)
+    return [_mask(bits, (mask & bit > 0 for bit in own)) for mask in inner._masks]
