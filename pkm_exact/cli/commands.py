@@ -9,6 +9,7 @@ import click
 
 COMMANDS: Final = {
     "new": ("new", "Write a first model file, from a few answers."),
+    "convert": ("convert", "A model file in another unit of length."),
     "solve": ("solve", "All real poses of a robot, and a certificate."),
     "check": ("check_command", "Replay certificates, or recompute them."),
     "formulations": ("formulation_commands", "All formulations on one robot, side by side."),

@@ -282,6 +282,23 @@ class Robot(Asked, robots.Robot):
         except OSError as error:
             raise InputError(f"{path}: cannot be written ({error.strerror}); give another path") from None
 
+    def in_unit(self, unit: str) -> Robot:
+        """The same robot with all lengths in another unit, exactly: mm, cm, m, in or ft.
+
+        Raises
+        ------
+        InputError
+            If this unit, or that of the robot, is not known.
+
+        Examples
+        --------
+        >>> Robot.load("models/rolland-6-6.toml").in_unit("in").base_joints[0][0]
+        Fraction(464141, 25400)
+        """
+        from pkm_exact.geometry.length_units import in_unit
+
+        return in_unit(self, unit)
+
     def follow(
         self, values: Sequence[float] | Array, start: Followed | Pose | tuple[Sequence[float], Sequence[float]]
     ) -> Followed:
