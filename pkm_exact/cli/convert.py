@@ -48,8 +48,8 @@ def convert(model: str, unit: str, output: str, force: bool) -> int:
         raise InputError(f"{printable(model)}: {error}") from None
     arguments.write_output(target, robot_text(converted).encode("utf-8"))
     click.echo(f"{printable(output)}: all lengths times {factor}, {printable(robot.unit)} to {unit}")
-    has_decimals = any(part.written_digit is not None for part in (robot, *robot.configurations))
-    if has_decimals and factor.numerator * factor.denominator % 127 == 0:
+    digits = (robot.written_digit, *(entry.written_digit for entry in robot.configurations))
+    if any(digit is not None for digit in digits) and factor.numerator * factor.denominator % 127 == 0:
         click.echo(
             f"{PROGRAM}: note: how many decimals the numbers had is not to be seen in the new file, so that no answer "
             "from it will speak of doubts about the last one",
