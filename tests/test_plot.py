@@ -2,6 +2,7 @@
 
 import math
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -33,6 +34,7 @@ from pkm_exact.numeric.tolerance import tolerance_boxes
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.pictures.camera import View, Window, camera, window
 from pkm_exact.pictures.captions import round_length, rounded
+from pkm_exact.pictures.clear_view import clear_view, clearness
 from pkm_exact.pictures.drawn_robot import PoseView, Scene
 from pkm_exact.pictures.output import figure_bytes
 from pkm_exact.pictures.panels import HEADER, TITLE, grid
@@ -493,6 +495,37 @@ def test_files_have_the_format_of_their_names(suffix: str, options: list[str], t
     assert out.startswith(f"{path}: ")
     assert err == ""
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("name", ["rolland-6-6", "mssm", "hexa"])
+def test_a_single_pose_is_seen_from_where_legs_hide_each_other_least(name: str) -> None:
+    shown = scene(name)
+    for pose in shown.poses[:3]:
+        chosen = clearness(shown, pose, clear_view(shown, pose))
+        others = [clearness(shown, pose, View(azimuth, 30)) for azimuth in range(-180, 180, 30)]
+        assert chosen >= max(0.98 * max(others), 0.3)
+
+
+def test_legs_behind_each_other_and_legs_seen_from_their_ends_are_not_clear() -> None:
+    """Two upright legs, of which one stands behind the other along the x-axis, and a third that lies along it."""
+    legs = replace(scene("rolland-6-6"), base=((0, 0, 0), (9, 0, 0), (3, 5, 0)), legs=((0, 0), (1, 1), (2, 2)))
+    pose = replace(legs.poses[0], platform=((0, 0, 4), (9, 0, 4), (9, 5, 0)), knees=())
+    assert clearness(legs, pose, View(0, 0)) == 0
+    assert clearness(legs, pose, View(-90, 0)) == pytest.approx(1, abs=0.1)
+    assert clearness(legs, pose, View(-90, 89)) < 0.05
+    view = clear_view(legs, pose)
+    assert clearness(legs, pose, view) > 0.7
+
+
+def test_the_command_says_from_where_a_pose_is_seen(tmp_path: Path, capsys: Capture) -> None:
+    path = tmp_path / "pose.svg"
+    source = str(ROOT / "certs" / "mssm.json")
+    assert main(["plot", source, "-o", str(path), "--pose", "1"]) == 0
+    assert re.fullmatch(r".*: pose 1 of \d+, seen from -?\d+,\d+\n", capsys.readouterr().out)
+    chosen = path.read_bytes()
+    assert main(["plot", source, "-o", str(path), "--pose", "1", "--view", "-60,20"]) == 0
+    assert "seen from" not in capsys.readouterr().out
+    assert path.read_bytes() != chosen
 
 
 def test_the_picture_in_the_documentation_is_the_command_s() -> None:

@@ -77,7 +77,8 @@ def _size(context: click.Context, _option: click.Parameter, value: str | None) -
     "--view",
     callback=_view,
     metavar="AZIMUTH,ELEVATION",
-    help="Direction of the viewer in degrees; planar robots are seen from above.  [default: -60,20]",
+    help="Direction of the viewer in degrees; planar robots are seen from above.  [default: -60,20; "
+    "of a single pose, that in which legs hide each other least]",
 )
 @click.option(
     "--size", callback=_size, metavar="WIDTH,HEIGHT", help="Of the picture in inches.  [default: as the poses need]"
@@ -152,6 +153,7 @@ def _figure(
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.pictures import captions
     from pkm_exact.pictures.camera import DEFAULT_VIEW, View
+    from pkm_exact.pictures.clear_view import clear_view
     from pkm_exact.pictures.roots import roots_figure
     from pkm_exact.pictures.scene import scene_of
     from pkm_exact.pictures.views import overlay_figure, pose_figure, poses_figure
@@ -161,7 +163,11 @@ def _figure(
     scene = scene_of(document, None if model is None else announced_model(model))
     seen = DEFAULT_VIEW if view is None else View(*view)
     if pose is not None:
-        return pose_figure(scene, pose, view=seen, size=size, ghosts=overlay), f"pose {pose} of {len(scene.poses)}"
+        if view is None and not overlay and pose <= len(scene.poses):
+            seen = clear_view(scene, scene.poses[pose - 1])
+        figure = pose_figure(scene, pose, view=seen, size=size, ghosts=overlay)
+        chosen = "" if seen == DEFAULT_VIEW or view else f", seen from {seen.azimuth:g},{seen.elevation:g}"
+        return figure, f"pose {pose} of {len(scene.poses)}{chosen}"
     figure = (overlay_figure if overlay else poses_figure)(scene, view=seen, size=size)
     return figure, captions.statement(scene)
 
