@@ -168,6 +168,7 @@ def test_words_that_do_not_fit_are_refused(tmp_path: Path, capsys: Capture) -> N
         (["3-rrr", "--start", "1"], "--start: the poses of the path"),
         (["3-rrr", "--exact"], "--exact: is for a path of joint values"),
         (["3-rpr-merlet-p", "--width", "1e-9"], "--width: is for a path of joint values"),
+        (["3-rpr-turned", "--working-modes", "+,+,+"], "leg 1: is driven at its hinge"),
     )
     for (name, *more), said in cases:
         assert main(["track", str(FILES[name]), str(path), "-o", target, *more]) == 2

@@ -61,12 +61,16 @@ def _proof(robot: Machine, path: PosePath, modes: str | None) -> PosePathProof:
     from pkm_exact.geometry.problem import ForwardProblem
     from pkm_exact.poses.jacobian import characteristic_length
     from pkm_exact.regions.pose_path import PosePathProof
-    from pkm_exact.regions.region_legs import OwnLength, region_machine
+    from pkm_exact.regions.region_legs import OnHinge, OwnLength, region_machine
 
-    machine = region_machine(robot, with_leg_distance=True)
+    machine = region_machine(robot)
     if sliding := [leg.name for leg in machine.legs if leg.axis is not None]:
         raise InputError(
             f"{sliding[0]}: slides along an axis, which paths of poses do not know; give a path of lengths"
+        )
+    if hinged := [leg.name for leg in machine.legs if isinstance(leg.actuator, OnHinge)]:
+        raise InputError(
+            f"{hinged[0]}: is driven at its hinge, which paths of poses do not know; give a path of joint values"
         )
     if machine.forms or len(machine.legs) != len(machine.twist):
         raise InputError(
