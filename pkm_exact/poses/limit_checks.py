@@ -236,13 +236,23 @@ def in_cone(axis: Point, leg: Point, angle: Fraction) -> LimitVerdict:
     return at_least(_dot(axis, leg) - cosine * size)
 
 
-def are_apart(least: arb, legs: Sequence[Any], feet: Sequence[Point], tips: Sequence[Point]) -> LimitVerdict:
+def _share_a_joint(leg: Any, other: Any) -> bool:
+    return bool(leg.base == other.base or leg.platform == other.platform)
+
+
+def are_apart(
+    least: arb,
+    legs: Sequence[Any],
+    feet: Sequence[Point],
+    tips: Sequence[Point],
+    share_a_joint: Callable[[Any, Any], bool] = _share_a_joint,
+) -> LimitVerdict:
     """Whether all legs that share no joint are at least that far apart, as segments."""
     segments = list(zip(legs, feet, tips, strict=True))
     return together(
         distance_verdict(least, (foot, tip), (other_foot, other_tip))
         for (leg, foot, tip), (other, other_foot, other_tip) in combinations(segments, 2)
-        if leg.base != other.base and leg.platform != other.platform
+        if not share_a_joint(leg, other)
     )
 
 

@@ -54,7 +54,7 @@ def joinable_machine(robot: Machine) -> RegionMachine:
         If they are not all of variable length, or not as many as the freedoms of the platform.
     """
     try:
-        machine = region_machine(robot, with_leg_distance=True)
+        machine = region_machine(robot)
     except InputError:
         machine = None
     own = machine is not None and all(isinstance(leg.actuator, OwnLength) for leg in machine.legs)

@@ -34,6 +34,7 @@ from pkm_exact.poses.limit_checks import (
 )
 from pkm_exact.precision import working_precision
 from pkm_exact.regions.jets import constant, parameter
+from pkm_exact.regions.leg_distances import share_a_joint
 from pkm_exact.regions.machine_on_path import MachineOnPath, OutOfReachError, machine_on_path
 from pkm_exact.regions.region_legs import RegionMachine
 
@@ -253,7 +254,7 @@ class PosePathProof:
                 for a, rod, angle in zip(turned, rods, limits.platform_cones.angles, strict=True)
             )
         if limits.leg_distance is not None:
-            found["leg_distance"] = are_apart(ball(limits.leg_distance), self._machine.legs, feet, tips)
+            found["leg_distance"] = are_apart(ball(limits.leg_distance), self._machine.legs, feet, tips, share_a_joint)
         if limits.position:
             sides = zip(at.position, roots, limits.position, strict=False)
             found["position"] = together(

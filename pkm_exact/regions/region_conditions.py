@@ -14,6 +14,7 @@ from pkm_exact.geometry.limits import Cones
 from pkm_exact.regions.chart import POSITIONS, Chart, Polynomial, PosePolynomials, moved, pose_polynomials, rational
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some
 from pkm_exact.regions.index_quotients import force_polynomials, index_square
+from pkm_exact.regions.leg_distances import legs_apart
 from pkm_exact.regions.near_angles import BESIDE, squared_cosines, turn_directions
 from pkm_exact.regions.placed_legs import PlacedLeg, placed_leg, without_squares
 from pkm_exact.regions.region_determinants import determinant, structural_rows, wrench_rows
@@ -99,6 +100,7 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
     if "limits" in conditions.asked:
         parts += [part for leg in placed for part in _reach(leg)]
         parts += _cones(machine, placed, pose) + _position(machine, pose)
+        parts += legs_apart(machine, pose, placed, chart.box)
     if "no_type_1" in conditions.asked:
         parts += [_keeps_its_mode(leg) for leg in placed]
     determinant = None
@@ -240,7 +242,8 @@ def turned_within(leg: PlacedLeg, low: Fraction, high: Fraction) -> Formula:
 
 def _cones(machine: RegionMachine, placed: Sequence[PlacedLeg], pose: PosePolynomials) -> list[Formula]:
     found: list[Formula] = []
-    for k, leg in enumerate(placed):
+    rods = [leg for leg in placed if not isinstance(leg.leg.actuator, OnHinge) and leg.leg.axis is None]
+    for k, leg in enumerate(rods):
         if machine.base_cones is not None:
             axis: list[Any] = [pose.constant(x) for x in machine.base_cones.axes[k]]
             found.append(_cone(machine, machine.base_cones, k, leg, pose, axis, leg.rod, "base"))

@@ -121,6 +121,8 @@ class RegionMachine:
     base_cones, platform_cones : Cones or None
     position : tuple of pairs
         The box of the limits; empty if there is none.
+    leg_distance : Fraction or None
+        The least distance of two legs.
     """
 
     name: str
@@ -134,22 +136,17 @@ class RegionMachine:
     base_cones: Cones | None = None
     platform_cones: Cones | None = None
     position: tuple[Pair, ...] = ()
+    leg_distance: Fraction | None = None
 
     @property
     def is_limited(self) -> bool:
         """Whether it has any limits."""
         own = any(leg.reach is not None for leg in self.legs)
-        return own or bool(self.base_cones or self.platform_cones or self.position)
+        return own or bool(self.base_cones or self.platform_cones or self.position or self.leg_distance)
 
 
-def region_machine(machine: Machine, *, with_leg_distance: bool = False) -> RegionMachine:
+def region_machine(machine: Machine) -> RegionMachine:
     """The legs of a robot, with its limits.
-
-    Parameters
-    ----------
-    machine : Machine
-    with_leg_distance : bool
-        Whether a least distance of legs is no reason to refuse.
 
     Raises
     ------
@@ -157,8 +154,6 @@ def region_machine(machine: Machine, *, with_leg_distance: bool = False) -> Regi
         If joint values do not follow from the pose leg by leg, or a limit is not of a sort that regions know.
     """
     limits = machine.limits or Limits()
-    if limits.leg_distance is not None and not with_leg_distance:
-        raise InputError("limits.leg_distance: regions do not know this limit; remove it from the model")
     legs, forms = (
         _mechanism_legs(machine, limits)
         if isinstance(machine, Mechanism)
@@ -179,6 +174,7 @@ def region_machine(machine: Machine, *, with_leg_distance: bool = False) -> Regi
         limits.base_cones,
         limits.platform_cones,
         limits.position,
+        limits.leg_distance,
     )
 
 
