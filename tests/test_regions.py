@@ -21,6 +21,8 @@ from pkm_exact import InputError, Robot
 from pkm_exact.cli.main import main
 from pkm_exact.geometry.inverse import rotation_of
 from pkm_exact.geometry.rotation_degrees import half_turn_pair
+from pkm_exact.pictures.region_figure import region_figure
+from pkm_exact.pictures.region_surface import surface
 from pkm_exact.regions.bernstein import bernstein_coefficients, error_factor, on_sub_boxes, subdivision_matrices
 from pkm_exact.regions.chart import Chart
 from pkm_exact.regions.compiled_formula import compiled_formula
@@ -411,6 +413,32 @@ def test_the_command(tmp_path: Path, capsys: Capture) -> None:
     assert main(["region", path, str(question)]) in (0, 3)
     question.write_text("nothing")
     assert main(["region", path, str(question)]) == 2
+
+
+def test_the_surface_of_what_is_inside_encloses_its_volume() -> None:
+    """Exactly, along every axis: the sum of coordinate times area of its faces, those towards lesser values negative."""
+    region = "position = [[-2, 2], [-2, 2], ['1/5', 4]]"
+    answer = asked(delta("2.45808", "0.97868", "0"), region, "reachable = true", "kind = 'map'\nsteps = 12")
+    assert 0 < answer.shares["inside"] < 1
+    volumes = [ZERO] * 3
+    for axis, is_upper, box in surface(answer):
+        width = [high - low for low, high in box]
+        assert width[axis] == 0
+        area = width[axis - 1] * width[axis - 2]
+        assert area > 0
+        volumes[axis] += (1 if is_upper else -1) * box[axis][0] * area
+    assert set(volumes) == {answer.shares["inside"]}
+
+
+def test_a_region_of_three_variables_is_drawn(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    region = "position = [[-2, 2], [-2, 2], ['1/5', 4]]"
+    answer = asked(delta("2.45808", "0.97868", "0"), region, "reachable = true", "kind = 'map'\nsteps = 9")
+    figure = region_figure(answer)
+    titles = [axes.get_title() for axes in figure.axes]
+    assert titles == ["z = 2.1", "y = 0", "x = 0", "inside"]
+    (faces,) = figure.axes[-1].collections
+    assert faces.get_facecolors().shape[0] == len(surface(answer))
 
 
 def test_parts_end_where_doubles_hold_their_ends() -> None:
