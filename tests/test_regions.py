@@ -416,7 +416,7 @@ def test_the_command(tmp_path: Path, capsys: Capture) -> None:
 
 
 def test_the_surface_of_what_is_inside_encloses_its_volume() -> None:
-    """Exactly, along every axis: the sum of coordinate times area of its faces, those towards lesser values negative."""
+    """Exactly, along every axis: the sum of coordinate times area of its faces, lower ones negative."""
     region = "position = [[-2, 2], [-2, 2], ['1/5', 4]]"
     answer = asked(delta("2.45808", "0.97868", "0"), region, "reachable = true", "kind = 'map'\nsteps = 12")
     assert 0 < answer.shares["inside"] < 1

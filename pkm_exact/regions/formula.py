@@ -64,3 +64,20 @@ Formula: TypeAlias = Atom | All | Some
 def atoms_of(formula: Formula) -> list[Atom]:
     """The atoms, from left to right."""
     return [formula] if isinstance(formula, Atom) else [atom for part in formula.parts for atom in atoms_of(part)]
+
+
+def beyond(region: Formula) -> Formula:
+    """That a point is not in a region, whose atoms are all that something is not negative.
+
+    Examples
+    --------
+    >>> from flint import Ordering, fmpq_mpoly_ctx
+    >>> (x,) = fmpq_mpoly_ctx.get(("x",), Ordering.lex).gens()
+    >>> atom = beyond(Atom("in it", x))
+    >>> print(atom.polynomial, atom.sign)
+    -x positive
+    """
+    if isinstance(region, Atom):
+        return Atom("beyond the region", -region.polynomial, Sign.POSITIVE)
+    parts = tuple(beyond(part) for part in region.parts)
+    return Some(parts) if isinstance(region, All) else All(parts)

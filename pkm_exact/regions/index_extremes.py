@@ -16,7 +16,6 @@ from pkm_exact.regions.region_conditions import asked_of, placed_legs, require_m
 from pkm_exact.regions.region_determinants import structural_rows
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_question import RegionQuestion
-from pkm_exact.regions.region_shapes import inside_atom
 from pkm_exact.regions.region_solver import axes_of
 from pkm_exact.roots.interval import Interval
 
@@ -60,7 +59,7 @@ def index_range(machine: RegionMachine, question: RegionQuestion) -> IndexRange:
     above, below = index_square(name, machine, pose, placed, structural_rows(machine, pose), question.conditions.length)
     common = above.gcd(below)
     quotient = Quotient(above / common, below / common)
-    formula: Formula = All((*(inside_atom(part, asked.pose) for part in question.shape), asked.formula))
+    formula: Formula = All((question.region(asked.pose, machine.metric), asked.formula))
     atoms = list({id(atom): atom for atom in atoms_of(formula)}.values())
     ready = compiled_formula(formula, atoms, asked.roots, chart.box)
     axes = axes_of(machine, chart.variables, chart.box, question.answer.steps)

@@ -21,13 +21,13 @@ from pkm_exact.errors import InputError
 from pkm_exact.geometry.limits import Pair
 from pkm_exact.regions.compiled_formula import compiled_formula
 from pkm_exact.regions.extremes import greatest
-from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some, atoms_of
+from pkm_exact.regions.formula import All, Formula, Some, atoms_of, beyond
 from pkm_exact.regions.joint_quotients import JointQuotient, joint_quotient, rational_root
 from pkm_exact.regions.paving import INSIDE, SPLIT, Part, pave
 from pkm_exact.regions.region_conditions import asked_of, placed_legs, require_allowed
 from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, OwnLength, RegionLeg, RegionMachine
 from pkm_exact.regions.region_question import RegionQuestion
-from pkm_exact.regions.region_shapes import ball_of, inside_atom
+from pkm_exact.regions.region_shapes import ball_of
 from pkm_exact.regions.region_solver import axes_of
 from pkm_exact.regions.turned_legs import TurnedLeg, every_pose, turned_leg
 from pkm_exact.roots.interval import Interval
@@ -139,7 +139,7 @@ def _in_chart(machine: RegionMachine, question: RegionQuestion, k: int, way: int
     chart = question.chart
     asked = asked_of(machine, chart, question.conditions)
     _, placed = placed_legs(machine, chart, question.conditions)
-    formula: Formula = All((*(inside_atom(part, asked.pose) for part in question.shape), asked.formula))
+    formula: Formula = All((question.region(asked.pose, machine.metric), asked.formula))
     wanted = joint_quotient(placed[k], asked.roots, _middle(chart.box))
     return _extreme(wanted, formula, asked.roots, machine, question, chart.variables, chart.box, way)
 
@@ -213,8 +213,7 @@ def _require_reached(
 ) -> None:
     """Refuse a region of which a leg, or at the centre of a ball another in its place, does not reach all."""
     turned = turned_leg(machine, question, k, leg, center)
-    beyond = tuple(Atom("beyond the region", -atom.polynomial, Sign.POSITIVE) for atom in turned.shape)
-    formula = Some((*beyond, All(turned.reaches)))
+    formula = Some((beyond(All(turned.shape)), All(turned.reaches)))
     ready = compiled_formula(formula, atoms_of(formula), turned.roots, turned.box)
     axes = axes_of(machine, turned.names, turned.box, question.answer.steps)
     start = Part(0, (0,) * len(turned.box))

@@ -6,6 +6,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
+from itertools import pairwise
 from math import isqrt
 from pathlib import Path
 from typing import Any, Final
@@ -21,6 +22,7 @@ from pkm_exact.geometry.rotation_degrees import half_turn_pair, is_exact_turn
 from pkm_exact.precision import working_precision
 from pkm_exact.regions.chart import POSITIONS, TURNS, Arc, Chart
 from pkm_exact.regions.index_quotients import INDEX_NAMES
+from pkm_exact.regions.path_tubes import tube_about
 from pkm_exact.regions.region_conditions import CONDITIONS, Conditions
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_question import (
@@ -35,7 +37,7 @@ from pkm_exact.regions.region_shapes import Quadratic, in_model, polygon_shape, 
 from pkm_exact.wording import printable, shown
 
 _TABLES: Final = ("region", "conditions", "answer")
-_SHAPES: Final = ("position", "ball", "cylinder", "prism", "arc")
+_SHAPES: Final = ("position", "ball", "cylinder", "prism", "arc", "tube")
 _TURNED: Final = ("quaternion", "rpy_degrees", "degrees", "any_axis_degrees")
 _VALUED: Final = ("working_modes", "indices", "length", "forces")
 _MOST_STEPS: Final = 120
@@ -82,6 +84,8 @@ def question_from_toml(text: str, machine: RegionMachine) -> RegionQuestion:
         return largest_question(_turned(region, machine), machine, conditions, answer, Fraction(1))
     if "arc" in region:
         return RegionQuestion(_on_arc(region, machine), (), conditions, answer)
+    if "tube" in region:
+        return _in_tube(region, machine, conditions, answer)
     position, shape, enlarged = _shape(region, machine)
     any_axis = _any_axis(region, machine, answer)
     chart = _chart(position, _turned(region, machine))
@@ -115,6 +119,31 @@ def _on_arc(region: dict[str, Any], machine: RegionMachine) -> Chart:
     chart = _chart([Fraction(0), Fraction(0), height], _turned(region, machine))
     arc = Arc((center[0], center[1]), radius, (Fraction(u), Fraction(v)))
     return replace(chart, variables=("arc", *chart.variables), box=(ends, *chart.box), arc=arc)
+
+
+def _in_tube(
+    region: dict[str, Any], machine: RegionMachine, conditions: Conditions, answer: WantedAnswer
+) -> RegionQuestion:
+    """All poses near a path of straight pieces."""
+    table, where = region["tube"], "region.tube"
+    if given := [key for key in (*_SHAPES, "any_axis_degrees") if key in region and key != "tube"]:
+        raise InputError(f"region.{given[0]}: given beside a tube; give one of them")
+    if not isinstance(table, dict):
+        raise InputError(f"{where}: {shown(table)} is not a table; write {{ path = [[..], [..]], radius = r }}")
+    known_keys(table, ("path", "radius"), where)
+    if 0 not in machine.twist:
+        raise InputError(f"{where}: the robot does not move; give angles alone")
+    rows = list_field(required(table, "path", f"{where}."), f"{where}.path", 2)
+    if not 2 <= len(rows) <= _MOST_CORNERS:
+        raise InputError(f"{where}.path: {len(rows)} points; give 2 to {_MOST_CORNERS}")
+    corners = [_numbers(row, f"{where}.path[{i}]", _dimension(machine)) for i, row in enumerate(rows, 1)]
+    for i, (one, other) in enumerate(pairwise(corners), 2):
+        if one == other:
+            raise InputError(f"{where}.path[{i}]: is the point before it; remove it")
+    radius = parse_positive(required(table, "radius", f"{where}."), f"{where}.radius")
+    tube, sides, is_wider = tube_about(corners, radius, machine.metric)
+    chart = _chart(sides, _turned(region, machine))
+    return RegionQuestion(chart, (), conditions, answer, is_wider, tube=tube)
 
 
 def _any_axis(region: dict[str, Any], machine: RegionMachine, answer: WantedAnswer) -> Fraction | None:

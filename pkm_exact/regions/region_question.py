@@ -6,10 +6,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Final
 
-from pkm_exact.regions.chart import Chart
+from pkm_exact.geometry.inverse import Metric
+from pkm_exact.regions.chart import Chart, PosePolynomials
+from pkm_exact.regions.formula import All, Formula
 from pkm_exact.regions.index_quotients import INDEX_NAMES
+from pkm_exact.regions.path_tubes import Tube, inside_tube
 from pkm_exact.regions.region_conditions import Conditions
-from pkm_exact.regions.region_shapes import Quadratic
+from pkm_exact.regions.region_shapes import Quadratic, inside_atom
 
 ANSWERS: Final = ("all", "map", "largest", "locus", "extremes", "threshold")
 EXTREMES: Final = ("joint_values", *INDEX_NAMES)
@@ -70,6 +73,8 @@ class RegionQuestion:
         Whether the region is a little larger than asked, as its numbers are not rational in the model.
     any_axis : Fraction or None
         All turns about any axis, of which the square of the tangent of half the angle is at most so much.
+    tube : Tube or None
+        That the region is, besides.
     """
 
     chart: Chart
@@ -78,3 +83,9 @@ class RegionQuestion:
     answer: WantedAnswer
     enlarged: bool = field(default=False)
     any_axis: Fraction | None = None
+    tube: Tube | None = None
+
+    def region(self, pose: PosePolynomials, metric: Metric) -> All:
+        """That a pose of the chart is in the region."""
+        parts: list[Formula] = [inside_atom(part, pose) for part in self.shape]
+        return All((*parts, *(() if self.tube is None else (inside_tube(self.tube, pose, metric),))))

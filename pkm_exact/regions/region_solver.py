@@ -11,7 +11,7 @@ from typing import Any, Final, Protocol
 
 from pkm_exact.regions.chart import POSITIONS
 from pkm_exact.regions.compiled_formula import CompiledFormula, compiled_formula
-from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some, atoms_of
+from pkm_exact.regions.formula import All, Formula, Some, atoms_of, beyond
 from pkm_exact.regions.paving import (
     INSIDE,
     OUTSIDE,
@@ -28,7 +28,6 @@ from pkm_exact.regions.region_conditions import Asked, asked_of
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_points import Counterexample, CounterexampleSearch, Point, PointJudge
 from pkm_exact.regions.region_question import RegionQuestion
-from pkm_exact.regions.region_shapes import inside_atom
 
 HEAD_STEPS: Final = 8
 """Halvings before the parts become jobs of their own: at most 2^8 of them."""
@@ -139,13 +138,11 @@ def prepared(machine: RegionMachine, question: RegionQuestion) -> PreparedQuesti
     """
     chart = question.chart
     asked = asked_of(machine, chart, question.conditions)
-    shape = tuple(inside_atom(part, asked.pose) for part in question.shape)
-    region: Formula = All(shape)
+    region = question.region(asked.pose, machine.metric)
     if question.answer.kind == "map":
-        formula: Formula = All((*shape, asked.formula))
+        formula: Formula = All((*region.parts, asked.formula))
     else:
-        beyond = tuple(Atom("beyond the region", -atom.polynomial, Sign.POSITIVE) for atom in shape)
-        formula = Some((*beyond, asked.formula)) if beyond else asked.formula
+        formula = Some((beyond(region), asked.formula)) if region.parts else asked.formula
     axes = axes_of(machine, chart.variables, chart.box, question.answer.steps)
     atoms = {id(atom): atom for atom in atoms_of(formula)}
     ready = compiled_formula(formula, list(atoms.values()), asked.roots, chart.box)
