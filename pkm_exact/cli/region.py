@@ -47,10 +47,11 @@ def region(
 ) -> int:
     """Answer a question about all poses of a region of the robot in the file MODEL.
 
-    QUESTION.toml says which region ([region]: a box, ball, cylinder, prism, arc or tube of positions, with a fixed orientation or
-    intervals of angles), what is asked of its poses ([conditions]: reachable, limits, no_type_1, no_type_2), and which
-    answer is wanted ([answer]: all of it proved or a counterexample; a map; the largest cube or ball; the locus of
-    singular poses; extremes of joint values or indices; between which values of a number of the model it changes).
+    QUESTION.toml says which region ([region]: a box, ball, cylinder, prism, arc or tube of positions, with a fixed
+    orientation or intervals of angles), what is asked of its poses ([conditions]: reachable, limits, no_type_1,
+    no_type_2), and which answer is wanted ([answer]: all of it proved or a counterexample; a map; the largest cube or
+    ball; the locus of singular poses; extremes of joint values or indices; between which values of a number of the
+    model it changes).
 
     With -o an interrupted run leaves CERT.json.partial; the same command goes on from there, to the same bytes.
 
