@@ -11,10 +11,10 @@ from random import Random
 import numpy as np
 import pytest
 from flint import arb, arb_mat
-from samples import model, solved
+from samples import MODELS, model, solved
 from test_statics import POSES, at, dual_v, h4, vector
 
-from pkm_exact import Mechanism
+from pkm_exact import Mechanism, Robot
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.point_in_plane import InPlane
@@ -27,7 +27,7 @@ from pkm_exact.polytopes.slabs import Slabs
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
 from pkm_exact.roots.interval import Interval
-from pkm_exact.statics.at_pose import AtPose
+from pkm_exact.statics.at_pose import AtPose, at_box
 from pkm_exact.statics.capability import ordinary_vertices
 from pkm_exact.statics.eigenvalues import eigenvalues
 from pkm_exact.statics.exact_rows import column_squares
@@ -42,6 +42,7 @@ from pkm_exact.statics.redundant_actuation import park_kim, perturbation_norm
 from pkm_exact.statics.stiffness import amplification, greatest_displacement, least_stiffness, rod_errors, stiffness
 
 Capture = pytest.CaptureFixture[str]
+FILES = {path.stem: path for path in MODELS}
 ALL = {
     "speeds": 1,
     "forces": 1,
@@ -378,6 +379,34 @@ def test_every_index_says_what_it_is_and_agrees_with_floating_point(index: objec
     assert name not in refused
     assert index.definition  # type: ignore[attr-defined]
     assert "(" in index.source or "20" in index.source  # type: ignore[attr-defined]
+
+
+def test_narrow_boxes_have_all_indices_of_the_pose_within() -> None:
+    """At a pose where entries of J are 0: in the box they are intervals about 0, whose squares are numbers too."""
+    robot = Robot.load(FILES["3-rpr-merlet-p"])
+    exact = robot.at({"position": [0, 5], "half_tangent": 0})
+    assert any(entry.lo == entry.hi == 0 for row in exact.jacobian.entries for entry in row)
+    near = Fraction(1, 10**30)
+    position, rotation = (
+        [[Interval(x - near, x + near) for x in row] for row in rows] for rows in ([exact.position], exact.rotation)
+    )
+    boxed = at_box(robot, exact.held, position[0], rotation, 3)
+    given = {key: value for key, value in ALL.items() if key != "least_forces"}
+    whole, _ = enclosed_indices(exact.measures(**given))
+    found, refused = enclosed_indices(boxed.measures(**given))
+    assert found.keys() == whole.keys(), refused
+    assert "v_iso_p" in found
+    assert all(found[name].lo <= whole[name].hi and whole[name].lo <= found[name].hi for name in found)
+    assert amplification(boxed).contains(amplification(exact).midpoint)
+
+
+def test_one_index_that_is_refused_leaves_the_others() -> None:
+    """At a singular pose errors of actuators bound no twists; speeds that are reached are there all the same."""
+    at = Robot.load(FILES["3-rpr-merlet-p"]).at({"position": ["11/5", 5], "half_tangent": 0})
+    assert at.rank == 2
+    found, refused = enclosed_indices(at.measures(resolutions=1, speeds=1))
+    assert "v_iso_p" in found
+    assert refused["resolution_p"]
 
 
 def test_what_mixes_units_is_refused() -> None:

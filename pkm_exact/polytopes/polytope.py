@@ -153,7 +153,8 @@ class Polytope:
                 square: Any = self._norm_squared(facet.normal, inverse)
                 length = None if isinstance(square, arb) else RootSum.of(square).rational
                 if length is None or isinstance(facet.offset, arb):
-                    ratios.append(_ball(facet.offset) ** 2 / _ball(square))
+                    size = _ball(facet.offset)
+                    ratios.append(size * size / _ball(square))
                 else:
                     offset = RootSum.of(facet.offset)
                     ratios.append(offset * offset / length)

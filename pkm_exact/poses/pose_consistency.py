@@ -206,8 +206,9 @@ class _Robot:
         place = values[:3], [values[3:6], values[6:9], values[9:12]], (1, 1, 1)
         linear = all(value_at(form, *place).contains(0) for form in self.forms)
         return linear and all(
-            (value_at(left, *place) - factor * value_at(root, *place) ** 2).contains(0)
+            (value_at(left, *place) - factor * at_root * at_root).contains(0)
             for left, root, factor in self.quadrics
+            for at_root in [value_at(root, *place)]
         )
 
     def have_lengths(self, rows: Sequence[Sequence[arb]]) -> Iterator[bool]:

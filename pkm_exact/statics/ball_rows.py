@@ -86,7 +86,8 @@ class BallPose:
     def _value(self, form: AnyForm) -> Any:
         if not isinstance(form, SquareForm):
             return self._at(form)
-        return self._at(form.linear) - ball(form.factor) * self._at(form.root) ** 2
+        root = self._at(form.root)
+        return self._at(form.linear) - ball(form.factor) * root * root
 
 
 def enclosed(row: ExactRow, metric: Metric, twist: Sequence[int]) -> BallRow:

@@ -54,7 +54,7 @@ def worst_displacement(at: AtPose, lengths: Fraction, joints: Fraction) -> Inter
             for k, column in enumerate(columns):
                 part += abs(column[i]) * ball_of(lengths if k % (2 * size + 1) == 0 else joints)
             total += part * part
-        return interval_of(total.sqrt())
+        return interval_of(total.nonnegative_part().sqrt())
 
 
 def force_parts(at: AtPose) -> list[tuple[list[arb], list[arb]]]:

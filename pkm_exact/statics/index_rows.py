@@ -8,6 +8,7 @@ from typing import Final
 
 from flint import arb
 
+from pkm_exact.errors import InputError
 from pkm_exact.polytopes.enclosures import interval_of
 from pkm_exact.polytopes.signs import UndecidedError
 from pkm_exact.precision import working_precision
@@ -216,7 +217,7 @@ def enclosed_indices(
         try:
             with working_precision(BITS):
                 found = index.value(measures)
-        except (RefusedError, UndecidedError) as error:
+        except (InputError, UndecidedError) as error:
             refused[index.name] = str(error)
             continue
         if found.is_finite():

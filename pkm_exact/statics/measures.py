@@ -25,6 +25,17 @@ from pkm_exact.statics.freedom import Freedom
 from pkm_exact.statics.limits_of_actuators import ActuatorLimits
 
 
+def norm_of(values: Sequence[arb]) -> arb:
+    """The root of the sum of squares, each a product: powers of balls about 0 are no numbers.
+
+    Examples
+    --------
+    >>> norm_of([arb(3), arb(0, 1e-30), arb(4)])
+    5.00000000000000
+    """
+    return sum((value * value for value in values), arb(0)).nonnegative_part().sqrt()
+
+
 class RefusedError(InputError):
     """An index that has no meaning, or needs data that were not given; the message says which."""
 
@@ -126,7 +137,7 @@ class Measures:
         with working_precision(BITS):
             least: arb | None = None
             for i, speed in enumerate(speeds):
-                norm = sum(((matrix[i, j] / factors[j]) ** 2 for j in places), arb(0)).sqrt()
+                norm = norm_of([matrix[i, j] / factors[j] for j in places])
                 left = ball_of(speed)
                 if spin is not None:
                     turning = self.columns(turning=True)
@@ -155,7 +166,7 @@ class Measures:
         with working_precision(BITS):
             least: arb | None = None
             for i, force in enumerate(forces):
-                norm = sum(((matrix[j, i] * factors[j]) ** 2 for j in places), arb(0)).sqrt()
+                norm = norm_of([matrix[j, i] * factors[j] for j in places])
                 if norm.contains(0):
                     if not norm.is_zero():
                         raise RefusedError("is not decided: the pose is not enclosed narrowly enough")
@@ -203,8 +214,8 @@ class Measures:
             for vertex in polytope.vertices:
                 free = arb_mat([[root * ball_of(x)] for root, x in zip(roots, vertex, strict=True)])
                 twist = expansion * free
-                found = found.max(sum((twist[j, 0] ** 2 for j in columns), arb(0)))
-            return found.sqrt()
+                found = found.max(norm_of([twist[j, 0] for j in columns]))
+            return found
 
     @cached_property
     def wanted(self) -> dict[str, Fraction | None]:

@@ -100,7 +100,7 @@ def greatest_displacement(at: AtPose, errors: Sequence[Fraction]) -> Interval:
             if k < 3:
                 part = sum((found[i, j] * ball_of(error) for j, error in enumerate(errors)), arb(0))
                 total += part * part
-        return interval_of(total.sqrt())
+        return interval_of(total.nonnegative_part().sqrt())
 
 
 def amplification(at: AtPose) -> Interval:
@@ -110,5 +110,5 @@ def amplification(at: AtPose) -> Interval:
         total = arb(0)
         for i, k in enumerate(at.motion.twist):
             if k < 3:
-                total += sum((found[i, j] ** 2 for j in range(found.ncols())), arb(0))
-        return interval_of(total.sqrt())
+                total += sum((found[i, j] * found[i, j] for j in range(found.ncols())), arb(0))
+        return interval_of(total.nonnegative_part().sqrt())
