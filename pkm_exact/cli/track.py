@@ -19,6 +19,7 @@ from pkm_exact.wording import printable
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from pkm_exact.cli.intended_report import Intended
     from pkm_exact.cli.track_store import TrackStore
     from pkm_exact.geometry.mechanism import Mechanism
     from pkm_exact.geometry.path_reader import JointPath
@@ -50,6 +51,17 @@ _SECONDS_PER_LINE: Final = 0.1
     metavar="SIGNS",
     help="For a path of poses of slides or cranks: a sign for each leg, such as +,-,+.",
 )
+@click.option(
+    "--intended",
+    type=arguments.FilePath(),
+    metavar="POSES.csv",
+    help="Poses that are meant at the rows of a path of joint values, as a path of poses: say where they part.",
+)
+@click.option(
+    "--within",
+    metavar="LENGTH,DEGREES",
+    help="How far the branch may be from the intended poses, exact: 0.1,0.05.",
+)
 @arguments.width_option
 @click.option(
     "-o",
@@ -66,6 +78,8 @@ def track(
     path: str,
     number: int | None,
     modes: str | None,
+    intended: str | None,
+    within: str | None,
     width: Fraction,
     output: str,
     exact: bool,
@@ -82,6 +96,9 @@ def track(
     With columns of poses instead (x,y,z,roll,pitch,yaw in degrees, R = Rz(yaw) Ry(pitch) Rx(roll), or x,y,z,q0,..,q3;
     planar x,y,theta; named in the first line) the joint values follow from them, and over every whole step it is
     proved that the poses are reached, away from singularities, within the limits; or it is said where that ends.
+
+    With --intended the poses that are meant at the rows are compared with the branch: a path through a singularity may
+    be followed well, and be another motion.
 
     An interrupted run leaves OUT.partial beside OUT; the same command goes on from there.
 
@@ -110,12 +127,17 @@ def track(
     if number is None or modes is not None:
         what = "--working-modes: is for a path of poses" if modes is not None else "--start: is missing"
         raise click.UsageError(f"{what}; a path of joint values needs --start and nothing else.")
-    return _track_joints(robot, (model, path), number, width, target, exact=exact, verbose=verbose)
+    from pkm_exact.cli.intended_report import intended as read_intended
+
+    if intended is not None:
+        arguments.require_other_file(target, intended, "-o", "the file of the intended poses")
+    wanted = read_intended(intended, within, robot)
+    return _track_joints(robot, (model, path), number, width, target, wanted, exact=exact, verbose=verbose)
 
 
 def _refuse_for_poses(context: click.Context) -> None:
     """Refuse options that have no effect on a path of poses, whose joint values are written with guaranteed digits."""
-    for parameter in ("width", "exact"):
+    for parameter in ("width", "exact", "intended", "within"):
         if context.get_parameter_source(parameter) is not ParameterSource.DEFAULT:
             raise click.UsageError(f"--{parameter}: is for a path of joint values; leave it out for one of poses.")
 
@@ -126,11 +148,13 @@ def _track_joints(
     number: int,
     width: Fraction,
     target: Path,
+    wanted: Intended | None,
     *,
     exact: bool,
     verbose: bool,
 ) -> int:
     """Follow a pose along a path of joint values, and write the samples; files are those of model and path."""
+    from pkm_exact.cli.intended_report import compared, said
     from pkm_exact.cli.joint_words import say_notes
     from pkm_exact.cli.track_report import start_line, written
     from pkm_exact.cli.track_store import TrackStore
@@ -140,6 +164,8 @@ def _track_joints(
     model, path = files
     joints = read_path(path, robot)
     say_notes(joints.stand_ins)
+    if wanted is not None:
+        wanted.read_with(joints)
     if number == arguments.NEAR:
         number = _nearest(robot, model, joints, width, verbose=verbose)
     with TrackStore(target, _job(robot, joints, number, width)) as store, Progress(verbose=verbose) as progress:
@@ -153,7 +179,8 @@ def _track_joints(
             click.echo(f"{PROGRAM}: interrupted after row {len(store.records)}; the same command goes on", err=True)
             raise
         try:
-            written(target, robot, joints, number, store.records, stopped, exact=exact)
+            off = None if wanted is None else compared(wanted, store.records)
+            written(target, robot, joints, number, store.records, stopped, exact=exact, intended=off)
         except OSError as error:
             raise InputError(f"{target}: cannot be written ({error.strerror}); give another path to -o") from None
         store.remove()
@@ -163,10 +190,12 @@ def _track_joints(
         f"{len(store.records)} of {len(joints.rows)} rows, {steps} certified steps: one branch, det J "
         f"{'>' if store.records[0]['point']['det_sign'] > 0 else '<'} 0 all along"
     )
-    if stopped is None:
-        return ExitCode.DONE
-    click.echo(stopped["reason"])
-    return ExitCode.WEAKER_CLAIM
+    is_meant = off is None or not (off["parted_at_row"] or off["undecided_rows"])
+    if wanted is not None and off is not None:
+        click.echo(said(wanted, off))
+    if stopped is not None:
+        click.echo(stopped["reason"])
+    return ExitCode.DONE if stopped is None and is_meant else ExitCode.WEAKER_CLAIM
 
 
 def _nearest(robot: Robot | Mechanism, model: str, joints: JointPath, width: Fraction, *, verbose: bool) -> int:

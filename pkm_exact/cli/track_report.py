@@ -99,6 +99,7 @@ def written(
     stopped: Record | None,
     *,
     exact: bool,
+    intended: Record | None = None,
 ) -> None:
     """Write the output, CSV or JSON by its suffix; it appears whole or not at all. JSON is always exact."""
     if target.suffix.lower() == ".csv":
@@ -114,6 +115,7 @@ def written(
         "rows": len(joints.rows),
         "samples": [_sample(robot, joints, record) for record in records],
         "stopped": stopped,
+        **({} if intended is None else {"intended": intended}),
     }
     write_whole(target, (json.dumps(content, indent=1) + "\n").encode("ascii"))
 

@@ -91,7 +91,7 @@ def machine_on_path(machine: RegionMachine, modes: Sequence[int], moving: Mappin
     """
     zero = constant(arb(0), s)
     position = [moving.get(name, zero) for name in ("x", "y", "z")]
-    rotation = _rotation(moving, s)
+    rotation = rotation_on_path(moving, s)
     roots = [arb(g).sqrt() for g in machine.metric]
     feet, tips, arms, rods, values = [], [], [], [], []
     for leg, mode in zip(machine.legs, modes, strict=True):
@@ -144,7 +144,8 @@ def _dot(left: Sequence[Jet], right: Sequence[Jet]) -> Jet:
     return left[0] * right[0] + left[1] * right[1] + left[2] * right[2]
 
 
-def _rotation(moving: Mapping[str, Jet], s: Jet) -> list[list[Jet]]:
+def rotation_on_path(moving: Mapping[str, Jet], s: Jet) -> list[list[Jet]]:
+    """The rotation of a pose whose coordinates are functions of s, as in ``machine_on_path``."""
     one, zero = constant(arb(1), s), constant(arb(0), s)
     if "q0" in moving:
         return _of_quaternion([moving[f"q{k}"] for k in range(4)])
