@@ -14,6 +14,7 @@ from typing import Any
 
 from certificate_subjects import Content, subject
 from certificate_tools import Path_, at, with_entry
+from mechanism_limits import mechanism_limits
 from wrong_sorts import wrong_sorts
 
 from pkm_exact.certify.build import canonical_bytes, sealed
@@ -113,6 +114,7 @@ def _entries() -> Iterator[tuple[str, Path_, Any, str]]:
     yield from _grids()
     yield from _widths()
     yield from _tolerances()
+    yield from mechanism_limits()
 
 
 def _texts() -> Iterator[tuple[str, Path_, Any, str]]:
