@@ -31,8 +31,10 @@ if TYPE_CHECKING:
     from pkm_exact.errors import PkmExactError as PkmExactError
     from pkm_exact.following.follower import Followed as Followed
     from pkm_exact.geometry.linkage import Linkage as Linkage
+    from pkm_exact.geometry.links import Links as Links
     from pkm_exact.geometry.problem import ForwardProblem as ForwardProblem
     from pkm_exact.geometry.reader import read_linkage as read_linkage
+    from pkm_exact.geometry.reader import read_links as read_links
     from pkm_exact.geometry.robot import Configuration as Configuration
     from pkm_exact.geometry.tolerances import Tolerances as Tolerances
     from pkm_exact.interactive.answers import Solution as Solution
@@ -45,6 +47,9 @@ if TYPE_CHECKING:
     from pkm_exact.interactive.robots import read_robot as read_robot
     from pkm_exact.interactive.system_answers import SystemSolution as SystemSolution
     from pkm_exact.interactive.system_answers import solve_system as solve_system
+    from pkm_exact.links.link_engine import solve_links as solve_links
+    from pkm_exact.links.link_solution import LinkSolution as LinkSolution
+    from pkm_exact.links.start_box import solve_from_start as solve_from_start
     from pkm_exact.mobility.analysis import LinkageMobility as LinkageMobility
     from pkm_exact.mobility.analysis import mobility_of as mobility_of
     from pkm_exact.mobility.platform_mobility import PlatformMobility as PlatformMobility
@@ -57,10 +62,12 @@ if TYPE_CHECKING:
     from pkm_exact.screws.free_motions import FreeMotions as FreeMotions
     from pkm_exact.screws.screw import Screw as Screw
     from pkm_exact.screws.screw_system import ScrewSystem as ScrewSystem
+    from pkm_exact.statics.at_pose import AtPose as AtPose
 
 __version__: Final = "0.1.0"
 
 _HOME: Final = {
+    "AtPose": "statics.at_pose",
     "Certificate": "certify.certificate",
     "Claim": "claim",
     "CompletenessRoute": "claim",
@@ -72,7 +79,9 @@ _HOME: Final = {
     "InputError": "errors",
     "Interval": "poses.pose",
     "Linkage": "geometry.linkage",
+    "LinkSolution": "links.link_solution",
     "LinkageMobility": "mobility.analysis",
+    "Links": "geometry.links",
     "ManySolutions": "batch.many",
     "Mechanism": "interactive.robots",
     "PkmExactError": "errors",
@@ -93,10 +102,13 @@ _HOME: Final = {
     "mobility_of": "mobility.analysis",
     "platform_mobility": "mobility.platform_mobility",
     "read_linkage": "geometry.reader",
+    "read_links": "geometry.reader",
     "read_robot": "interactive.robots",
     "recompute": "recomputation",
     "solve": "interactive.questions",
+    "solve_from_start": "links.start_box",
     "solve_krawczyk": "interactive.questions",
+    "solve_links": "links.link_engine",
     "solve_many": "batch.many",
     "solve_system": "interactive.system_answers",
     "tolerance_boxes": "interactive.questions",

@@ -290,7 +290,18 @@ def test_the_command_writes_a_certificate(tmp_path: Path, capsys: pytest.Capture
         assert "not a certificate about poses of a robot" in capsys.readouterr().err
     assert main(["mobility", "models/mssm.toml", "-o", str(tmp_path / "no.json")]) == 2
     assert not (tmp_path / "no.json").exists()
-    capsys.readouterr()
+    assert "there are certificates for mechanisms of bodies and joints only" in capsys.readouterr().err
+
+
+def test_it_is_said_what_a_certificate_does_not_claim(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name, note in (("seven-link-oblique", "do not have the argument second-order"), ("sarrus", "")):
+        path = tmp_path / f"{name}.json"
+        assert main(["mobility", str(CHAINS / f"{name}.toml"), "-o", str(path)]) == 0
+        said = capsys.readouterr().err
+        assert note in said
+        assert bool(said) is bool(note)
+        assert main(["check", str(path)]) == 0
+        assert ("finite: nothing is claimed" in capsys.readouterr().out) is bool(note)
 
 
 def test_a_mutation_survives_nowhere() -> None:

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.program import ExitCode
+from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
+from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
     from pkm_exact.constraints.form import Vector
@@ -87,9 +88,13 @@ def mobility(
                     )
             answer, known = _of_linkage(found, actuated, among, output, as_json=as_json)
         else:
-            for option, is_given in (("--among", among is not None), ("-o", output is not None)):
-                if is_given:
-                    raise InputError(f"{option}: belongs to mechanisms of bodies and joints; leave it out")
+            if among is not None:
+                raise InputError("--among: belongs to mechanisms of bodies and joints; leave it out")
+            if output is not None:
+                raise InputError(
+                    "-o: there are certificates for mechanisms of bodies and joints only, none of what is said here of "
+                    "legs and constraints; leave it out"
+                )
             answer, known = _of_platform(found, pose, actuated, configuration, as_json=as_json)
     except InputError as error:
         raise InputError(f"{model}: {error}") from None
@@ -113,7 +118,13 @@ def _of_linkage(
         from pkm_exact.certify.build import canonical_bytes
         from pkm_exact.certify.mobility_build import mobility_certificate
 
-        arguments.write_output(output, canonical_bytes(mobility_certificate(found)))
+        content = mobility_certificate(found)
+        arguments.write_output(output, canonical_bytes(content))
+        if content["finite"] is None and found.finite.is_known:
+            missing = (
+                f"the finite mobility is proved, but certificates do not have the argument {found.finite.argument}"
+            )
+            click.echo(f"{PROGRAM}: note: {printable(output)}: {missing}: it claims nothing of it", err=True)
     report = mobility_report.linkage_object if as_json else mobility_report.linkage_text
     return report(found), found.finite.is_known
 

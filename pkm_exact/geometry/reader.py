@@ -142,6 +142,11 @@ def read_links(path: str | os.PathLike[str]) -> Links:
     ------
     InputError
         As ``read_robot``, and if the file is of another kind.
+
+    Examples
+    --------
+    >>> read_links("models/links/four-bar.toml")
+    Links('Four-bar linkage', 2 bodies)
     """
     found = read_any(path)
     if not is_links(found):

@@ -80,6 +80,13 @@ class LinkSolution:
     notes : tuple of str
     box : StartBox or None
         Of all unknowns, of the method krawczyk.
+
+    Examples
+    --------
+    >>> from pkm_exact import read_links, solve_links
+    >>> found = solve_links(read_links("models/links/four-bar.toml"))
+    >>> len(found), found.is_complete, found.complex_solutions
+    (2, True, 2)
     """
 
     links: Links
