@@ -1,8 +1,8 @@
 """Whether the numeric engine and the exact one agree: number of poses, every box, every sign of a Jacobian.
 
 Robots: 6-6 robots with random joints, at the lengths of a random pose. Lengths: random length vectors of Rolland's
-robot, tracked from one start near it. Every case is made from its own number, so that a run can be split by --first
-and --count; the cases of different runs add up.
+robot, tracked from one start near it. A symmetric family: a shipped robot of it at the lengths of a random pose. Every
+case is made from its own number, so that a run can be split by --first and --count; the cases of different runs add up.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ import argparse
 import sys
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from random import Random
 from time import perf_counter
@@ -30,7 +30,9 @@ from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.solution import Solution
 
-MODEL = Path(__file__).parent.parent / "models" / "rolland-6-6.toml"
+MODELS = Path(__file__).parent.parent / "models"
+MODEL = MODELS / "rolland-6-6.toml"
+FAMILIES = ("ssm-exact", "ssm-rounded", "mssm", "tssm", "linuxcnc-hexapod")
 REACH = 150
 """Lengths differ from those of the home configuration by so many units at most."""
 
@@ -48,7 +50,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("cases", choices=CASES, help="which cases")
     parser.add_argument("--first", type=int, default=0, help="number of the first case (default 0)")
-    parser.add_argument("--count", type=int, help="how many (default 500 robots, 200 lengths)")
+    parser.add_argument("--count", type=int, help="how many (default 1000 robots, 200 of the others)")
     arguments = parser.parse_args()
     make, usual = CASES[arguments.cases]
     count = usual if arguments.count is None else arguments.count
@@ -94,6 +96,26 @@ def _random_lengths(number: int) -> Case:
     return Case(robot.problem([length * length for length in lengths]), start)
 
 
+def _of_family(name: str, number: int) -> Case:
+    """The shipped robot at a pose within its size of the place that its lengths belong to, turned by half at most."""
+    random, problem = Random(f"{name} {number}"), _shipped(name)
+    reach = round(float(max(leg.length_squared for leg in problem.distances)) ** 0.5)
+    turn = rotation_of((Fraction(1), *(Fraction(random.randint(-100, 100), 100) for _ in range(3))), problem.metric)
+    x, y, z = (Fraction(random.randint(-100, 100) * reach, 200) for _ in range(3))
+    place = (x, y, z + reach)
+    legs = [
+        replace(leg, length_squared=distance_squared(leg.base, leg.platform, place, turn, problem.metric))
+        for leg in problem.distances
+    ]
+    return Case(replace(problem, constraints=tuple(legs)))
+
+
+@cache
+def _shipped(name: str) -> ForwardProblem:
+    robot = read_robot(MODELS / f"{name}.toml")
+    return robot.problem(robot.configuration())
+
+
 @cache
 def _rolland() -> tuple[Robot, StartSection | None]:
     robot = read_robot(MODEL)
@@ -101,8 +123,9 @@ def _rolland() -> tuple[Robot, StartSection | None]:
 
 
 CASES: dict[str, tuple[Callable[[int], Case], int]] = {
-    "robots": (_random_robot, 500),
+    "robots": (_random_robot, 1000),
     "lengths": (_random_lengths, 200),
+    **{name: (partial(_of_family, name), 200) for name in FAMILIES},
 }
 """How a case is made from its number, and how many are usual."""
 
