@@ -44,5 +44,6 @@ def _text(value: object, line: str) -> str:
     if isinstance(value, dict) and value:
         return "{" + ",".join([f"{inner}{_text(k, inner)}: {_text(v, inner)}" for k, v in value.items()]) + line + "}"
     if isinstance(value, list | tuple) and value:
-        return "[" + ",".join([inner + _text(entry, inner) for entry in value]) + line + "]"
+        entries = [encode_basestring_ascii(v) if isinstance(v, str) else _text(v, inner) for v in value]
+        return "[" + inner + f",{inner}".join(entries) + line + "]"
     return json.dumps(value, allow_nan=False)

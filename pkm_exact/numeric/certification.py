@@ -60,10 +60,10 @@ def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None
     watch : callable, optional
         Gets how many solutions are certified, after each grid.
     """
-    points = _without_conjugates(points)
-    boxes = _in_doubles(system, points)
+    boxes, points = _in_doubles(system, _without_conjugates(points))
     found: dict[Box, acb_mat | Complex] = {box: point for box, point in zip(boxes, points, strict=True) if box}
-    left = [_start(system, point) for point, box in zip(points, boxes, strict=True) if box is None]
+    rest = _without_conjugates(points[[box is None for box in boxes]])
+    left = [_start(system, point) for point in rest]
     for exponent in GRIDS:
         now = [start for start in left if start.exponent <= exponent]
         left = [start for start in left if start.exponent > exponent]
@@ -90,13 +90,13 @@ def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None
     )
 
 
-def _in_doubles(system: ChartSystem, points: Complex) -> list[Box | None]:
-    """The box of each point that doubles suffice to prove; None where they do not."""
+def _in_doubles(system: ChartSystem, points: Complex) -> tuple[list[Box | None], Complex]:
+    """The box of each point that doubles suffice to prove; None where they do not; the points, more exactly."""
     if system.in_doubles is None:
-        return [None] * len(points)
+        return [None] * len(points), points
     found = double_boxes(system.in_doubles, points, GRIDS[0])
     system.double_solutions.update(found.solutions)
-    return [box if box is not None and _is_decided(box) else None for box in found.boxes]
+    return [box if box is not None and _is_decided(box) else None for box in found.boxes], found.points
 
 
 @dataclass(frozen=True, eq=False)

@@ -38,6 +38,8 @@ STEPS: Final = 3
 """Newton steps with more exact values of F, at most."""
 ARRIVED: Final = 2.0**-10
 """Newton steps that are this small, in units, have arrived."""
+ASTRAY: Final = 2.0**-16
+"""Where Newton's method leads farther than this, relative to the point, it is not followed."""
 GREATEST: Final = 2.0**52
 """Grid points, in units, that doubles hold exactly are smaller."""
 
@@ -50,11 +52,14 @@ class DoubleBoxes:
     ----------
     boxes : list of Box or None
         The box of each point; None where doubles do not suffice.
+    points : (p, n) complex array
+        Where Newton's method arrived from there; the point itself where it did not, or too far off.
     solutions : dict of Box to DoubleSolution
         Of the real boxes.
     """
 
     boxes: list[Box | None]
+    points: Complex
     solutions: dict[Box, DoubleSolution] = field(default_factory=dict)
 
 
@@ -70,7 +75,7 @@ def double_boxes(equations: DoubleEquations, points: Complex, exponent: int) -> 
     """
     sizes = np.abs(points).max(axis=1, initial=0)
     complex_ones = np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes
-    found = DoubleBoxes([None] * len(points))
+    found = DoubleBoxes([None] * len(points), points.copy())
     with np.errstate(all="ignore"):
         for chosen, values in ((~complex_ones, points.real), (complex_ones, points)):
             if chosen.any():
@@ -82,7 +87,8 @@ def _add_boxes(
     equations: DoubleEquations, begun: NDArray[Any], exponent: int, places: NDArray[np.intp], found: DoubleBoxes
 ) -> None:
     """The boxes of points that are all real, or all complex, at their places in what is found."""
-    points, values, off = _arrived(equations, begun, exponent)
+    points, values, off, has_arrived = _arrived(equations, begun, exponent)
+    found.points[places[has_arrived]] = points[has_arrived]
     exponents, units, decided = _grids(equations, points, exponent)
     grid = np.floor(np.stack([points.real, points.imag], axis=-1) / units[:, :, None] + 0.5)
     centres = (grid[..., 0] + 1j * grid[..., 1] if np.iscomplexobj(points) else grid[..., 0]) * units
@@ -104,10 +110,10 @@ def _add_boxes(
 
 
 def _arrived(
-    equations: DoubleEquations, points: NDArray[Any], exponent: int
-) -> tuple[NDArray[Any], NDArray[Any], Real]:
-    """Where Newton's method leads until steps are far smaller than units; F there, and how far it is off."""
-    points, inverses = newton_step(equations, points)
+    equations: DoubleEquations, begun: NDArray[Any], exponent: int
+) -> tuple[NDArray[Any], NDArray[Any], Real, NDArray[np.bool_]]:
+    """Where Newton's method leads until steps are far smaller than units; F there and its error; if it is so."""
+    points, inverses = newton_step(equations, begun)
     values, off = equations.forms.at(points)
     small = ARRIVED * _grids(equations, points, exponent)[1]
     left = np.arange(len(points))
@@ -120,7 +126,9 @@ def _arrived(
         points[left] -= steps[moves]
         inverses = inverses_of(equations.jacobians(points[left]))
         values[left], off[left] = equations.forms.at(points[left])
-    return points, values, off
+    has_arrived = (np.abs(points - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
+    has_arrived[left] = False
+    return points, values, off, has_arrived
 
 
 def _grids(

@@ -25,7 +25,8 @@ from pkm_exact.numeric.study_system import Complex, Section, numeric_section, ra
 from pkm_exact.numeric.tracker import polished, track
 from pkm_exact.poses.boxes import Enclosures, disjoint_cells, in_order, ordinary_coordinates, pose_in_cells
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
-from pkm_exact.poses.jacobian import LEAST_PRECISION, characteristic_length, pose_jacobians
+from pkm_exact.poses.jacobian import LEAST_PRECISION, pose_jacobians
+from pkm_exact.poses.leg_jacobian import LegJacobian
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.precision import working_precision
 from pkm_exact.stages import Watch
@@ -152,11 +153,12 @@ def real_poses(
             rows[row] = found
         return rows
 
+    def jacobians_in_doubles(length: Fraction) -> list[LegJacobian | None]:
+        found = dict(zip(known, double_jacobians(system.problem, coordinates, length), strict=True))
+        return [found.get(row) for row in range(count)]
+
     exponent, cells = disjoint_cells(enclosures, count, width, known=cells_in_doubles)
-    found = double_jacobians(system.problem, coordinates, characteristic_length(system.problem))
-    in_doubles = dict(zip(known, found, strict=True))
-    ranks = [None] * count
-    jacobians = pose_jacobians(enclosures, system.problem, ranks, [in_doubles.get(row) for row in range(count)])
+    jacobians = pose_jacobians(enclosures, system.problem, [None] * count, jacobians_in_doubles)
     poses = [
         replace(pose_in_cells(row, None), jacobian=jacobian) for row, jacobian in zip(cells, jacobians, strict=True)
     ]

@@ -73,11 +73,13 @@ class BallRows:
             return ordinary([ball(value) for value in form], roots)
 
         self._forms, self._squares = [], []
+        forms = iter(problem.forms)
         for found in problem.constraints:
+            squares = found.squares(problem.metric)
             scales = [ball(scale).rsqrt() for scale in found.scales(problem.metric, length)]
-            forms, squares = found.forms(problem.metric), found.squares(problem.metric)
-            self._forms += [(balls(form), scale) for form, scale in zip(forms, scales[: len(forms)], strict=True)]
-            for square, scale in zip(squares, scales[len(forms) :], strict=True):
+            linear = len(scales) - len(squares)
+            self._forms += [(balls(next(forms)), scale) for scale in scales[:linear]]
+            for square, scale in zip(squares, scales[linear:], strict=True):
                 self._squares.append((balls(square.linear), balls(square.root), ball(square.factor), scale))
 
     def at(self, position: Sequence[arb], rotation: Sequence[Sequence[arb]]) -> arb_mat:
