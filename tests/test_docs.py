@@ -14,6 +14,7 @@ import click
 import doc_samples
 import pytest
 from doc_samples import LANGUAGES, ROOT, Block, SampleError, Session, blocks, commands
+from test_report_browser import BROWSER, DRIVER, FLAGS
 
 import pkm_exact
 from pkm_exact.cli.commands import COMMANDS, command
@@ -193,6 +194,29 @@ def test_the_site_asks_no_other_host(site: Path) -> None:
         loaded = re.findall(r"<(?:script|img|iframe)[^>]*\bsrc=\"?([^\"\s>]+)", text)
         loaded += re.findall(r"<link[^>]*rel=\"?(?:stylesheet|preload|preconnect)[^>]*href=\"?([^\"\s>]+)", text)
         assert [link for link in loaded if re.match(r"(?:https?:)?//", link)] == []
+
+
+@pytest.mark.skipif(not (BROWSER and DRIVER), reason="no chromium with chromedriver is installed")
+def test_the_site_is_searched_from_disk(site: Path, tmp_path: Path) -> None:
+    """A page opened as a file finds words of other pages: no server, no worker."""
+    selenium = pytest.importorskip("selenium.webdriver", reason="selenium is not installed: pip install '.[test]'")
+    waiting = pytest.importorskip("selenium.webdriver.support.wait")
+    options = selenium.ChromeOptions()
+    options.binary_location = BROWSER
+    for flag in (*FLAGS, f"user-data-dir={tmp_path}"):
+        options.add_argument(f"--{flag}")
+    driver = selenium.Chrome(options=options, service=selenium.ChromeService(executable_path=DRIVER))
+    try:
+        driver.get((site / "tolerances.html").as_uri())
+        driver.execute_script("document.getElementById('__search').click()")
+        driver.find_element("css selector", "input.md-search__input").send_keys("hexapod")
+        links = waiting.WebDriverWait(driver, 60).until(
+            lambda shown: shown.find_elements("css selector", ".md-search-result__item a")
+        )
+        found = [link.get_attribute("href") for link in links]
+    finally:
+        driver.quit()
+    assert any(link.startswith((site / "hexapod.html").as_uri()) for link in found)
 
 
 # The runner itself: a sample that is wrong is found.
