@@ -83,6 +83,17 @@ def test_standard_deviations_are_those_of_repeated_measurements() -> None:
     assert 0.3 < (sum(x * x for x in off) / len(off)) ** 0.5 < 2
 
 
+def test_residuals_are_drawn_whatever_the_unit_and_the_settings_are() -> None:
+    mpl = pytest.importorskip("matplotlib")
+    from pkm_exact.pictures.output import figure_bytes
+    from pkm_exact.pictures.residuals import residuals_figure
+
+    drawn = [figure_bytes(residuals_figure([[0.1, 0.2]], [[0.0, 0.1]], "$\\q"), "svg")]
+    with mpl.rc_context({"axes.facecolor": "red", "font.size": 20}):
+        drawn.append(figure_bytes(residuals_figure([[0.1, 0.2]], [[0.0, 0.1]], "$\\q"), "svg"))
+    assert drawn[0] == drawn[1]
+
+
 def test_the_command_writes_model_covariance_and_picture(tmp_path: Path, capsys: Capture) -> None:
     pytest.importorskip("matplotlib")
     legs = _true(read_robot(MODEL), 4)

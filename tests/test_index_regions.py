@@ -184,6 +184,24 @@ def test_what_has_no_meaning_is_refused(tmp_path: Path, capsys: pytest.CaptureFi
     assert not list(tmp_path.glob("a.json*"))
 
 
+def test_a_picture_that_cannot_be_drawn_is_refused_before_the_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def never(*_: object, **__: object) -> None:
+        pytest.fail("the region was looked at")
+
+    pytest.importorskip("matplotlib")
+    monkeypatch.setattr("pkm_exact.regions.region_solver.answered", never)
+    question = tmp_path / "question.toml"
+    lines = "[region]\nposition = [[0, 1], [0, 1], [700, 800]]\nrpy_degrees = [0, 0, [0, 1]]\n[conditions]\n"
+    question.write_text(f"{lines}no_type_2 = true\n[answer]\nkind = 'map'\n")
+    command = ["region", str(FILES["rolland-6-6"]), str(question), "--picture"]
+    assert main([*command, str(tmp_path / "a.png")]) == 2
+    assert "more than three variables are not drawn" in capsys.readouterr().err
+    assert main([*command, str(tmp_path / "a.gif")]) == 2
+    assert "no known format of pictures" in capsys.readouterr().err
+
+
 def test_a_certificate_that_cannot_be_written_is_refused_before_the_work(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -107,6 +107,12 @@ def _require_outputs(model: str, question: str, asked: RegionQuestion, output: s
         raise InputError(f"{question}: answer.kind: {kind} has neither certificate nor picture; leave -o out")
     if kind == "threshold" and picture is not None:
         raise InputError(f"{question}: answer.kind: a threshold has no picture; leave --picture out")
+    if picture is not None:
+        from pkm_exact.pictures.output import picture_format
+        from pkm_exact.pictures.region_figure import require_drawable
+
+        picture_format(Path(picture))
+        require_drawable(asked.chart)
     for path, option in ((output, "-o"), (picture, "--picture")):
         if path is not None:
             arguments.require_other_file(Path(path), model, option)

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pkm_exact.errors import InputError, PkmExactError
+from pkm_exact.errors import InputError
+from pkm_exact.pictures import style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -31,17 +32,14 @@ def polytope_figure(
     Raises
     ------
     InputError
-        If it has another dimension.
-    PkmExactError
-        If matplotlib is not installed.
+        If it has another dimension, or matplotlib is not installed.
     """
     _require_drawable(polytope)
-    try:
+    with style.plain_style():
         from matplotlib.figure import Figure
-    except ImportError:
-        raise PkmExactError("picture: matplotlib is not installed; pip install 'pkm_exact[plots]'") from None
-    figure = Figure(figsize=(5, 5), layout="constrained")
-    draw_polytope(figure, (1, 1, 1), polytope, names, None if ellipsoid is None else ellipsoid.matrix.to_numpy())
+
+        figure = Figure(figsize=(5, 5), layout="constrained")
+        draw_polytope(figure, (1, 1, 1), polytope, names, None if ellipsoid is None else ellipsoid.matrix.to_numpy())
     return figure
 
 

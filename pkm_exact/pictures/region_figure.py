@@ -19,11 +19,19 @@ from pkm_exact.regions.paving import INSIDE, OUTSIDE, UNDECIDED, leaves
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from pkm_exact.regions.chart import Chart
     from pkm_exact.regions.region_solver import RegionAnswer
 
 COLOURS: Final = {INSIDE: "#0072B2", OUTSIDE: "#E8E8E8", UNDECIDED: "#E69F00"}
 _SHADES: Final = ("#00598E", "#3392C8", "#7FBDE0")
 _NAMES: Final = {INSIDE: "inside", OUTSIDE: "outside", UNDECIDED: "undecided"}
+
+
+def require_drawable(chart: Chart) -> None:
+    """Refuse to draw a region of more than three variables, or without matplotlib."""
+    style.require_matplotlib()
+    if len(chart.variables) > len(POSITIONS):
+        raise InputError("--picture: regions of more than three variables are not drawn; leave it out")
 
 
 def region_figure(answer: RegionAnswer) -> Figure:
@@ -37,9 +45,8 @@ def region_figure(answer: RegionAnswer) -> Figure:
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
+    require_drawable(answer.question.chart)
     count = len(answer.question.chart.variables)
-    if count > len(POSITIONS):
-        raise InputError("--picture: regions of more than three variables are not drawn; leave it out")
     pairs = list(combinations(range(count), 2)) or [(0, 0)]
     rows = columns = 2 if count == len(POSITIONS) else 1
     with style.plain_style():
