@@ -33,7 +33,7 @@ def test_positions_in_a_tube_are_near_its_path(name: str, turned: str) -> None:
     question = question_from_toml(text, machine)
     assert question.enlarged is (name == "mssm")
     asked_here = asked_of(machine, question.chart, question.conditions)
-    judge = PointJudge(asked_here, question.region(asked_here.pose, machine.metric))
+    judge = PointJudge(asked_here, question.region(asked_here, machine.metric))
     roots = [float(g) ** 0.5 for g in machine.metric]
     seen = set()
     for shares in product((0, 1, 2, 3, 4), repeat=len(question.chart.variables)):

@@ -69,6 +69,8 @@ def require_words(machine: RegionMachine, question: RegionQuestion) -> None:
         raise InputError("-o: certificates have no word for bounds of indices and forces; leave -o out")
     if "limits" in question.conditions.asked and machine.leg_distance is not None:
         raise InputError("-o: certificates have no word for a least distance of legs; leave -o out")
+    if question.joints:
+        raise InputError("-o: certificates have no word for regions of joint values; leave -o out")
     if question.tube is not None:
         raise InputError("-o: certificates have no word for tubes; leave -o out")
     if question.chart.arc is not None:

@@ -49,7 +49,7 @@ def arc_area(machine: RegionMachine, question: RegionQuestion) -> ArcArea | None
     chart, conditions = question.chart, question.conditions
     own = all(isinstance(leg.actuator, OwnLength | OnSlide) and leg.axis is None for leg in machine.legs)
     plain = machine.base_cones is None and machine.platform_cones is None and not question.shape
-    plain = plain and machine.leg_distance is None and question.tube is None
+    plain = plain and machine.leg_distance is None and question.tube is None and not question.joints
     lengths = "limits" in conditions.names and not set(conditions.names) - {"limits", "reachable"}
     if chart.variables != ("x", "y") or not (own and plain and lengths):
         return None

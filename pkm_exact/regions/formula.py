@@ -78,6 +78,7 @@ def beyond(region: Formula) -> Formula:
     -x positive
     """
     if isinstance(region, Atom):
-        return Atom("beyond the region", -region.polynomial, Sign.POSITIVE)
+        loose = region.polynomial if region.loose is None else region.loose
+        return Atom("beyond the region", -loose, Sign.POSITIVE, None if region.loose is None else -region.polynomial)
     parts = tuple(beyond(part) for part in region.parts)
     return Some(parts) if isinstance(region, All) else All(parts)

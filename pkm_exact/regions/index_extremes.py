@@ -59,7 +59,7 @@ def index_range(machine: RegionMachine, question: RegionQuestion) -> IndexRange:
     above, below = index_square(name, machine, pose, placed, structural_rows(machine, pose), question.conditions.length)
     common = above.gcd(below)
     quotient = Quotient(above / common, below / common)
-    formula: Formula = All((question.region(asked.pose, machine.metric), asked.formula))
+    formula: Formula = All((question.region(asked, machine.metric), asked.formula))
     atoms = list({id(atom): atom for atom in atoms_of(formula)}.values())
     ready = compiled_formula(formula, atoms, asked.roots, chart.box)
     axes = axes_of(machine, chart.variables, chart.box, question.answer.steps)

@@ -118,7 +118,7 @@ def _way(machine: RegionMachine, question: RegionQuestion) -> Callable[[int, int
     good poses then.
     """
     ball = ball_of(question.shape, machine.metric)
-    is_plain = question.conditions.names == ("reachable",)
+    is_plain = question.conditions.names == ("reachable",) and not question.joints
     if question.any_axis is not None and not is_plain:
         raise InputError("region.any_axis_degrees: goes with the condition reachable alone")
     is_straight = not any(isinstance(leg.actuator, OnCrank) or leg.axis is not None for leg in machine.legs)
@@ -139,7 +139,7 @@ def _in_chart(machine: RegionMachine, question: RegionQuestion, k: int, way: int
     chart = question.chart
     asked = asked_of(machine, chart, question.conditions)
     _, placed = placed_legs(machine, chart, question.conditions)
-    formula: Formula = All((question.region(asked.pose, machine.metric), asked.formula))
+    formula: Formula = All((question.region(asked, machine.metric), asked.formula))
     wanted = joint_quotient(placed[k], asked.roots, _middle(chart.box))
     return _extreme(wanted, formula, asked.roots, machine, question, chart.variables, chart.box, way)
 

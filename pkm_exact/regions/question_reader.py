@@ -24,7 +24,7 @@ from pkm_exact.regions.chart import POSITIONS, TURNS, Arc, Chart
 from pkm_exact.regions.index_quotients import INDEX_NAMES
 from pkm_exact.regions.path_tubes import tube_about
 from pkm_exact.regions.region_conditions import CONDITIONS, Conditions
-from pkm_exact.regions.region_legs import RegionMachine
+from pkm_exact.regions.region_legs import OnHinge, OwnLength, RegionMachine
 from pkm_exact.regions.region_question import (
     ANSWERS,
     DEFAULT_BOXES,
@@ -77,11 +77,19 @@ def question_from_toml(text: str, machine: RegionMachine) -> RegionQuestion:
     conditions = _conditions(table["conditions"], machine)
     answer = _answer(table["answer"], machine)
     region = table["region"]
-    known_keys(region, (*_SHAPES, *_TURNED), "region")
+    known_keys(region, (*_SHAPES, *_TURNED, "joints"), "region")
     if answer.kind == "largest":
-        if given := [key for key in _SHAPES if key in region]:
+        if given := [key for key in (*_SHAPES, "joints") if key in region]:
             raise InputError(f"region.{given[0]}: the answer largest has a shape of its own; remove it")
         return largest_question(_turned(region, machine), machine, conditions, answer, Fraction(1))
+    joints = _joints(region, machine, conditions, answer)
+    return replace(_of_poses(region, machine, conditions, answer), joints=joints)
+
+
+def _of_poses(
+    region: dict[str, Any], machine: RegionMachine, conditions: Conditions, answer: WantedAnswer
+) -> RegionQuestion:
+    """The question about the poses of a region, whatever their joint values are."""
     if "arc" in region:
         return RegionQuestion(_on_arc(region, machine), (), conditions, answer)
     if "tube" in region:
@@ -92,6 +100,34 @@ def question_from_toml(text: str, machine: RegionMachine) -> RegionQuestion:
     if not chart.variables and any_axis is None:
         raise InputError("region: is a single pose; give an interval for a coordinate, or ask `legs`")
     return RegionQuestion(chart, shape, conditions, answer, enlarged or any_axis is not None, any_axis)
+
+
+def _joints(
+    region: dict[str, Any], machine: RegionMachine, conditions: Conditions, answer: WantedAnswer
+) -> tuple[Pair, ...]:
+    """Between which joint values a region lies: of each leg, in degrees of cranks; nothing if none are given."""
+    if "joints" not in region:
+        return ()
+    where, count = "region.joints", len(machine.legs)
+    if answer.kind == "locus":
+        raise InputError(f"{where}: a locus does not depend on them; remove them")
+    if "any_axis_degrees" in region:
+        raise InputError(f"{where}: does not go with any_axis_degrees; give rpy_degrees")
+    rows = list_field(region["joints"], where, count)
+    if len(rows) != count:
+        raise InputError(f"{where}: {len(rows)} pairs; give one for each of {count} legs: [[least, greatest], ..]")
+    pairs = tuple(_pair(row, f"{where}[{i}]") for i, row in enumerate(rows, 1))
+    for leg, (low, _), mode in zip(machine.legs, pairs, conditions.modes, strict=True):
+        if isinstance(leg.actuator, OnHinge):
+            raise InputError(f"{where}: {leg.name} is driven at its hinge, whose values regions do not know")
+        if isinstance(leg.actuator, OwnLength) and low < 0:
+            raise InputError(f"{where}: {shown(low)} is negative; a length is 0 or more")
+        if not isinstance(leg.actuator, OwnLength) and not mode:
+            raise InputError(
+                f"conditions.working_modes: {leg.name} has two working modes, and region.joints depends on them; give "
+                'one sign for each leg, such as ["+", "+", "-"]'
+            )
+    return pairs
 
 
 def _on_arc(region: dict[str, Any], machine: RegionMachine) -> Chart:

@@ -75,12 +75,14 @@ class Asked:
     determinant : polynomial or None
         Of the constraints, if it is asked for: its sign separates poses.
     pose : PosePolynomials
+    placed : tuple of PlacedLeg
     """
 
     formula: Formula
     roots: tuple[Polynomial, ...]
     determinant: Polynomial | None
     pose: PosePolynomials
+    placed: tuple[PlacedLeg, ...] = ()
 
 
 def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> Asked:
@@ -98,7 +100,7 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
     parts: list[Formula] = []
     parts += [Atom(f"{leg.leg.name} reaches", leg.root) for leg in placed if leg.root is not None]
     if "limits" in conditions.asked:
-        parts += [part for leg in placed for part in _reach(leg)]
+        parts += [part for leg in placed for part in within_reach(leg)]
         parts += _cones(machine, placed, pose) + _position(machine, pose)
         parts += legs_apart(machine, pose, placed, chart.box)
     if "no_type_1" in conditions.asked:
@@ -109,7 +111,7 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
         parts.append(Atom("the determinant of the constraints", determinant, Sign.NOT_ZERO))
     parts += _indices(machine, pose, placed, conditions) + _forces(machine, pose, placed, conditions)
     roots = tuple(leg.root for leg in placed if leg.root is not None)
-    return Asked(All(tuple(parts)), roots, determinant, pose)
+    return Asked(All(tuple(parts)), roots, determinant, pose, tuple(placed))
 
 
 def _indices(
@@ -203,7 +205,8 @@ def _keeps_its_mode(leg: PlacedLeg) -> Atom:
     return Atom(f"{leg.leg.name} keeps its working mode", leg.root, Sign.POSITIVE)
 
 
-def _reach(leg: PlacedLeg) -> list[Formula]:
+def within_reach(leg: PlacedLeg) -> list[Formula]:
+    """That the joint value of a leg is within its reach, if it has one."""
     if leg.leg.reach is None:
         return []
     low, high = leg.leg.reach

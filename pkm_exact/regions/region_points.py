@@ -118,10 +118,13 @@ class PointJudge:
 
 
 class CounterexampleSearch:
-    """Points looked at one after another, until one refutes that all of a region is good."""
+    """Points looked at one after another, until one refutes that all of a region is good.
 
-    def __init__(self, judge: PointJudge) -> None:
-        self._judge = judge
+    Two points refute it only if the region is connected.
+    """
+
+    def __init__(self, judge: PointJudge, *, is_connected: bool = True) -> None:
+        self._judge, self._is_connected = judge, is_connected
         self._signs: dict[int, Point] = {}
         self.found: Counterexample | None = None
 
@@ -136,7 +139,7 @@ class CounterexampleSearch:
             if reason is not None:
                 self.found = Counterexample((point,), reason)
                 return
-            sign = self._judge.determinant_sign(point)
+            sign = self._judge.determinant_sign(point) if self._is_connected else 0
             if sign and -sign in self._signs:
                 ends = self._signs[-sign], point
                 self.found = Counterexample(ends, "the determinant of the constraints changes its sign")

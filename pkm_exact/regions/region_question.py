@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Final
 
 from pkm_exact.geometry.inverse import Metric
-from pkm_exact.regions.chart import Chart, PosePolynomials
-from pkm_exact.regions.formula import All, Formula
+from pkm_exact.geometry.limits import Pair
+from pkm_exact.regions.chart import Chart
+from pkm_exact.regions.formula import All, Atom, Formula
 from pkm_exact.regions.index_quotients import INDEX_NAMES
 from pkm_exact.regions.path_tubes import Tube, inside_tube
-from pkm_exact.regions.region_conditions import Conditions
+from pkm_exact.regions.region_conditions import Asked, Conditions, within_reach
 from pkm_exact.regions.region_shapes import Quadratic, inside_atom
 
 ANSWERS: Final = ("all", "map", "largest", "locus", "extremes", "threshold")
@@ -75,6 +76,8 @@ class RegionQuestion:
         All turns about any axis, of which the square of the tangent of half the angle is at most so much.
     tube : Tube or None
         That the region is, besides.
+    joints : tuple of pairs of Fraction
+        For each leg between which values of its joint the region lies, besides; none if that does not matter.
     """
 
     chart: Chart
@@ -84,8 +87,20 @@ class RegionQuestion:
     enlarged: bool = field(default=False)
     any_axis: Fraction | None = None
     tube: Tube | None = None
+    joints: tuple[Pair, ...] = ()
 
-    def region(self, pose: PosePolynomials, metric: Metric) -> All:
+    @property
+    def is_connected(self) -> bool:
+        """Whether any two poses of the region are joined by a path in it; of joint values that is not known."""
+        return not self.joints
+
+    def region(self, asked: Asked, metric: Metric) -> All:
         """That a pose of the chart is in the region."""
-        parts: list[Formula] = [inside_atom(part, pose) for part in self.shape]
-        return All((*parts, *(() if self.tube is None else (inside_tube(self.tube, pose, metric),))))
+        parts: list[Formula] = [inside_atom(part, asked.pose) for part in self.shape]
+        if self.tube is not None:
+            parts.append(inside_tube(self.tube, asked.pose, metric))
+        for leg, pair in zip(asked.placed, self.joints, strict=False):
+            if leg.root is not None:
+                parts.append(Atom(f"{leg.leg.name} reaches", leg.root))
+            parts += within_reach(replace(leg, leg=replace(leg.leg, reach=pair)))
+        return All(tuple(parts))

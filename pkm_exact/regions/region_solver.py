@@ -138,7 +138,7 @@ def prepared(machine: RegionMachine, question: RegionQuestion) -> PreparedQuesti
     """
     chart = question.chart
     asked = asked_of(machine, chart, question.conditions)
-    region = question.region(asked.pose, machine.metric)
+    region = question.region(asked, machine.metric)
     if question.answer.kind == "map":
         formula: Formula = All((*region.parts, asked.formula))
     else:
@@ -214,7 +214,7 @@ def answered(
         As ``prepared``.
     """
     ready = prepared(machine, question)
-    search = CounterexampleSearch(PointJudge(ready.asked, ready.region))
+    search = CounterexampleSearch(PointJudge(ready.asked, ready.region), is_connected=question.is_connected)
     is_map = question.answer.kind == "map"
     start = Part(0, (0,) * len(ready.box))
     last = min(HEAD_STEPS, len(ready.axes))
