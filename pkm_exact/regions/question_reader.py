@@ -20,16 +20,14 @@ from pkm_exact.geometry.rational import parse_positive, parse_rational
 from pkm_exact.geometry.reader import parsed_toml
 from pkm_exact.geometry.rotation_degrees import half_turn_pair, is_exact_turn
 from pkm_exact.precision import working_precision
+from pkm_exact.regions.answer_reader import read_answer
 from pkm_exact.regions.chart import POSITIONS, TURNS, Arc, Chart
-from pkm_exact.regions.index_quotients import INDEX_NAMES
+from pkm_exact.regions.conditions_reader import read_conditions
 from pkm_exact.regions.path_tubes import tube_about
-from pkm_exact.regions.region_conditions import CONDITIONS, Conditions
+from pkm_exact.regions.question_fields import dimension, read_numbers, read_pair
+from pkm_exact.regions.region_conditions import Conditions
 from pkm_exact.regions.region_legs import OnHinge, OwnLength, RegionMachine
 from pkm_exact.regions.region_question import (
-    ANSWERS,
-    DEFAULT_BOXES,
-    DEFAULT_STEPS,
-    EXTREMES,
     RegionQuestion,
     WantedAnswer,
 )
@@ -39,9 +37,6 @@ from pkm_exact.wording import printable, shown
 _TABLES: Final = ("region", "conditions", "answer")
 _SHAPES: Final = ("position", "ball", "cylinder", "prism", "arc", "tube")
 _TURNED: Final = ("quaternion", "rpy_degrees", "degrees", "any_axis_degrees")
-_VALUED: Final = ("working_modes", "indices", "length", "forces")
-_MOST_STEPS: Final = 120
-_MOST_BOXES: Final = 10**8
 _MOST_CORNERS: Final = 64
 
 
@@ -74,8 +69,8 @@ def question_from_toml(text: str, machine: RegionMachine) -> RegionQuestion:
     for key in _TABLES:
         if not isinstance(table.get(key), dict):
             raise InputError(f"{key}: is missing or no table; write [{key}] and its keys below it")
-    conditions = _conditions(table["conditions"], machine)
-    answer = _answer(table["answer"], machine)
+    conditions = read_conditions(table["conditions"], machine)
+    answer = read_answer(table["answer"], machine)
     region = table["region"]
     known_keys(region, (*_SHAPES, *_TURNED, "joints"), "region")
     if answer.kind == "largest":
@@ -116,7 +111,7 @@ def _joints(
     rows = list_field(region["joints"], where, count)
     if len(rows) != count:
         raise InputError(f"{where}: {len(rows)} pairs; give one for each of {count} legs: [[least, greatest], ..]")
-    pairs = tuple(_pair(row, f"{where}[{i}]") for i, row in enumerate(rows, 1))
+    pairs = tuple(read_pair(row, f"{where}[{i}]") for i, row in enumerate(rows, 1))
     for leg, (low, _), mode in zip(machine.legs, pairs, conditions.modes, strict=True):
         if isinstance(leg.actuator, OnHinge):
             raise InputError(f"{where}: {leg.name} is driven at its hinge, whose values regions do not know")
@@ -142,9 +137,9 @@ def _on_arc(region: dict[str, Any], machine: RegionMachine) -> Chart:
     known_keys(table, ("center", "radius", "degrees"), where)
     if 0 not in machine.twist or set(machine.metric) != {1}:
         raise InputError(f"{where}: is for robots that move, in models without metric; give another shape")
-    center = _numbers(required(table, "center", f"{where}."), f"{where}.center", _dimension(machine))
+    center = read_numbers(required(table, "center", f"{where}."), f"{where}.center", dimension(machine))
     radius = parse_positive(required(table, "radius", f"{where}."), f"{where}.radius")
-    low, high = _pair(required(table, "degrees", f"{where}."), f"{where}.degrees")
+    low, high = read_pair(required(table, "degrees", f"{where}."), f"{where}.degrees")
     quarter = round((low + high) / 180)
     start = 90 * quarter
     if not -180 < low - start < high - start < 180:
@@ -172,7 +167,7 @@ def _in_tube(
     rows = list_field(required(table, "path", f"{where}."), f"{where}.path", 2)
     if not 2 <= len(rows) <= _MOST_CORNERS:
         raise InputError(f"{where}.path: {len(rows)} points; give 2 to {_MOST_CORNERS}")
-    corners = [_numbers(row, f"{where}.path[{i}]", _dimension(machine)) for i, row in enumerate(rows, 1)]
+    corners = [read_numbers(row, f"{where}.path[{i}]", dimension(machine)) for i, row in enumerate(rows, 1)]
     for i, (one, other) in enumerate(pairwise(corners), 2):
         if one == other:
             raise InputError(f"{where}.path[{i}]: is the point before it; remove it")
@@ -249,10 +244,6 @@ def _chart(position: Sequence[Any], turned: tuple[Any, Any]) -> Chart:
     return Chart(tuple(places), quaternion, tuple(names), tuple(variables), tuple(box))
 
 
-def _dimension(machine: RegionMachine) -> int:
-    return 2 if machine.motion == "planar" else 3
-
-
 def _shape(region: dict[str, Any], machine: RegionMachine) -> tuple[list[Any], tuple[Quadratic, ...], bool]:
     given = [key for key in _SHAPES if key in region]
     if not given and 0 not in machine.twist:
@@ -267,17 +258,17 @@ def _shape(region: dict[str, Any], machine: RegionMachine) -> tuple[list[Any], t
         raise InputError(f"region.{key}: {shown(table)} is not a table; write {{ .. }} with its keys")
     if key == "ball":
         known_keys(table, ("center", "radius"), "region.ball")
-        center = _numbers(required(table, "center", "region.ball."), "region.ball.center", _dimension(machine))
+        center = read_numbers(required(table, "center", "region.ball."), "region.ball.center", dimension(machine))
         radius = parse_positive(required(table, "radius", "region.ball."), "region.ball.radius")
         quadratic, sides = round_shape(center, radius, metric)
         return list(sides), (quadratic,), _is_irrational(center, metric)
-    if _dimension(machine) == 2:
+    if dimension(machine) == 2:
         raise InputError(f"region.{key}: the robot is planar; give position or ball")
     keys = ("center", "radius", "height") if key == "cylinder" else ("corners", "sides", "radius", "azimuth", "height")
     known_keys(table, keys, f"region.{key}")
-    height = side(_pair(required(table, "height", f"region.{key}."), f"region.{key}.height"), metric[2])
+    height = side(read_pair(required(table, "height", f"region.{key}."), f"region.{key}.height"), metric[2])
     if key == "cylinder":
-        center = _numbers(required(table, "center", "region.cylinder."), "region.cylinder.center", 2)
+        center = read_numbers(required(table, "center", "region.cylinder."), "region.cylinder.center", 2)
         radius = parse_positive(required(table, "radius", "region.cylinder."), "region.cylinder.radius")
         quadratic, sides = round_shape(center, radius, metric)
         return [*sides, height], (quadratic,), _is_irrational(center, metric) or not _has_roots(metric[2:])
@@ -293,7 +284,9 @@ def _corners(table: dict[str, Any]) -> tuple[tuple[Pair, ...], bool]:
         rows = list_field(table["corners"], f"{where}.corners", 3)
         if not 3 <= len(rows) <= _MOST_CORNERS:
             raise InputError(f"{where}.corners: {len(rows)} given; give 3 to {_MOST_CORNERS}")
-        points = tuple((x, y) for x, y in (_numbers(row, f"{where}.corners[{i}]", 2) for i, row in enumerate(rows, 1)))
+        points = tuple(
+            (x, y) for x, y in (read_numbers(row, f"{where}.corners[{i}]", 2) for i, row in enumerate(rows, 1))
+        )
         for (x1, y1), (x2, y2), (x3, y3) in zip(
             points, [*points[1:], points[0]], [*points[2:], *points[:2]], strict=True
         ):
@@ -316,33 +309,19 @@ def _corners(table: dict[str, Any]) -> tuple[tuple[Pair, ...], bool]:
 
 
 def _box(value: object, machine: RegionMachine) -> tuple[list[Any], tuple[Quadratic, ...], bool]:
-    rows = list_field(value, "region.position", _dimension(machine))
-    if len(rows) != _dimension(machine):
-        raise InputError(f"region.position: {len(rows)} entries; give {_dimension(machine)}, one for each coordinate")
+    rows = list_field(value, "region.position", dimension(machine))
+    if len(rows) != dimension(machine):
+        raise InputError(f"region.position: {len(rows)} entries; give {dimension(machine)}, one for each coordinate")
     found, enlarged = [], False
     for i, (row, g) in enumerate(zip(rows, machine.metric, strict=False), 1):
         where = f"region.position[{i}]"
-        pair = _pair(row, where) if isinstance(row, list) else (parse_rational(row, where),) * 2
+        pair = read_pair(row, where) if isinstance(row, list) else (parse_rational(row, where),) * 2
         irrational = _is_irrational(pair, (g, g))
         if irrational and pair[0] == pair[1]:
             raise InputError(f"{where}: {shown(row)} is not rational in the model's metric; give an interval around it")
         enlarged |= irrational
         found.append(side(pair, g))
     return found, (), enlarged
-
-
-def _pair(row: object, where: str) -> Pair:
-    values = _numbers(row, where, 2)
-    if values[0] >= values[1]:
-        raise InputError(f"{where}: {shown(values[0])} is not less than {shown(values[1])}; give [least, greatest]")
-    return values[0], values[1]
-
-
-def _numbers(row: object, where: str, count: int) -> tuple[Fraction, ...]:
-    rows = list_field(row, where, count)
-    if len(rows) != count:
-        raise InputError(f"{where}: {len(rows)} numbers; give {count}")
-    return tuple(parse_rational(value, f"{where}[{i}]") for i, value in enumerate(rows, 1))
 
 
 def _turned(region: dict[str, Any], machine: RegionMachine) -> tuple[Any, Any]:
@@ -361,7 +340,7 @@ def _turned(region: dict[str, Any], machine: RegionMachine) -> tuple[Any, Any]:
     if key not in _turned_keys(machine):
         raise InputError(f"region.{key}: is not for this robot; give one of {', '.join(_turned_keys(machine))}")
     if key == "quaternion":
-        numbers = _numbers(region[key], "region.quaternion", 4)
+        numbers = read_numbers(region[key], "region.quaternion", 4)
         if not any(numbers):
             raise InputError("region.quaternion: all four numbers are 0; give one that is not")
         return numbers, []
@@ -381,7 +360,7 @@ def _angle(value: object, where: str, axis: int, machine: RegionMachine) -> tupl
     weight = machine.metric[(axis + 1) % 3] * machine.metric[(axis + 2) % 3]
     root = isqrt(weight)
     if isinstance(value, list):
-        low, high = _pair(value, where)
+        low, high = read_pair(value, where)
         if not -180 < low < high < 180:
             raise InputError(f"{where}: {shown(low)} to {shown(high)} reaches 180 degrees; stay between -180 and 180")
         return (_half_tangent(low, weight, -1), _half_tangent(high, weight, 1)), True
@@ -408,120 +387,3 @@ def _half_tangent(degrees: Fraction, weight: int, way: int) -> Fraction:
         end = grid.upper() if way > 0 else grid.lower()
         whole = (end.ceil() if way > 0 else end.floor()).mid()
         return Fraction(int(str(whole.fmpz())), 2**80)
-
-
-def _conditions(table: dict[str, Any], machine: RegionMachine) -> Conditions:
-    same = {"no_constraint_singularity": "no_type_2", "one_working_mode": "no_type_1"}
-    known_keys(table, (*CONDITIONS, *same, *_VALUED), "conditions")
-    asked = set()
-    for key, value in table.items():
-        if key in _VALUED:
-            continue
-        if not isinstance(value, bool):
-            raise InputError(f"conditions.{key}: {shown(value)} is neither true nor false; write one of them")
-        if value:
-            asked.add(same.get(key, key))
-    indices, length = _indices(table)
-    load, most = _load(table, machine)
-    if not asked and not indices and not load:
-        raise InputError(f"conditions: nothing is asked; set one of {', '.join(CONDITIONS)} to true")
-    names = tuple(name for name in CONDITIONS if name in asked)
-    return Conditions(names, _modes(table, machine), indices, length, load, most)
-
-
-def _modes(table: dict[str, Any], machine: RegionMachine) -> tuple[int, ...]:
-    if "working_modes" not in table:
-        return (0,) * len(machine.legs)
-    words = list_field(table["working_modes"], "conditions.working_modes", len(machine.legs))
-    if len(words) != len(machine.legs) or not all(word in ("+", "-") for word in words):
-        raise InputError(
-            f'conditions.working_modes: give {len(machine.legs)} signs, one for each leg, such as ["+", "-", "+"]'
-        )
-    return tuple(1 if word == "+" else -1 for word in words)
-
-
-def _indices(table: dict[str, Any]) -> tuple[tuple[tuple[str, Fraction], ...], Fraction | None]:
-    """Bounds of indices, and the length that turns are multiplied by."""
-    length = parse_positive(table["length"], "conditions.length") if "length" in table else None
-    given = table.get("indices", {})
-    if not isinstance(given, dict):
-        raise InputError(f"conditions.indices: {shown(given)} is not a table; write {{ transmission = 0.5 }}")
-    known_keys(given, INDEX_NAMES, "conditions.indices")
-    return tuple((name, parse_positive(given[name], f"conditions.indices.{name}")) for name in sorted(given)), length
-
-
-def _load(table: dict[str, Any], machine: RegionMachine) -> tuple[tuple[Fraction, ...], Fraction]:
-    """A load on the platform, and the greatest force that may bear it."""
-    if "forces" not in table:
-        return (), Fraction(0)
-    given, count = table["forces"], len(machine.twist)
-    if not isinstance(given, dict):
-        raise InputError(f"conditions.forces: {shown(given)} is not a table; write {{ load = [..], most = 100 }}")
-    known_keys(given, ("load", "most"), "conditions.forces")
-    load = _numbers(required(given, "load", "conditions.forces."), "conditions.forces.load", count)
-    if not any(load):
-        raise InputError("conditions.forces.load: is 0; give a force, or a moment")
-    return load, parse_positive(required(given, "most", "conditions.forces."), "conditions.forces.most")
-
-
-def _answer(table: dict[str, Any], machine: RegionMachine) -> WantedAnswer:
-    known_keys(table, ("kind", "steps", "boxes", "shape", "about", "precision", "of", "parameter", "between"), "answer")
-    kind = required(table, "kind", "answer.")
-    if kind not in ANSWERS:
-        raise InputError(f"answer.kind: {shown(kind)} is unknown; use one of: {', '.join(ANSWERS)}")
-    steps = _count(table.get("steps", DEFAULT_STEPS), "answer.steps", _MOST_STEPS)
-    boxes = _count(table.get("boxes", DEFAULT_BOXES), "answer.boxes", _MOST_BOXES)
-    of = _extremes_of(table, kind)
-    if kind == "threshold":
-        return _threshold(table, steps, boxes)
-    if given := [key for key in ("parameter", "between") if key in table]:
-        raise InputError(f"answer.{given[0]}: belongs to the kind threshold; remove it")
-    if kind != "largest":
-        for key in ("shape", "about", *(() if of else ("precision",))):
-            if key in table:
-                raise InputError(f"answer.{key}: belongs to the kind largest; remove it")
-        return WantedAnswer(kind, steps, boxes, precision=_precision(table, "1/1000"), of=of)
-    shape = required(table, "shape", "answer.")
-    if shape not in ("cube", "ball"):
-        raise InputError(f"answer.shape: {shown(shape)} is unknown; use one of: cube, ball")
-    about = _numbers(required(table, "about", "answer."), "answer.about", _dimension(machine))
-    return WantedAnswer(kind, steps, boxes, shape, about, _precision(table, "1/100"))
-
-
-def _threshold(table: dict[str, Any], steps: int, boxes: int) -> WantedAnswer:
-    if given := [key for key in ("shape", "about") if key in table]:
-        raise InputError(f"answer.{given[0]}: belongs to the kind largest; remove it")
-    key = required(table, "parameter", "answer.")
-    if not isinstance(key, str) or not key:
-        raise InputError(
-            f"answer.parameter: {shown(key)} is no text; name a number of the model, such as dimensions.height"
-        )
-    between = _pair(required(table, "between", "answer."), "answer.between")
-    return WantedAnswer(
-        "threshold", steps, boxes, precision=_precision(table, "1/1000"), parameter=key, between=between
-    )
-
-
-def _extremes_of(table: dict[str, Any], kind: str) -> str:
-    """Of what the least and greatest values are asked; nothing if another answer is."""
-    if kind != "extremes":
-        if "of" in table:
-            raise InputError("answer.of: belongs to the kind extremes; remove it")
-        return ""
-    found = required(table, "of", "answer.")
-    if found not in EXTREMES:
-        raise InputError(f"answer.of: {shown(found)} is unknown; use one of: {', '.join(EXTREMES)}")
-    return str(found)
-
-
-def _precision(table: dict[str, Any], usual: str) -> Fraction:
-    precision = parse_positive(table.get("precision", usual), "answer.precision")
-    if not Fraction(1, 10**6) <= precision <= 1:
-        raise InputError(f"answer.precision: {shown(precision)} is out of range; give a number from 1e-6 to 1")
-    return precision
-
-
-def _count(value: object, where: str, most: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= most:
-        raise InputError(f"{where}: {shown(value)} is out of range; give a whole number from 1 to {most}")
-    return value
