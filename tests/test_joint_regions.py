@@ -81,6 +81,13 @@ def test_what_lies_between_joint_values_is_proved_though_the_box_is_not() -> Non
     assert (whole.is_proved, whole.counterexample) == (False, None)
 
 
+def test_joint_values_that_no_pose_has_prove_nothing() -> None:
+    machine, line = region_machine(model("3-rpr-merlet-p")), "position = [[1, 4], 5]\ndegrees = 0\n"
+    for joints in ("[[7, 8], [0, 99], [0, 99]]", "[['5.5', 6], [9, 10], [0, 99]]"):
+        with pytest.raises(InputError, match="no pose of the shape is shown to have such joint values"):
+            asked(machine, f"{line}joints = {joints}", "no_type_2 = true")
+
+
 def test_a_map_has_the_poses_of_these_joint_values(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Of a leg from the origin between 3 and 4: a quarter of a ring, of area 7 pi / 4; it has no certificate."""
     machine = region_machine(model("3-rpr-merlet-p"))

@@ -85,7 +85,7 @@ def _largest_text(answer: LargestAnswer) -> str:
     lines = [f"{answer.proved.machine.name}: {', '.join(answer.proved.question.conditions.names)}"]
     lines.append(f"proved: all poses of the {wanted.shape} with {what} {rounded_down(answer.size)} are good")
     if answer.refused is None or answer.refused_size is None:
-        lines.append("no size that was tried is refuted: larger ones were not")
+        lines.append("larger sizes were not tried")
     else:
         word = "refuted" if answer.refused.counterexample is not None else "not proved"
         lines.append(f"{word}: {what} {rounded_up(answer.refused_size)}")

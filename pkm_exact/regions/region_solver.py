@@ -9,6 +9,7 @@ from functools import cached_property
 from itertools import product
 from typing import Any, Final, Protocol
 
+from pkm_exact.errors import InputError
 from pkm_exact.regions.chart import POSITIONS
 from pkm_exact.regions.compiled_formula import CompiledFormula, compiled_formula
 from pkm_exact.regions.formula import All, Formula, Some, atoms_of, beyond
@@ -216,6 +217,8 @@ def answered(
     ready = prepared(machine, question)
     search = CounterexampleSearch(PointJudge(ready.asked, ready.region), is_connected=question.is_connected)
     is_map = question.answer.kind == "map"
+    if question.joints and not is_map:
+        _require_poses(ready)
     start = Part(0, (0,) * len(ready.box))
     last = min(HEAD_STEPS, len(ready.axes))
     head = pave(ready.compiled, ready.axes, start, last, most=question.answer.boxes, stop_outside=not is_map)
@@ -237,6 +240,22 @@ def answered(
             if search.found is None:
                 _look(search, ready, word, part)
     return replace(result, word=spliced(head.word, words), counterexample=search.found)
+
+
+def _require_poses(ready: PreparedQuestion) -> None:
+    """Refuse joint values that no pose is shown to have: all poses of nothing are good."""
+    atoms = {id(atom): atom for atom in atoms_of(ready.region)}
+    region = compiled_formula(ready.region, list(atoms.values()), ready.asked.roots, ready.box)
+    start = Part(0, (0,) * len(ready.box))
+    for last in range(0, len(ready.axes) + 1, 4):
+        word = pave(region, ready.axes, start, last, most=ready.question.answer.boxes).word
+        if INSIDE in word:
+            return
+        if UNDECIDED not in word:
+            break
+    raise InputError(
+        "region.joints: no pose of the shape is shown to have such joint values; give others or more steps"
+    )
 
 
 def _look(search: CounterexampleSearch, ready: PreparedQuestion, word: str, start: Part) -> None:
