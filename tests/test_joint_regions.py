@@ -109,7 +109,7 @@ def test_a_map_has_the_poses_of_these_joint_values(tmp_path: Path, capsys: pytes
         ("3-rpr-merlet-p", "[[1, 2]]", "'all'", "1 pairs; give one for each of 3 legs"),
         ("3-rpr-merlet-p", "[[2, 1], [1, 2], [1, 2]]", "'all'", r"joints\[1\]: 2 is not less than 1"),
         ("3-rpr-merlet-p", "[[-1, 1], [1, 2], [1, 2]]", "'all'", "a length is 0 or more"),
-        ("3-rpr-merlet-p", "[[0, 1], [1, 2], [1, 2]]", "'locus'", "a locus does not depend on them"),
+        ("3-rpr-merlet-p", "[[0, 1], [1, 2], [1, 2]]", "'locus'", "does not go with the answer locus"),
         ("3-rrr", "[[0, 1], [1, 2], [1, 2]]", "'all'", "region.joints depends on them"),
         ("3-rpr-turned", "[[0, 1], [1, 2], [1, 2]]", "'all'", "driven at its hinge"),
         ("3-rpr-merlet-p", "[[0, 1], [1, 2], [1, 2]]", "'largest'", "has a shape of its own"),

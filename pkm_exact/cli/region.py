@@ -51,7 +51,7 @@ def region(
     orientation or intervals of angles), what is asked of its poses ([conditions]: reachable, limits, no_type_1,
     no_type_2), and which answer is wanted ([answer]: all of it proved or a counterexample; a map; the largest cube or
     ball; the locus of singular poses; extremes of joint values or indices; between which values of a number of the
-    model it changes).
+    model it changes; for which designs it is yes).
 
     With -o an interrupted run leaves CERT.json.partial; the same command goes on from there, to the same bytes.
 
@@ -82,6 +82,8 @@ def region(
         return _locus(machine, asked, question, layout)
     if asked.answer.kind == "extremes":
         return _extremes(machine, asked, question, layout, verbose=verbose)
+    if asked.answer.kind == "designs":
+        return _designs(machine, asked, question, layout, verbose=verbose)
     if asked.answer.kind == "threshold":
         return _threshold(model, asked, question, output, layout, verbose=verbose)
     from pkm_exact.interactive.progress import Progress
@@ -103,7 +105,7 @@ def region(
 def _require_outputs(model: str, question: str, asked: RegionQuestion, output: str | None, picture: str | None) -> None:
     """Refuse files that the answer does not have, and those that must not be written."""
     kind = asked.answer.kind
-    if kind in ("locus", "extremes") and (output or picture):
+    if kind in ("locus", "extremes", "designs") and (output or picture):
         raise InputError(f"{question}: answer.kind: {kind} has neither certificate nor picture; leave -o out")
     if kind == "threshold" and picture is not None:
         raise InputError(f"{question}: answer.kind: a threshold has no picture; leave --picture out")
@@ -165,6 +167,21 @@ def _threshold(
     said = extremes_report.threshold_json if layout == "json" else extremes_report.threshold_text
     sys.stdout.write(said(asked, found))
     return ExitCode.DONE if found.is_precise else ExitCode.WEAKER_CLAIM
+
+
+def _designs(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str, *, verbose: bool) -> int:
+    from pkm_exact.cli import designs_report
+    from pkm_exact.interactive.progress import Progress
+    from pkm_exact.regions.region_designs import designs
+
+    try:
+        with Progress(verbose=verbose) as progress:
+            found = designs(machine, asked, progress=lambda count: progress(f"{count} boxes of designs"))
+    except InputError as error:
+        raise InputError(f"{question}: {error}") from None
+    said = designs_report.as_json if layout == "json" else designs_report.as_text
+    sys.stdout.write(said(machine, asked, found))
+    return ExitCode.DONE
 
 
 def _extremes(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str, *, verbose: bool) -> int:

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from pkm_exact.regions.index_extremes import IndexRange
     from pkm_exact.regions.joint_ranges import JointRange
     from pkm_exact.regions.largest_region import LargestAnswer
+    from pkm_exact.regions.region_designs import Designs
     from pkm_exact.regions.region_solver import RegionAnswer
     from pkm_exact.regions.singularity_locus import Locus
     from pkm_exact.statics.at_pose import AtPose
@@ -162,7 +163,7 @@ class Asked(Machine):
 
     def region(
         self, question: str | os.PathLike[str], *, workers: int = 1
-    ) -> RegionAnswer | LargestAnswer | Locus | IndexRange | tuple[JointRange, ...]:
+    ) -> RegionAnswer | LargestAnswer | Locus | IndexRange | tuple[JointRange, ...] | Designs:
         """The answer to a question about all poses of a region.
 
         Parameters
@@ -189,6 +190,7 @@ class Asked(Machine):
         from pkm_exact.regions.joint_ranges import joint_ranges
         from pkm_exact.regions.largest_region import largest
         from pkm_exact.regions.question_reader import of_size, question_from_toml, read_question
+        from pkm_exact.regions.region_designs import designs
         from pkm_exact.regions.region_legs import region_machine
         from pkm_exact.regions.region_solver import answered
         from pkm_exact.regions.region_workers import workers as working
@@ -201,6 +203,8 @@ class Asked(Machine):
             raise InputError("answer.kind: a threshold varies a number of a model file; use `certify-poses region`")
         if asked.answer.kind == "locus":
             return locus(machine, asked)
+        if asked.answer.kind == "designs":
+            return designs(machine, asked)
         if asked.answer.kind == "extremes":
             return joint_ranges(machine, asked) if asked.answer.of == "joint_values" else index_range(machine, asked)
         with working(machine, workers) as run:

@@ -8,6 +8,7 @@ from typing import Any, Final
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.fields import known_keys, required
 from pkm_exact.geometry.rational import parse_positive
+from pkm_exact.regions.design_parameters import require_known
 from pkm_exact.regions.question_fields import dimension, read_numbers, read_pair
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_question import (
@@ -19,6 +20,8 @@ from pkm_exact.regions.region_question import (
 )
 from pkm_exact.wording import shown
 
+MOST_PARAMETERS: Final = 4
+DEFAULT_DESIGN_BOXES: Final = 2000
 _MOST_STEPS: Final = 120
 _MOST_BOXES: Final = 10**8
 
@@ -31,10 +34,18 @@ def read_answer(table: dict[str, Any], machine: RegionMachine) -> WantedAnswer:
     InputError
         With field, value and remedy.
     """
-    known_keys(table, ("kind", "steps", "boxes", "shape", "about", "precision", "of", "parameter", "between"), "answer")
+    known_keys(
+        table,
+        ("kind", "steps", "boxes", "shape", "about", "precision", "of", "parameter", "between", "parameters"),
+        "answer",
+    )
     kind = required(table, "kind", "answer.")
     if kind not in ANSWERS:
         raise InputError(f"answer.kind: {shown(kind)} is unknown; use one of: {', '.join(ANSWERS)}")
+    if kind == "designs":
+        return _designs(table, machine)
+    if "parameters" in table:
+        raise InputError("answer.parameters: belongs to the kind designs; remove it")
     steps = _count(table.get("steps", DEFAULT_STEPS), "answer.steps", _MOST_STEPS)
     boxes = _count(table.get("boxes", DEFAULT_BOXES), "answer.boxes", _MOST_BOXES)
     of = _extremes_of(table, kind)
@@ -52,6 +63,26 @@ def read_answer(table: dict[str, Any], machine: RegionMachine) -> WantedAnswer:
         raise InputError(f"answer.shape: {shown(shape)} is unknown; use one of: cube, ball")
     about = read_numbers(required(table, "about", "answer."), "answer.about", dimension(machine))
     return WantedAnswer(kind, steps, boxes, shape, about, _precision(table, "1/100"))
+
+
+def _designs(table: dict[str, Any], machine: RegionMachine) -> WantedAnswer:
+    known_keys(table, ("kind", "steps", "boxes", "precision", "parameters"), "answer")
+    given = required(table, "parameters", "answer.")
+    if not isinstance(given, dict) or not 1 <= len(given) <= MOST_PARAMETERS:
+        raise InputError(
+            f'answer.parameters: give a table of 1 to {MOST_PARAMETERS} numbers, such as {{ "base.scale" = [1, 2] }}'
+        )
+    found = []
+    for key, ends in given.items():
+        require_known(key, machine)
+        found.append((key, read_pair(ends, f"answer.parameters.{key}")))
+    return WantedAnswer(
+        "designs",
+        _count(table.get("steps", DEFAULT_STEPS), "answer.steps", _MOST_STEPS),
+        _count(table.get("boxes", DEFAULT_DESIGN_BOXES), "answer.boxes", _MOST_BOXES),
+        precision=_precision(table, "1/100"),
+        parameters=tuple(found),
+    )
 
 
 def _threshold(table: dict[str, Any], steps: int, boxes: int) -> WantedAnswer:

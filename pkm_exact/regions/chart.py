@@ -45,6 +45,22 @@ class Arc:
 
 
 @dataclass(frozen=True)
+class Parameter:
+    """A number of the robot that is a variable of a chart.
+
+    Attributes
+    ----------
+    name : str
+        Of the variable.
+    key : str
+        Which number (``design_parameters``).
+    """
+
+    name: str
+    key: str
+
+
+@dataclass(frozen=True)
 class Chart:
     """Which poses a region has.
 
@@ -62,6 +78,8 @@ class Chart:
         Their intervals.
     arc : Arc or None
         If there is one, x and y run along it with the variable "arc".
+    parameters : tuple of Parameter
+        Variables, the last ones, that are numbers of the robot.
     """
 
     position: tuple[Fraction | str, ...]
@@ -70,6 +88,7 @@ class Chart:
     variables: tuple[str, ...]
     box: tuple[Pair, ...]
     arc: Arc | None = None
+    parameters: tuple[Parameter, ...] = ()
 
     @property
     def has_fixed_orientation(self) -> bool:
@@ -91,8 +110,10 @@ class PosePolynomials:
         return self.ring.constant(rational(value))
 
 
-def rational(value: Fraction | int) -> fmpq:
-    """The number as FLINT has it."""
+def rational(value: Any) -> Any:
+    """The number as FLINT has it; a polynomial in the place of a number as it is."""
+    if isinstance(value, fmpq_mpoly):
+        return value
     number = Fraction(value)
     return fmpq(number.numerator, number.denominator)
 

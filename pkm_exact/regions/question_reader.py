@@ -104,8 +104,8 @@ def _joints(
     if "joints" not in region:
         return ()
     where, count = "region.joints", len(machine.legs)
-    if answer.kind == "locus":
-        raise InputError(f"{where}: a locus does not depend on them; remove them")
+    if answer.kind in ("locus", "designs"):
+        raise InputError(f"{where}: does not go with the answer {answer.kind}; remove it")
     if "any_axis_degrees" in region:
         raise InputError(f"{where}: does not go with any_axis_degrees; give rpy_degrees")
     rows = list_field(region["joints"], where, count)

@@ -12,6 +12,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.limits import Cones
 from pkm_exact.regions.chart import POSITIONS, Chart, Polynomial, PosePolynomials, moved, pose_polynomials, rational
+from pkm_exact.regions.design_parameters import varied_legs
 from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some
 from pkm_exact.regions.index_quotients import force_polynomials, index_square
 from pkm_exact.regions.leg_distances import legs_apart
@@ -148,7 +149,7 @@ def placed_legs(
     places = {k: len(chart.variables) + i for i, k in enumerate(driven)}
     placed = [
         placed_leg(leg, pose, machine.metric, conditions.modes[k] or 1, places.get(k, -1))
-        for k, leg in enumerate(machine.legs)
+        for k, leg in enumerate(varied_legs(machine, chart, pose))
     ]
     return pose, placed
 

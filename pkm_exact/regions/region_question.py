@@ -15,7 +15,7 @@ from pkm_exact.regions.path_tubes import Tube, inside_tube
 from pkm_exact.regions.region_conditions import Asked, Conditions, within_reach
 from pkm_exact.regions.region_shapes import Quadratic, inside_atom
 
-ANSWERS: Final = ("all", "map", "largest", "locus", "extremes", "threshold")
+ANSWERS: Final = ("all", "map", "largest", "locus", "extremes", "threshold", "designs")
 EXTREMES: Final = ("joint_values", *INDEX_NAMES)
 """Of what the least and the greatest value may be asked."""
 DEFAULT_STEPS: Final = 30
@@ -46,6 +46,8 @@ class WantedAnswer:
         Of the answer "threshold": which number of the model varies.
     between : tuple of 2 Fraction
         From one value to another.
+    parameters : tuple of pairs of str and Pair
+        Of the answer "designs": which numbers of the robot vary (``design_parameters``), and between what.
     """
 
     kind: str
@@ -57,6 +59,7 @@ class WantedAnswer:
     of: str = ""
     parameter: str = ""
     between: tuple[Fraction, ...] = ()
+    parameters: tuple[tuple[str, Pair], ...] = ()
 
 
 @dataclass(frozen=True)
