@@ -121,6 +121,15 @@ def test_the_command_and_programs_have_the_boxes(tmp_path: Path, capsys: pytest.
     assert "designs has neither certificate nor picture" in capsys.readouterr().err
 
 
+def test_how_many_boxes_there_may_be_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pkm_exact.regions.region_designs.MOST_BOXES", 8)
+    machine = region_machine(model("3-rpr-merlet-p"))
+    text = text_of(SQUARE, "no_type_2 = true", "'base.scale' = [1, 1.5]", "precision = '1/1000'")
+    found = designs(machine, question_from_toml(text, machine))
+    assert 4 <= len(found.boxes) <= 8
+    assert sum(found.share(verdict) for verdict in (YES, NO, OPEN)) == 1
+
+
 @pytest.mark.parametrize(
     ("name", "parameters", "said"),
     [
@@ -131,6 +140,8 @@ def test_the_command_and_programs_have_the_boxes(tmp_path: Path, capsys: pytest.
         ("3-rpr-merlet-p", "'base.scale' = [2, 1]", "2 is not less than 1"),
         ("3-rpr-merlet-p", "'rods.length' = [1, 2]", "no rods on slides or cranks"),
         ("3-rpr-turned", "'base.scale' = [1, 2]", "and no other joints"),
+        ("3-rpr-merlet-p", "'base.scale' = [0, 2]", "0 is not positive"),
+        ("3-rpr-merlet-p", "'base.scale' = [1, 2], 'base.joints.1.1' = [1, 2]", "move one joint; give one of them"),
     ],
 )
 def test_parameters_that_are_none_are_refused(name: str, parameters: str, said: str) -> None:

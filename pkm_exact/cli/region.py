@@ -172,7 +172,7 @@ def _threshold(
 def _designs(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str, *, verbose: bool) -> int:
     from pkm_exact.cli import designs_report
     from pkm_exact.interactive.progress import Progress
-    from pkm_exact.regions.region_designs import designs
+    from pkm_exact.regions.region_designs import OPEN, designs
 
     try:
         with Progress(verbose=verbose) as progress:
@@ -181,7 +181,7 @@ def _designs(machine: RegionMachine, asked: RegionQuestion, question: str, layou
         raise InputError(f"{question}: {error}") from None
     said = designs_report.as_json if layout == "json" else designs_report.as_text
     sys.stdout.write(said(machine, asked, found))
-    return ExitCode.DONE
+    return ExitCode.WEAKER_CLAIM if found.share(OPEN) == 1 else ExitCode.DONE
 
 
 def _extremes(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str, *, verbose: bool) -> int:

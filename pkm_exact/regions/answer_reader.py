@@ -8,7 +8,7 @@ from typing import Any, Final
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.fields import known_keys, required
 from pkm_exact.geometry.rational import parse_positive
-from pkm_exact.regions.design_parameters import require_known
+from pkm_exact.regions.design_parameters import RODS, SCALES, require_apart, require_known
 from pkm_exact.regions.question_fields import dimension, read_numbers, read_pair
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_question import (
@@ -75,7 +75,11 @@ def _designs(table: dict[str, Any], machine: RegionMachine) -> WantedAnswer:
     found = []
     for key, ends in given.items():
         require_known(key, machine)
-        found.append((key, read_pair(ends, f"answer.parameters.{key}")))
+        low, high = read_pair(ends, f"answer.parameters.{key}")
+        if low <= 0 and (key in SCALES or key == RODS):
+            raise InputError(f"answer.parameters.{key}: {shown(low)} is not positive; give numbers greater than 0")
+        found.append((key, (low, high)))
+    require_apart(list(given))
     return WantedAnswer(
         "designs",
         _count(table.get("steps", DEFAULT_STEPS), "answer.steps", _MOST_STEPS),

@@ -25,6 +25,21 @@ class _Place:
     axis: int
 
 
+def require_apart(keys: Sequence[str]) -> None:
+    """Refuse parameters that move one joint twice.
+
+    Raises
+    ------
+    InputError
+        With their names.
+    """
+    for scale in SCALES:
+        side = scale.split(".")[0]
+        for key in keys:
+            if scale in keys and key.startswith(f"{side}.joints."):
+                raise InputError(f"answer.parameters: {scale} and {key} move one joint; give one of them")
+
+
 def require_known(key: str, machine: RegionMachine) -> None:
     """Refuse a key that is not a number of the robot's legs.
 

@@ -28,6 +28,8 @@ from pkm_exact.regions.region_solver import axes_of, prepared
 YES: Final = "yes"
 NO: Final = "no"
 OPEN: Final = "undecided"
+MOST_BOXES: Final = 20_000
+"""Of designs: where there would be more, they are halved no further."""
 _FIRST_STEPS: Final = 6
 
 
@@ -55,7 +57,7 @@ class Designs:
     ----------
     keys : tuple of str
     boxes : tuple of DesignBox
-        They fill the box that was asked about.
+        They fill the box that was asked about, in order.
     """
 
     keys: tuple[str, ...]
@@ -94,22 +96,31 @@ def designs(
         If it is not one that regions know.
     """
     search = _Search(machine, question)
-    waiting: list[Part] = [Part(0, (0,) * search.count)]
+    level: list[Part] = [Part(0, (0,) * search.count)]
     found: list[DesignBox] = []
-    while waiting:
-        part = waiting.pop()
-        verdict = search.verdict(part)
-        if verdict == OPEN and part.depth < search.deepest:
-            axis = part.depth % search.count
-            waiting += [
-                Part(part.depth + 1, tuple(2 * p + side if k == axis else p for k, p in enumerate(part.places)))
-                for side in (1, 0)
-            ]
-            continue
-        found.append(DesignBox(search.ends(part), verdict))
-        if progress is not None:
-            progress(len(found))
-    return Designs(tuple(key for key, _ in question.answer.parameters), tuple(found))
+    while level:
+        undecided = []
+        for part in level:
+            verdict = search.verdict(part)
+            if verdict == OPEN:
+                undecided.append(part)
+                continue
+            found.append(DesignBox(search.ends(part), verdict))
+            if progress is not None:
+                progress(len(found))
+        if level[0].depth == search.deepest or len(found) + 2 * len(undecided) > MOST_BOXES:
+            found += [DesignBox(search.ends(part), OPEN) for part in undecided]
+            break
+        level = [half for part in undecided for half in _halves(part, part.depth % search.count)]
+    keys = tuple(key for key, _ in question.answer.parameters)
+    return Designs(keys, tuple(sorted(found, key=lambda box: box.ends)))
+
+
+def _halves(part: Part, axis: int) -> list[Part]:
+    return [
+        Part(part.depth + 1, tuple(2 * p + side if k == axis else p for k, p in enumerate(part.places)))
+        for side in (0, 1)
+    ]
 
 
 class _Search:
