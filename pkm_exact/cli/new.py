@@ -69,6 +69,14 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
     help="Instead of sides or circles: joints in columns base_x, base_y, base_z, platform_x, platform_y, platform_z, a "
     "row per leg, and length if known. Numbers are exact as written, or rounded with --digits.",
 )
+@click.option(
+    "--urdf",
+    type=arguments.FilePath(),
+    metavar="ROBOT.urdf",
+    help="Instead: links and joints of a URDF file, loops closed by loop_joint elements, as a mechanism of bodies and "
+    "joints for mobility. All joint values are 0.",
+)
+@click.option("--platform", metavar="LINK", help="With --urdf: the link that is asked about.  [default: the last one]")
 @click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
 @click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
 @click.option("--rod", metavar="L", help="Instead of --height: length of all rods, for 6-RUS and 6-PUS.")
@@ -95,7 +103,14 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
 )
 @click.option("--force", is_flag=True, help="Overwrite the file if it exists.")
 def new(
-    output: str | None, name: str | None, force: bool, csv: str | None, dimensions: tuple[str, ...], **given: Any
+    output: str | None,
+    name: str | None,
+    force: bool,
+    csv: str | None,
+    dimensions: tuple[str, ...],
+    urdf: str | None,
+    platform: str | None,
+    **given: Any,
 ) -> int:
     """Write a commented model file of a symmetric robot, as a start for your own.
 
@@ -109,8 +124,15 @@ def new(
       certify-poses new --kind 6-RUS --base-circle 300,40 --platform-circle 120,90 --height 400 --crank 120 --exact -o -
       certify-poses new --kind 3-RPR --base-sides 6,5,5 --platform-sides 1.6,1,1 --height 3 --unit m -o planar.toml
       certify-poses new --kind delta --dimension arm=120 --dimension rod=300 -o delta.toml
+      certify-poses new --urdf robot.urdf -o robot.toml
     """
     _checked_output(output, force)
+    if platform is not None and urdf is None:
+        raise click.UsageError("--platform: belongs to --urdf, give that as well.")
+    if urdf is not None:
+        from pkm_exact.cli.new_from_urdf import write_from_urdf
+
+        return write_from_urdf(urdf, output, platform, given | {"csv": csv, "name": name, "dimension": dimensions})
     if csv is not None:
         from pkm_exact.cli.new_from_csv import write_from_csv
 
