@@ -15,30 +15,7 @@ ROOT = Path(__file__).parent.parent
 CHAINS = sorted((ROOT / "models" / "chains").glob("*.toml"))
 Capture = pytest.CaptureFixture[str]
 
-SARRUS = """<?xml version="1.0"?>
-<!-- two chains of three parallel hinges at a right angle -->
-<robot name="Sarrus">
-  <link name="ground"/><link name="base"/><link name="left 1"/><link name="left 2"/>
-  <link name="right 1"/><link name="right 2"/><link name="top"/>
-  <joint name="weld" type="fixed"><parent link="ground"/><child link="base"/><origin xyz="0 0 0.1"/></joint>
-  <joint name="A" type="revolute"><parent link="base"/><child link="left 1"/>
-    <origin xyz="0 0.3 0"/><axis xyz="1 0 0"/></joint>
-  <joint name="B" type="continuous"><parent link="left 1"/><child link="left 2"/>
-    <origin xyz="0 0.2 0.2"/><axis xyz="1 0 0"/></joint>
-  <joint name="C" type="revolute"><parent link="left 2"/><child link="top"/>
-    <origin xyz="0 -0.2 0.2"/><axis xyz="1 0 0"/></joint>
-  <joint name="F" type="revolute"><parent link="base"/><child link="right 1"/>
-    <origin xyz="0.3 0 0" rpy="0 0 1.5708"/><axis xyz="1 0 0"/></joint>
-  <joint name="E" type="revolute"><parent link="right 1"/><child link="right 2"/>
-    <origin xyz="0 -0.2 0.2"/><axis xyz="1 0 0"/></joint>
-  <loop_joint name="D" type="revolute">
-    <link1 link="right 2" xyz="0 0.2 0.2"/>
-    <link2 link="top" xyz="0.3 -0.3 0"/>
-    <axis xyz="1 0 0"/>
-  </loop_joint>
-  <transmission name="t"><joint name="A"/></transmission>
-</robot>
-"""
+SARRUS = (ROOT / "models" / "chains" / "sarrus.urdf").read_text(encoding="utf-8")
 
 
 def written(folder: Path, text: str) -> Path:

@@ -124,7 +124,7 @@ def new(
       certify-poses new --kind 6-RUS --base-circle 300,40 --platform-circle 120,90 --height 400 --crank 120 --exact -o -
       certify-poses new --kind 3-RPR --base-sides 6,5,5 --platform-sides 1.6,1,1 --height 3 --unit m -o planar.toml
       certify-poses new --kind delta --dimension arm=120 --dimension rod=300 -o delta.toml
-      certify-poses new --urdf robot.urdf -o robot.toml
+      certify-poses new --urdf models/chains/sarrus.urdf -o sarrus.toml
     """
     _checked_output(output, force)
     if platform is not None and urdf is None:

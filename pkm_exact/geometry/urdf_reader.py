@@ -164,10 +164,9 @@ class _Reader:
             yield f"{angles} taken as the multiple of a right angle within {its} last digit"
         if self.near:
             angles = "1 angle is" if self.near == 1 else f"{self.near} angles are"
-            yield (
-                f"{angles} no multiple of a right angle: rational turns stand in, {float(NEAREST_TURN):.0e} off at most, "
-                "and ranks are those of the numbers in the model: what holds for the ideal angles only is lost"
-            )
+            off = f"rational turns stand in, off by {float(NEAREST_TURN):.0e} at most"
+            kept = "ranks are those of the numbers in the model, and what holds for the ideal angles only is lost"
+            yield f"{angles} no multiple of a right angle: {off}; {kept}"
         if self.noise:
             numbers = "1 number is" if self.noise == 1 else f"{self.noise} numbers are"
             yield f"{numbers} below {float(_NOISE):.0e} and taken as 0"
