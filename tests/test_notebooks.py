@@ -9,7 +9,13 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 NOTEBOOKS = sorted((ROOT / "notebooks").glob("*.py"))
-QUICK = ("derive_displacement", "eight_poses_of_the_h4", "how_it_moves")
+QUICK = (
+    "derive_displacement",
+    "eight_poses_of_the_h4",
+    "errors_of_the_linapod",
+    "how_it_moves",
+    "wrenches_of_planar_machines",
+)
 EACH = [pytest.param(path, id=path.stem, marks=() if path.stem in QUICK else pytest.mark.slow) for path in NOTEBOOKS]
 
 
