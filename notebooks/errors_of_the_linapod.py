@@ -39,7 +39,7 @@ for name, model in (("corrected", robot), ("printed", robot_from_toml(printed)))
     for base, joint, slide, length in zip(
         model.base_joints, model.platform_joints, slides, (1.25,) * 3 + (1.7,) * 3, strict=True
     ):
-        knee = np.array([float(x) for x in base]) + [0, 0, slide]
+        knee = np.array([float(x) for x in base]) + np.array([0, 0, slide])
         off.append(1000 * (np.linalg.norm(np.array([float(x) for x in joint]) - knee) - length))
     print(name, "lengths at home are off by [mm]", np.round(off, 2))
     assert bool(max(map(abs, off)) < 1) is (name == "corrected")
@@ -79,7 +79,7 @@ print(np.round(influence, 3))
 # ## Ten micrometres
 #
 # All rods longer by ten micrometres displace the platform by 11.5296 micrometres; 11.528 is printed. The
-# amplification of section 4.2, near 4.485 in the middle, has seven frames in each leg: $\sqrt 7$ times that of the rods.
+# amplification of section 4.2, near 4.485 in the middle, has seven frames in each leg: $\sqrt 7$ times that of rods.
 
 # %%
 displacement = greatest_displacement(at_home, [Fraction(1, 100_000)] * 6)
@@ -108,5 +108,6 @@ assert max(values) > values[10]
 # %% [markdown]
 # ## Answer
 #
-# Equation 23, 11.528 and 4.485 belong to the table with $\pm 0.025$ for $\pm 0.250$, but for the signs of the rotations,
-# which are the other way round, and the last digits: 11.5296 micrometres and 4.4926 for the decimals of the table.
+# Equation 23, 11.528 and 4.485 belong to the table with $\pm 0.025$ for $\pm 0.250$, but for the signs of the
+# rotations, which are the other way round, and the last digits: 11.5296 micrometres and 4.4926 for the decimals of the
+# table.

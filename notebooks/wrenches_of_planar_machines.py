@@ -141,5 +141,5 @@ assert np.allclose(np.round(polygon, 1), [37.6, 125.0])
 # ## Answer
 #
 # The numbers of the table are right but two (62.23 and 59.75). External vertices grow with the square of the number of
-# actuators; axes of ellipses do not point to vertices; and where a platform is parallel to its base, driving both joints
-# of each leg gives fewer vertices and facets than counted, because three generators lie in a plane exactly.
+# actuators; axes of ellipses do not point to vertices; and where a platform is parallel to its base, driving both
+# joints of each leg gives fewer vertices and facets than counted, because three generators lie in a plane exactly.
