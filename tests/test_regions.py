@@ -19,6 +19,7 @@ from samples import MODELS, model
 
 from pkm_exact import InputError, Robot
 from pkm_exact.cli.main import main
+from pkm_exact.cli.region_report import as_text
 from pkm_exact.geometry.inverse import rotation_of
 from pkm_exact.geometry.rotation_degrees import half_turn_pair
 from pkm_exact.pictures.region_figure import region_figure
@@ -469,6 +470,31 @@ def test_a_range_of_half_a_turn_is_decided_on_the_safe_side(more: str) -> None:
             if abs(Fraction(beside)) > 1:
                 assert judge.is_inside(point) is is_kept
                 assert (judge.failing(point) is None) is is_kept
+
+
+@pytest.mark.parametrize(
+    ("name", "region", "is_wider"),
+    [
+        ("3-rpr-merlet-p", "position = [[4, 6], 5]\ndegrees = [-90, 0]", False),
+        ("3-rpr-merlet-p", "position = [[4, 6], 5]\ndegrees = [-90, 1]", True),
+        ("3-rpr-merlet-p", "arc = { center = [5, 5], radius = 1, degrees = [90, 180] }\ndegrees = 0", False),
+        ("3-rpr-merlet-p", "arc = { center = [5, 5], radius = 1, degrees = [90, 170] }\ndegrees = 0", True),
+        ("rolland-6-6", "position = [0, 0, [700, 701]]\nrpy_degrees = [0, [-90, 90], 0]", False),
+        ("rolland-6-6", "position = [0, 0, [700, 701]]\nrpy_degrees = [0, 0, [0, 30]]", True),
+        ("mssm", "position = [0, 0, [9, 10]]\nrpy_degrees = [0, 0, [0, 90]]", True),
+    ],
+)
+def test_angles_that_are_rounded_outward_are_said(name: str, region: str, is_wider: bool) -> None:
+    text = f"[region]\n{region}\n[conditions]\nreachable = true\n[answer]\nkind = 'all'\n"
+    assert question_from_toml(text, region_machine(model(name))).enlarged is is_wider
+
+
+def test_the_largest_ball_says_that_angles_are_rounded() -> None:
+    machine = region_machine(model("3-rpr-merlet-p"))
+    text = "[region]\ndegrees = [0, 1]\n[conditions]\nno_type_2 = true\n[answer]\nkind = 'largest'\nshape = 'ball'\n"
+    question = question_from_toml(f"{text}about = [5, 5]\nprecision = 1\n", machine)
+    found = largest(machine, question, lambda size: of_size(question, machine, size))
+    assert "enlarged by less than 2^-40" in as_text(found)
 
 
 def test_limits_that_a_model_has_not_are_not_kept_in_silence() -> None:

@@ -6,7 +6,7 @@ import json
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from pkm_exact.cli.region_report import rounded_down, rounded_up
+from pkm_exact.cli.region_report import ENLARGED, rounded_down, rounded_up
 from pkm_exact.regions.region_designs import NO, OPEN, YES, Designs
 
 if TYPE_CHECKING:
@@ -25,9 +25,7 @@ def as_text(machine: RegionMachine, asked: RegionQuestion, found: Designs) -> st
     if len(found.keys) == 1:
         lines += [f"{found.keys[0]} from {_shown(low)} to {_shown(high)}: {word}" for low, high, word in _runs(found)]
     if asked.enlarged:
-        lines.append(
-            "note: the region is enlarged by less than 2^-40 of its size, to be rational in the model's metric"
-        )
+        lines.append(ENLARGED)
     return "\n".join(lines) + "\n"
 
 

@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from pkm_exact.cli.region_report import rounded_down, rounded_up
+from pkm_exact.cli.region_report import ENLARGED, rounded_down, rounded_up
 from pkm_exact.regions.chart import POSITIONS
 from pkm_exact.regions.joint_ranges import common_range
 from pkm_exact.roots.interval import Interval
@@ -37,9 +37,7 @@ def ranges_text(machine: RegionMachine, asked: RegionQuestion, ranges: Sequence[
     if not all(found.is_precise for found in ranges):
         lines.append("undecided: not as precise as asked for with the work allowed; raise answer.steps or answer.boxes")
     if asked.enlarged:
-        lines.append(
-            "note: the region is enlarged by less than 2^-40 of its size, to be rational in the model's metric"
-        )
+        lines.append(ENLARGED)
     return "\n".join(lines) + "\n"
 
 
@@ -52,9 +50,7 @@ def index_text(machine: RegionMachine, asked: RegionQuestion, found: IndexRange)
     if not found.is_precise:
         lines.append("undecided: not as precise as asked for with the work allowed; raise answer.steps or answer.boxes")
     if asked.enlarged:
-        lines.append(
-            "note: the region is enlarged by less than 2^-40 of its size, to be rational in the model's metric"
-        )
+        lines.append(ENLARGED)
     return "\n".join(lines) + "\n"
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from pkm_exact.regions.region_legs import RegionMachine
     from pkm_exact.regions.singularity_locus import Locus
 
+ENLARGED: Final = "note: the region is enlarged by less than 2^-40 of its size, so that its numbers are rational"
 _DIGITS: Final = 9
 _MANY: Final = 24
 _MEASURES: Final = {1: "length", 2: "area", 3: "volume"}
@@ -71,9 +72,7 @@ def as_text(answer: RegionAnswer | LargestAnswer) -> str:
             f"separate pieces: at least {found.separated}; the parts inside are {found.connected} connected pieces"
         )
     if answer.question.enlarged:
-        lines.append(
-            "note: the region is enlarged by less than 2^-40 of its size, to be rational in the model's metric"
-        )
+        lines.append(ENLARGED)
     return "\n".join(lines) + "\n"
 
 
@@ -92,6 +91,8 @@ def _largest_text(answer: LargestAnswer) -> str:
     if (distance := answer.distance) is not None:
         low, high = rounded_down(distance.lo), rounded_up(distance.hi)
         lines.append(f"distance of the nearest singular pose of this orientation: between {low} and {high}")
+    if answer.proved.question.enlarged:
+        lines.append(ENLARGED)
     return "\n".join(lines) + "\n"
 
 

@@ -76,9 +76,22 @@ def question_from_toml(text: str, machine: RegionMachine) -> RegionQuestion:
     if answer.kind == "largest":
         if given := [key for key in (*_SHAPES, "joints") if key in region]:
             raise InputError(f"region.{given[0]}: the answer largest has a shape of its own; remove it")
-        return largest_question(_turned(region, machine), machine, conditions, answer, Fraction(1))
+        largest = largest_question(_turned(region, machine), machine, conditions, answer, Fraction(1))
+        return replace(largest, enlarged=largest.enlarged or _has_rounded_angles(region, machine))
     joints = _joints(region, machine, conditions, answer)
-    return replace(_of_poses(region, machine, conditions, answer), joints=joints)
+    question = _of_poses(region, machine, conditions, answer)
+    return replace(question, joints=joints, enlarged=question.enlarged or _has_rounded_angles(region, machine))
+
+
+def _has_rounded_angles(region: dict[str, Any], machine: RegionMachine) -> bool:
+    """Whether an end of an interval of angles is rounded outward: the tangent of its half is not rational."""
+    g, arc = machine.metric, region.get("arc")
+    if isinstance(arc, dict) and any(parse_rational(end, "region.arc") % 90 for end in arc["degrees"]):
+        return True
+    turns = [(region.get("degrees"), g[0] * g[1])]
+    turns += [(row, g[(k + 1) % 3] * g[(k + 2) % 3]) for k, row in enumerate(region.get("rpy_degrees", ()))]
+    ends = [(parse_rational(end, "region"), w) for row, w in turns if isinstance(row, list) for end in row]
+    return any(_half_tangent(end, w, -1) != _half_tangent(end, w, 1) for end, w in ends)
 
 
 def _of_poses(
@@ -214,7 +227,8 @@ def of_size(question: RegionQuestion, machine: RegionMachine, size: Fraction) ->
         (chart.box[chart.variables.index(turn)], True) if isinstance(turn, str) else (turn, False)
         for turn in chart.turns
     ]
-    return largest_question((chart.quaternion, turns), machine, question.conditions, question.answer, size)
+    found = largest_question((chart.quaternion, turns), machine, question.conditions, question.answer, size)
+    return replace(found, enlarged=found.enlarged or question.enlarged)
 
 
 def _has_roots(metric: Sequence[int]) -> bool:
