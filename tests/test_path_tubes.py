@@ -18,6 +18,7 @@ from pkm_exact.regions.question_reader import question_from_toml
 from pkm_exact.regions.region_conditions import asked_of
 from pkm_exact.regions.region_legs import region_machine
 from pkm_exact.regions.region_points import PointJudge
+from pkm_exact.regions.singularity_locus import locus
 
 FILES = {path.stem: path for path in MODELS}
 PLANE = "tube = {{ path = {0}, radius = {1} }}\ndegrees = 0"
@@ -75,10 +76,43 @@ def test_a_path_is_safe_with_a_margin_or_is_not(tmp_path: Path, capsys: pytest.C
     assert "no word for tubes" in capsys.readouterr().err
 
 
+def test_where_a_straight_way_is_singular(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """From (1, 5) to (5, 3): 5 x + 2 y = 21 at 3/8 of the way; of rods on slides as one finds it along x alone."""
+    machine = region_machine(model("3-rpr-merlet-p"))
+    tail = "\n[conditions]\nno_type_2 = true\n{0}[answer]\nkind = 'locus'\n"
+    text = f"[region]\nline = {{ from = [1, 5], to = [5, 3] }}\ndegrees = 0{tail.format('')}"
+    found = locus(machine, question_from_toml(text, machine))
+    assert found.points is not None
+    assert [(point.lo, point.hi) for point in found.points] == [(Fraction(3, 8), Fraction(3, 8))]
+    refuted = asked(machine, "line = { from = [1, 5], to = [5, 3] }\ndegrees = 0", "no_type_2 = true")
+    assert refuted.counterexample is not None
+    question = tmp_path / "question.toml"
+    question.write_text(text.replace("'locus'", "'all'"))
+    command = ["region", str(FILES["3-rpr-merlet-p"]), str(question)]
+    assert main(command) == 0
+    assert "\n  at along = " in capsys.readouterr().out
+    assert main([*command, "-o", str(tmp_path / "a.json")]) == 2
+    assert "no word for arcs and lines" in capsys.readouterr().err
+    slides, modes = region_machine(model("3-prr")), "working_modes = ['+', '-', '-']\n"
+    regions = "position = [[-2, 12], 1]", "line = { from = [12, 1], to = [-2, 1] }"
+    along_x, back = (
+        locus(slides, question_from_toml(f"[region]\n{region}\ndegrees = 0{tail.format(modes)}", slides))
+        for region in regions
+    )
+    assert along_x.points is not None
+    assert back.points is not None
+    assert len(along_x.points) == len(back.points) == 2
+    for one, other in zip(along_x.points, reversed(back.points), strict=True):
+        assert abs(float(one.midpoint) - (12 - 14 * float(other.midpoint))) < 1e-9
+
+
 @pytest.mark.parametrize(
     ("region", "said"),
     [
         ("tube = 3\ndegrees = 0", "is not a table"),
+        ("line = 3\ndegrees = 0", "is not a table"),
+        ("line = { from = [1, 2], to = [1, 2] }\ndegrees = 0", "is where it begins"),
+        ("line = { from = [1, 2], to = [1, 3] }\nposition = [1, 2]\ndegrees = 0", "beside a line"),
         ("tube = { path = [[0, 0]], radius = 1 }\ndegrees = 0", "1 points; give 2"),
         ("tube = { path = [[0, 0], [0, 0]], radius = 1 }\ndegrees = 0", r"path\[2\]: is the point before it"),
         ("tube = { path = [[0, 0], [0]], radius = 1 }\ndegrees = 0", r"path\[2\]: 1 numbers; give 2"),

@@ -73,8 +73,8 @@ def require_words(machine: RegionMachine, question: RegionQuestion) -> None:
         raise InputError("-o: certificates have no word for regions of joint values; leave -o out")
     if question.tube is not None:
         raise InputError("-o: certificates have no word for tubes; leave -o out")
-    if question.chart.arc is not None:
-        raise InputError("-o: certificates have no word for arcs; leave -o out")
+    if question.chart.arc is not None or question.chart.line is not None:
+        raise InputError("-o: certificates have no word for arcs and lines; leave -o out")
 
 
 def claim_of(answer: RegionAnswer) -> str:

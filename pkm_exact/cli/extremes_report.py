@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.cli.region_report import ENLARGED, rounded_down, rounded_up
-from pkm_exact.regions.chart import POSITIONS
+from pkm_exact.regions.chart import POSITIONS, label_of
 from pkm_exact.regions.joint_ranges import common_range
 from pkm_exact.roots.interval import Interval
 
@@ -58,7 +58,7 @@ def _places(machine: RegionMachine, asked: RegionQuestion, box: Sequence[Pair]) 
     found = []
     for name, (low, high) in zip(asked.chart.variables, box, strict=True):
         metric = machine.metric[POSITIONS.index(name)] if name in POSITIONS else 1
-        label = name if name in POSITIONS else f"tan({name}/2)"
+        label = label_of(name)
         told = f"{label} is between {rounded_down(low)} and {rounded_up(high)}"
         found.append(told if metric == 1 else f"{told} (in the model's metric)")
     return found

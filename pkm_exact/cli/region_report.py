@@ -9,7 +9,7 @@ from math import isqrt
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.regions.arc_area import arc_area
-from pkm_exact.regions.chart import POSITIONS
+from pkm_exact.regions.chart import POSITIONS, label_of
 from pkm_exact.regions.largest_region import LargestAnswer
 from pkm_exact.regions.region_components import components
 from pkm_exact.regions.region_solver import RegionAnswer
@@ -136,7 +136,7 @@ def _point(answer: RegionAnswer, point: tuple[Fraction, ...]) -> str:
     texts = []
     for name, value in zip(chart.variables, point, strict=True):
         metric = answer.machine.metric[POSITIONS.index(name)] if name in POSITIONS else 1
-        label = name if name in POSITIONS else f"tan({name}/2)"
+        label = label_of(name)
         texts.append(f"{label} = {value}" if metric == 1 else f"{label} = {value} (in the model's metric)")
     return ", ".join(texts)
 

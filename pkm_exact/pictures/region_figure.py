@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from pkm_exact.errors import InputError
 from pkm_exact.pictures import style
 from pkm_exact.pictures.region_surface import MOST_FACES, part_ends, surface
-from pkm_exact.regions.chart import POSITIONS
+from pkm_exact.regions.chart import POSITIONS, label_of
 from pkm_exact.regions.paving import INSIDE, OUTSIDE, UNDECIDED, leaves
 
 if TYPE_CHECKING:
@@ -132,6 +132,6 @@ def _drawn(answer: RegionAnswer, k: int, ends: tuple[Fraction, Fraction]) -> tup
 def _label(answer: RegionAnswer, k: int) -> str:
     name = answer.question.chart.variables[k]
     if name not in POSITIONS:
-        return f"tan({name}/2)"
+        return label_of(name)
     unit = "" if answer.machine.unit in ("", "1") else f" [{style.drawable(answer.machine.unit, 12)}]"
     return f"{name}{unit}"

@@ -45,6 +45,20 @@ class Arc:
 
 
 @dataclass(frozen=True)
+class Line:
+    """The points start + t way.
+
+    Attributes
+    ----------
+    start, way : vectors of 3 Fraction
+        In coordinates of the model.
+    """
+
+    start: Vector
+    way: Vector
+
+
+@dataclass(frozen=True)
 class Parameter:
     """A number of the robot that is a variable of a chart.
 
@@ -78,6 +92,8 @@ class Chart:
         Their intervals.
     arc : Arc or None
         If there is one, x and y run along it with the variable "arc".
+    line : Line or None
+        If there is one, the position runs along it with the variable "along".
     parameters : tuple of Parameter
         Variables, the last ones, that are numbers of the robot.
     """
@@ -89,6 +105,7 @@ class Chart:
     box: tuple[Pair, ...]
     arc: Arc | None = None
     parameters: tuple[Parameter, ...] = ()
+    line: Line | None = None
 
     @property
     def has_fixed_orientation(self) -> bool:
@@ -108,6 +125,15 @@ class PosePolynomials:
     def constant(self, value: Fraction | int) -> Polynomial:
         """A number as an element of the ring."""
         return self.ring.constant(rational(value))
+
+
+def label_of(name: str) -> str:
+    """What a variable of a chart is.
+
+    >>> label_of("x"), label_of("along"), label_of("yaw")
+    ('x', 'along', 'tan(yaw/2)')
+    """
+    return name if name in (*POSITIONS, "along") else f"tan({name}/2)"
 
 
 def rational(value: Any) -> Any:
@@ -142,6 +168,10 @@ def pose_polynomials(chart: Chart, metric: Metric, roots: Sequence[str] = ()) ->
         norm, rotation = _turned(chart.turns, metric, element, ring)
     if chart.arc is not None:
         return _along_arc(chart, chart.arc, ring, norm, rotation)
+    if chart.line is not None:
+        t, (start, way) = named["along"], (chart.line.start, chart.line.way)
+        place = tuple(norm * (rational(a) + rational(d) * t) for a, d in zip(start, way, strict=True))
+        return PosePolynomials(ring, norm, place, tuple(map(tuple, rotation)))
     position = tuple(norm * element(value) for value in chart.position)
     return PosePolynomials(ring, norm, position, tuple(map(tuple, rotation)))
 

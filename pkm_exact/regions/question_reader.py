@@ -21,7 +21,7 @@ from pkm_exact.geometry.reader import parsed_toml
 from pkm_exact.geometry.rotation_degrees import half_turn_pair, is_exact_turn
 from pkm_exact.precision import working_precision
 from pkm_exact.regions.answer_reader import read_answer
-from pkm_exact.regions.chart import POSITIONS, TURNS, Arc, Chart
+from pkm_exact.regions.chart import POSITIONS, TURNS, Arc, Chart, Line
 from pkm_exact.regions.conditions_reader import read_conditions
 from pkm_exact.regions.path_tubes import tube_about
 from pkm_exact.regions.question_fields import dimension, read_numbers, read_pair
@@ -35,7 +35,7 @@ from pkm_exact.regions.region_shapes import Quadratic, in_model, polygon_shape, 
 from pkm_exact.wording import printable, shown
 
 _TABLES: Final = ("region", "conditions", "answer")
-_SHAPES: Final = ("position", "ball", "cylinder", "prism", "arc", "tube")
+_SHAPES: Final = ("position", "ball", "cylinder", "prism", "arc", "line", "tube")
 _TURNED: Final = ("quaternion", "rpy_degrees", "degrees", "any_axis_degrees")
 _MOST_CORNERS: Final = 64
 
@@ -100,6 +100,8 @@ def _of_poses(
     """The question about the poses of a region, whatever their joint values are."""
     if "arc" in region:
         return RegionQuestion(_on_arc(region, machine), (), conditions, answer)
+    if "line" in region:
+        return RegionQuestion(_on_line(region, machine), (), conditions, answer)
     if "tube" in region:
         return _in_tube(region, machine, conditions, answer)
     position, shape, enlarged = _shape(region, machine)
@@ -163,6 +165,31 @@ def _on_arc(region: dict[str, Any], machine: RegionMachine) -> Chart:
     chart = _chart([Fraction(0), Fraction(0), height], _turned(region, machine))
     arc = Arc((center[0], center[1]), radius, (Fraction(u), Fraction(v)))
     return replace(chart, variables=("arc", *chart.variables), box=(ends, *chart.box), arc=arc)
+
+
+def _on_line(region: dict[str, Any], machine: RegionMachine) -> Chart:
+    """The chart of a straight way from one position to another, and of turns."""
+    if given := [key for key in (*_SHAPES, "any_axis_degrees") if key in region and key != "line"]:
+        raise InputError(f"region.{given[0]}: given beside a line; give one of them")
+    table, where = region["line"], "region.line"
+    if not isinstance(table, dict):
+        raise InputError(f"{where}: {shown(table)} is not a table; write {{ from = [..], to = [..] }}")
+    known_keys(table, ("from", "to"), where)
+    if 0 not in machine.twist:
+        raise InputError(f"{where}: the robot does not move; give angles alone")
+    ends = []
+    for key in ("from", "to"):
+        place = read_numbers(required(table, key, f"{where}."), f"{where}.{key}", dimension(machine))
+        if _is_irrational(place, machine.metric):
+            raise InputError(f"{where}.{key}: is not rational in the model's metric; give a tube around the way")
+        x, y, z = [in_model(c, g, 1) for c, g in zip((*place, Fraction(0))[:3], machine.metric, strict=True)]
+        ends.append((x, y, z))
+    (a, b, c), (u, v, w) = ends
+    if ends[0] == ends[1]:
+        raise InputError(f"{where}.to: is where it begins; give another position")
+    chart, way = _chart([Fraction(0)] * 3, _turned(region, machine)), Line((a, b, c), (u - a, v - b, w - c))
+    whole = (Fraction(0), Fraction(1))
+    return replace(chart, variables=("along", *chart.variables), box=(whole, *chart.box), line=way)
 
 
 def _in_tube(
