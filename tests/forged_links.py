@@ -90,6 +90,11 @@ POSES: dict[str, tuple[str, list[Joined], list[int]]] = {
         [(0, 1, angle(X, (0, 2, 0), 0)), (0, 1, angle((1, 2, 0), X, 2)), (0, 1, angle(Y, Y, 0))],
         [*TURNED],
     ),
+    "a body as it was": (
+        "spherical",
+        [(0, 1, angle(X, Y)), (0, 1, angle(X, Z)), (0, 1, angle(Y, Z))],
+        [1, 0, 0, 0, 1, 0, 0, 0, 1],
+    ),
     "a body on six rods": (
         "spatial",
         [
@@ -174,6 +179,11 @@ def _rows() -> dict[str, Row]:
 # x^2 + y^2 = 1 and y = 0, so that the image of a box about (1, 0) is known
 
 CIRCLE: list[Joined] = [(0, 1, distance(O, O, 1)), (0, 1, in_plane(Y, 0))]
+TRAILING: list[Joined] = [
+    *((0, 1, at_point(O)), (0, 2, in_plane(X, 1)), (0, 2, in_plane(Y, 1))),
+    (1, 2, on_cylinder(O, X, O, 1)),
+]
+"""Of degree 4: derivatives are not in the middle between their bounds."""
 PIN: list[Joined] = [(0, 1, at_point((3, -2, 0)))]
 FLAT = "planar:translation"
 
@@ -205,6 +215,14 @@ REACH: dict[str, Row] = {
             ("exchanged", POSES["a point on two rods"][1][::-1], [2, 4]),
         )
         for radius, status in ((1740, "accepted"), (1800, "rejected"))
+    },
+    **{
+        f"a slide at a turning body, {radius}": (
+            box("planar:planar translation", TRAILING, [0, 0, 1, 0, 1, 1], radius, 14),
+            status,
+            ONE if status == "accepted" else UNPROVED,
+        )
+        for radius, status in ((460, "accepted"), (468, "rejected"))
     },
     "a body that is not held": (
         box("planar:translation translation", PIN, [3, -2, 0, 0]),

@@ -304,6 +304,41 @@ CASES: dict[str, Row] = {
         )
     },
     **{
+        f"a slide out of its ends, mode {mode}, {low} to {high}": (
+            as_map(aside(low, high, box=[[0, 1], [3, 4]], modes=[mode]), "o"),
+            "accepted" if out else "rejected",
+            "measure" if out else OUTSIDE,
+        )
+        for mode, low, high, out in (
+            *((1, "9/2", 9, False), (1, "11/2", 9, True), (1, 0, "7/2", False), (1, 0, "5/2", True)),
+            *((-1, "-5/2", 9, False), (-1, "-3/2", 9, True), (-1, -9, "-7/2", False), (-1, -9, "-9/2", True)),
+        )
+    },
+    **{
+        f"a determinant that is 0 where its root is rational, {points}": (
+            region(
+                [
+                    leg((0, 0, 0), (0, 0, 0), direction=(1, 0, 0), rod=25),
+                    leg((-1, "15/4", 0), (0, 0, 0)),
+                    leg((0, 0, -1), (0, 0, 0)),
+                ],
+                variables=["y"],
+                place=[0, "y", 0],
+                motion="translation",
+                modes=[1, 0, 0],
+                conditions=["no_type_2"],
+                box=[[0, 4]],
+                points=points,
+            ),
+            status,
+            line,
+        )
+        for points, status, line in (
+            *(([[3], [4]], "rejected", ONE_SIGN), ([[0], [3]], "rejected", ONE_SIGN)),
+            ([[0], [4]], "accepted", TWO_SIGNS),
+        )
+    },
+    **{
         f"a root from {'3 on' if exact else 'less on'}, {high}": (
             aside("-1/2", high, box=[[0, "1/8"], box]),
             "accepted" if good else "rejected",
@@ -741,7 +776,7 @@ def _quadrants() -> dict[str, Row]:
     for angle in (15, 40, 75, 105, 130, 165, 195, 220, 255, 285, 310, 345):
         c, s = (Fraction(x).limit_denominator(100) for x in (cos(radians(angle)), sin(radians(angle))))
         place = {"place": ["x", 2 * s, 2], "box": [[2 * c, 2 * c + Fraction(1, 1 << 14)]], "modes": [1]}
-        for start in (0, 90, 180, 270):
+        for start in (0, 90, 180, 270, *((8100,) if angle == 220 else ())):
             crank = leg((0, 0, 0), (0, 0, 0), (start, start + 90), **CRANK, rod="5001/1000")
             content = region([crank], **place)
             margin = min(Placed(content, point_of(content)).margins())
@@ -912,7 +947,6 @@ FORMAT: dict[str, Row] = {
     "a slide from less than 0 on": (slide(-1, 8), "accepted", GOOD),
     "a crank": _crank("accepted"),
     "a crank of right angles": _crank("accepted", (-90, 450)),
-    "a crank of the ninetieth right angle": _crank("accepted", (8100, 8190)),
     "a crank from 45 degrees": _crank("malformed", (45, 90)),
     "a crank to 135 degrees": _crank("malformed", (90, 135)),
     "a crank of weight 4": _crank("accepted", v=(0, 2, 0), weight=4),

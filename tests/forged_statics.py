@@ -581,6 +581,11 @@ FORMAT: dict[str, Row] = {
         "rejected",
         "ellipsoid",
     ),
+    "no rotation, and a leg of no joints": (
+        _put(_put(SQUARE, "2", "rotation", 0, 0), {}, "legs", 1),
+        "malformed",
+        "legs[2]",
+    ),
     "legs of no list": _with("malformed", 5, "legs"),
     "facets of no list": _with("malformed", 5, *SIDES),
     "vertices of no list": _with("malformed", 5, "velocity_polytope", "vertices"),

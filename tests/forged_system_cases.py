@@ -163,6 +163,15 @@ def _lost_factor() -> Content:
     return ranked("x", (text.replace("+-", "-").replace("x^1+", "x+").replace("x^1-", "x-"),), one(*h), [1, 2, 1], 5)
 
 
+def _long_coefficient() -> Content:
+    """(a x - 1) (b x^4 + 1) = 0, and y is a over its derivative, near 1; the first enclosure of that is about 0."""
+    a, b = 3 << 100, 1 << 340
+    points = one(-1, a, 0, 0, -b, a * b)
+    points |= {"separating_form": [1, 0], "numerators": [*points["numerators"], hexadecimal([a])]}
+    texts = (f"{a * b}*x^5-{b}*x^4+{a}*x-1", f"{5 * a * b}*x^4*y-{4 * b}*x^3*y+{a}*y-{a}")
+    return listed("x,y", texts, points)
+
+
 def _lost_rank(bits: int, *more: str) -> Content:
     """Two of three points: at (1, 0) the second gradient is a multiple of the first one modulo the prime only."""
     k = 1 << 40
@@ -314,15 +323,7 @@ MIXED: dict[str, Row] = {
         listed("x,y", ("x+y^2-1", "x*y+y^3-y+x^2"), represented([(0, -1), (0, 1)], (0, 1)), multiplicities=1),
         "rejected",
     ),
-    "points apart in the second unknown alone": (
-        listed(
-            "x,y",
-            (f"{3 << 300}*x-y", "y^2-y"),
-            represented([(0, 0), (Fraction(1, 3 << 300), 1)], (1, 0)),
-            **complete("refined-bezout", 2),
-        ),
-        "accepted",
-    ),
+    "a root near 0 and a long coefficient": (_long_coefficient(), "accepted"),
     "what does not commute": (
         listed(
             "x,y",
@@ -332,6 +333,11 @@ MIXED: dict[str, Row] = {
         ),
         "rejected",
     ),
+    "an unknown that there is not, and no list of solutions": (
+        put(put(MADE["elimination"], [["0", "9"]], "elimination"), 5, "solutions"),
+        "malformed",
+    ),
+    "an unknown that there is not": (put(MADE["elimination"], [["0", "9"]], "elimination"), "rejected"),
     "another parameter of a multiple solution": (
         put(MADE["multiple"], ["-1", "-1"], "solutions", 0, "parameter"),
         "rejected",

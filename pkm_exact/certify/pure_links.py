@@ -153,9 +153,9 @@ def read(body: dict[str, Any]) -> Certificate:
     motions = a_few(MAX_BODIES, partial(a_motion, is_planar), bodies, "mechanism.bodies")
     chosen = pure.an_integer(platform, "mechanism.platform")
     pure.well_formed(1 <= chosen <= len(motions), "mechanism.platform: not the number of a body")
+    constraints = a_few(MAX_JOINED, partial(a_joined, len(motions)), joined, "mechanism.joined")
     names, places = numbered(motions, planar=is_planar)
     pure.affordable(len(names) <= MAX_UNKNOWNS, f"mechanism: more than {MAX_UNKNOWNS} unknowns")
-    constraints = a_few(MAX_JOINED, partial(a_joined, len(motions)), joined, "mechanism.joined")
     exact = pure.one_of(pure.METHODS)(method, "method") == "exact"
     given = (system is not None) == exact and (box is None) == exact
     pure.well_formed(given, "method: system and box are not those of the method")
@@ -423,11 +423,12 @@ def is_contracted(
 def is_turned(places: Iterable[Iterable[int]], box: Box) -> bool:
     """Check 4: the determinant is positive all over the box, entry by entry in units of 2^-K."""
     r = [[Bounds(box.centre[place] - box.radius, box.centre[place] + box.radius) for place in row] for row in places]
-    total = Bounds(0, 0)
+    even = odd = 0
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
-        total = total + r[0][i] * r[1][j] * r[2][k] + Bounds(-1, -1) * r[0][i] * r[1][k] * r[2][j]
-    return total.low > 0
+        even += (r[0][i] * r[1][j] * r[2][k]).low
+        odd += (r[0][i] * r[1][k] * r[2][j]).high
+    return even > odd
 
 
 def replayed(body: dict[str, Any]) -> Iterator[str]:

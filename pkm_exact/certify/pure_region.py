@@ -886,6 +886,8 @@ def sign_at(polynomial: Polynomial, point: Numbers, roots: Sequence[Polynomial])
             small = prod((Fraction(floors[k], 1 << bits) for k in group), start=Fraction(1))
             great = prod((Fraction(floors[k] + 1, 1 << bits) for k in group), start=Fraction(1))
             low, high = low + min(value * small, value * great), high + max(value * small, value * great)
-        if low > 0 or high < 0:
-            return 1 if low > 0 else -1
+        if low > 0:
+            return 1
+        if high < 0:
+            return -1
     return None

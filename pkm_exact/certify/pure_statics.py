@@ -153,15 +153,14 @@ def read_machine(values: Sequence[Any]) -> Machine:
     lines = entries_of(values[3], "rotation", 3)
     rotation = [vector(line, f"rotation[{k}]", 3) for k, line in enumerate(lines, 1)]
     legs = list_of(values[4], "legs", MAX_LEGS)
-    pure.well_formed(len(legs) >= len(freedoms), "legs: fewer than freedoms")
+    joints = [joints_of(leg, f"legs[{number}]") for number, leg in enumerate(legs, 1)]
+    pure.well_formed(len(joints) >= len(freedoms), "legs: fewer than freedoms")
     for i, j in product(range(3), range(3)):
         found = sum((g * r[i] * r[j] for g, r in zip(metric, rotation, strict=True)), Fraction(0))
         pure.require(found == (metric[i] if i == j else 0), "rotation: not one in the metric")
     pure.require(determinant([list(line) for line in rotation]) == 1, "rotation: its determinant is not 1")
     rows, squares = [], []
-    for number, leg in enumerate(legs, 1):
-        base, platform = fields(leg, f"legs[{number}]", "base platform")
-        a, b = vector(base, f"legs[{number}].base", 3), vector(platform, f"legs[{number}].platform", 3)
+    for number, (a, b) in enumerate(joints, 1):
         arm = [sum((r * x for r, x in zip(line, b, strict=True)), Fraction(0)) for line in rotation]
         d = [c + x - y for c, x, y in zip(position, arm, a, strict=True)]
         square = sum((g * x * x for g, x in zip(metric, d, strict=True)), Fraction(0))
@@ -175,6 +174,12 @@ def read_machine(values: Sequence[Any]) -> Machine:
     columns = [Fraction(1, g) for g in (g1, g2, g3, g2 * g3, g3 * g1, g1 * g2)]
     turning = tuple(place >= 3 for place in freedoms)
     return Machine(tuple(rows), tuple(squares), tuple(columns[place] for place in freedoms), turning)
+
+
+def joints_of(value: Any, where: str) -> tuple[Row, Row]:
+    """The joints of a leg."""
+    base, platform = fields(value, where, "base platform")
+    return vector(base, f"{where}.base", 3), vector(platform, f"{where}.platform", 3)
 
 
 def read_velocity(value: Any, count: int, n: int) -> tuple[list[tuple[int, int]], list[tuple[Row, ...]]]:

@@ -154,9 +154,10 @@ def a_term(places: Mapping[str, int], value: Any, where: str) -> tuple[pure.Mono
 def a_system(names: Sequence[str], value: Any, where: str) -> tuple[pure.Terms, ...]:
     """The polynomials, terms decreasing."""
     places = {name: place for place, name in enumerate(names)}
+    few = not isinstance(value, list) or len(value) <= MAX_POLYNOMIALS
+    pure.affordable(few, f"{where}: more than {MAX_POLYNOMIALS}")
     lists = pure.a_list(pure.a_list(partial(a_term, places)))(value, where)
     pure.well_formed(lists, f"{where}: none")
-    pure.affordable(len(lists) <= MAX_POLYNOMIALS, f"{where}: more than {MAX_POLYNOMIALS}")
     pure.affordable(sum(map(len, lists)) <= MAX_TERMS, f"{where}: more than {MAX_TERMS} terms")
     for number, terms in enumerate(lists):
         keys = [pure.order(monomial) for monomial, _ in terms]
@@ -201,22 +202,21 @@ def some_groups(number: int, value: Any, where: str) -> tuple[tuple[int, ...], .
     return groups
 
 
-def a_product(number: int, value: Any, where: str) -> tuple[int, ...]:
+def a_product(value: Any, where: str) -> tuple[int, ...]:
     """The index of an element, then those of unknowns."""
     text = pure.a_text(value, where)
     fits = PRODUCT.fullmatch(text)
     pure.well_formed(fits, f"{where}: not the index of an element and those of the unknowns that multiply it")
     index, *factors = map(int, text.split(" "))
     pure.well_formed(factors == sorted(factors), f"{where}: the unknowns are not in increasing order")
-    pure.require(max(factors, default=0) < number, "elimination: it names an unknown that there is not")
     return index, *factors
 
 
-def a_step(number: int, value: Any, where: str) -> pure.Step:
+def a_step(value: Any, where: str) -> pure.Step:
     """The products of a step of an elimination."""
     few = not isinstance(value, list) or len(value) <= pure.MAX_PRODUCTS
     pure.affordable(few, f"{where}: more than {pure.MAX_PRODUCTS} products")
-    return pure.a_list(partial(a_product, number))(value, where)  # type: ignore[no-any-return]
+    return pure.a_list(a_product)(value, where)  # type: ignore[no-any-return]
 
 
 def a_slice(number: int, value: Any, where: str) -> tuple[Fraction, pure.Representation]:
@@ -230,9 +230,10 @@ def a_witness(number: int, value: Any, where: str) -> Witness:
     """What proves a positive dimension."""
     cause, forms, slices = pure.an_object(value, where, "cause forms slices")
     cause = pure.one_of(CAUSES)(cause, f"{where}.cause")
+    few = not isinstance(forms, list) or len(forms) <= MAX_FORMS
+    pure.affordable(few, f"{where}.forms: more than {MAX_FORMS}")
     rows = tuple(map(tuple, pure.a_list(pure.a_list(pure.an_integer, number + 1))(forms, f"{where}.forms")))
     listed = tuple(pure.a_list(partial(a_slice, number))(slices, f"{where}.slices"))
-    pure.affordable(len(rows) <= MAX_FORMS, f"{where}.forms: more than {MAX_FORMS}")
     return Witness(cause, rows, listed)
 
 
@@ -272,7 +273,7 @@ def read(body: dict[str, Any]) -> Certificate:
         representation=entry("representation", pure.nullable(partial(a_representation, number))),
         groups=entry("groups", pure.nullable(partial(some_groups, number))),
         infinity=entry("infinity", pure.nullable(partial(an_infinity, number))),
-        elimination=entry("elimination", pure.nullable(pure.a_list(partial(a_step, number)))),
+        elimination=entry("elimination", pure.nullable(pure.a_list(a_step))),
         witness=entry("witness", pure.nullable(partial(a_witness, number))),
         box_exponent=exponent,
         solutions=entry("solutions", pure.a_list(partial(a_solution, number))),
