@@ -107,6 +107,20 @@ def test_multiple_poses_are_singular_with_a_rank_that_is_proved() -> None:
     assert "Pose 2: 3 constraints of rank 3, 3 freedoms; not singular" in text
 
 
+def test_what_is_refused_at_a_pose_stands_on_the_page() -> None:
+    """A box too wide for half axes, slides that begin in one point, a double pose: no reason for no page."""
+    for name, model in (("rcid", None), ("pmar-120", "pmar-120"), ("3-rpr-double-q", None)):
+        machine = None if model is None else read_robot(ROOT / "models" / f"{model}.toml")
+        page = Page(text_of(golden(name), machine, LIMITS))
+        require_sound(page)
+        assert "Velocities and forces at the poses" in page.text
+
+
+def test_unknown_limits_are_refused_without_a_jacobian_too() -> None:
+    with pytest.raises(InputError, match="'swiftness' is unknown"):
+        text_of(golden("3-rps"), limits={"swiftness": [Fraction(1)]})
+
+
 def test_limits_that_mean_nothing_are_refused(tmp_path: Path, capsys: Capture) -> None:
     certificate = tmp_path / "cert.json"
     certificate.write_bytes(golden_bytes("3-rpr-merlet-p"))

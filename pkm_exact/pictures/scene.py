@@ -100,7 +100,8 @@ def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene
         scene = _limited(_scene(document, robot), document, robot)
     except OverflowError:
         raise InputError(_OUT_OF_RANGE) from None
-    points = [*scene.base, *scene.platform, *(joint for pose in scene.poses for joint in pose.platform)]
+    points = [*scene.base, *scene.platform]
+    points += [joint for pose in scene.poses for joint in (*pose.platform, *pose.knees)]
     if not 1 / LARGEST < max(abs(x) for point in points for x in point) < LARGEST:
         raise InputError(_OUT_OF_RANGE)
     return scene

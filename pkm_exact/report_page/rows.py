@@ -142,7 +142,7 @@ def half_width(intervals: Sequence[Interval]) -> Cell:
 
 
 def _size(scene: Scene) -> float:
-    return max(abs(x) for view in scene.poses for joint in (*scene.base, *view.platform) for x in joint)
+    return max(abs(x) for view in scene.poses for joint in (*scene.base, *view.platform, *view.knees) for x in joint)
 
 
 def certified_rows(document: Mapping[str, Any], scene: Scene) -> PoseRows:

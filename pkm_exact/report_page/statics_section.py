@@ -32,9 +32,7 @@ def statics_section(poses: Sequence[AtPose], limits: Mapping[str, Any], remark: 
     InputError
         If a limit cannot be used.
     """
-    from pkm_exact.statics.asked_answers import asked_answers
-
-    found = [asked_answers(at, limits) for at in poses]
+    found = [_answers(at, limits) for at in poses]
     common = _common([answers.refused for answers in found])
     body = (
         _pose(number, at, answers, common) for number, (at, answers) in enumerate(zip(poses, found, strict=True), 1)
@@ -45,6 +43,19 @@ def statics_section(poses: Sequence[AtPose], limits: Mapping[str, Any], remark: 
         parts.append(element("details", element("summary", "What is not shown, and why"), reasons))
     title = element("h2", "Velocities and forces at the poses", id="statics-title")
     return element("section", title, *parts, cls="sheet", id="statics", aria_labelledby="statics-title")
+
+
+def _answers(at: AtPose, limits: Mapping[str, Any]) -> StaticsAnswers:
+    """What can be said of a pose; limits that cannot be used are refused, other refusals are for the page."""
+    from pkm_exact.statics.asked_answers import StaticsAnswers, asked_answers
+    from pkm_exact.statics.limits_of_actuators import KEYS, ActuatorLimits
+
+    meant = limits if at.jacobian is not None else {key: value for key, value in limits.items() if key not in KEYS}
+    ActuatorLimits.of(meant, len(at.actuated))
+    try:
+        return asked_answers(at, limits)
+    except PkmExactError as error:
+        return StaticsAnswers(None, {}, {"indices": str(error)}, {})
 
 
 def _introduction(at: AtPose, limits: Mapping[str, Any], remark: str) -> str:

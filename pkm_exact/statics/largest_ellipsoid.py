@@ -121,7 +121,7 @@ def _proved(rows: arb_mat, weights: Sequence[Fraction], names: Sequence[str]) ->
     return LargestEllipsoid(
         tuple(weights),
         interval_of(gap),
-        tuple(interval_of((value * factor).max(arb(0)).sqrt()) for value in values),
+        tuple(interval_of((value * factor).nonnegative_part().sqrt()) for value in values),
         EnclosedMatrix.of(names, names, [[shrunk[i, j] for j in range(n)] for i in range(n)]),
         tuple(index for index, weight in enumerate(weights) if weight),
     )
