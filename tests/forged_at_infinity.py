@@ -12,7 +12,10 @@ from forged_infinity import eliminant_of, infinity_of
 from forged_margins import NO_POSE, REJECTED, Case
 from held_mechanisms import Content, mechanism
 from mechanism_certificates import mechanism_content
+from mechanisms import vector
 
+from pkm_exact.certify.build_constraints import constraint_entry
+from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.linear import LinearForm
 
 Values = Sequence[complex]
@@ -115,7 +118,16 @@ def _nowhere_squarefree() -> Content:
     return _no_pose(_forms(point), infinity | {"eliminant": spelled[0], "coordinates": spelled[1:]})
 
 
+def _on_a_cylinder_too() -> Content:
+    """An honest certificate; a point that is on an axis is besides at a distance from another one."""
+    content = mechanism_content("3-PSS+C, general")
+    zero, axis = vector(0, 0, 0), vector(0, 0, 1)
+    beside = constraint_entry(AxisDistance(vector(1, 0, 0), axis, zero, Fraction(1), "beside"), (1, 3, 1))
+    return content | {"robot": content["robot"] | {"constraints": [*content["robot"]["constraints"], beside]}}
+
+
 AT_INFINITY: dict[str, Case] = {
+    "points at infinity of a mechanism with a cylinder": (_on_a_cylinder_too, REJECTED),
     **{f"points where {name} is not 0": (partial(_off_the_motions, name), REJECTED) for name in OFF_THE_MOTIONS},
     **{f"points that are not on the form {number}": (partial(_off_a_form, number), REJECTED) for number in (0, 3, 5)},
     "an eliminant that is a square": (_nowhere_squarefree, REJECTED),

@@ -12,6 +12,7 @@ from forged_completions import without_factor
 from forged_infinity import infinity_of
 from held_mechanisms import KEYS, Content
 from mechanism_certificates import mechanism_content
+from spherical_nets import triple_and_double
 
 Case = tuple[Callable[[], Content], str]
 REJECTED, ACCEPTED = "rejected", "accepted"
@@ -26,6 +27,23 @@ def _multiple(name: str, *multiplicities: int | None, total: int | None = None) 
     poses = zip(content["poses"], multiplicities, strict=True)
     found = [{**pose, "multiplicity": multiplicity} for pose, multiplicity in poses]
     return content | {"poses": found, "complex_solutions": content["complex_solutions"] if total is None else total}
+
+
+def _of_five(place: int = 0, step: int = 0) -> Content:
+    """A triple pose, a double one and three simple ones; the multiplicity of one of them is another."""
+    content = triple_and_double()
+    poses = [
+        {**pose, "multiplicity": pose["multiplicity"] + step * (number == place)}
+        for number, pose in enumerate(content["poses"])
+    ]
+    return content | {"poses": poses}
+
+
+def _of_five_without(step: int) -> Content:
+    """Without a step of its elimination."""
+    content = triple_and_double()
+    steps = content["elimination"]
+    return content | {"elimination": [*steps[:step], *steps[step + 1 :]]}
 
 
 def lacking(name: str, number: int, **entries: Any) -> Content:
@@ -46,6 +64,12 @@ def lacking(name: str, number: int, **entries: Any) -> Content:
 
 
 MULTIPLE: dict[str, Case] = {
+    "a triple pose, a double one and three simple ones": (_of_five, ACCEPTED),
+    **{
+        f"multiplicity of pose {place} of five, {step} off": (partial(_of_five, place, step), REJECTED)
+        for place in range(5)
+        for step in (1, -1)
+    },
     **{
         f"multiplicities {here} of a triple pose and a simple one": (partial(_multiple, TRIPLE, *here), REJECTED)
         for here in ((2, 1), (4, 1), (1, 3), (1, 1), (3, 2), (3, 3), (None, 1), (3, None))

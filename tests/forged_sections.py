@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from functools import partial
 from math import prod
 from typing import Any
@@ -12,10 +13,14 @@ from certificate_subjects import Content
 from flint import fmpz_poly
 from forged_margins import ACCEPTED, NO_POSE, REJECTED, Case
 from held_mechanisms import Numbers, Pose, listing, moving
+from mechanism_certificates import mechanism_content
 
 from pkm_exact.certify import pure
+from pkm_exact.certify.build_constraints import constraint_entry
 from pkm_exact.certify.checker.solutions import primes_for
+from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.constraint import Constraint
+from pkm_exact.constraints.form import Vector
 
 
 def _without_pose(kind: str, constraints: Callable[[Pose], list[Constraint]]) -> Content:
@@ -124,7 +129,33 @@ def _free_in_the_plane() -> Content:
     return moving(listing("planar", [at], [at.linear(UPRIGHT)], None), "dependent-forms")
 
 
+def _vector(texts: Sequence[str]) -> Vector:
+    x, y, z = map(Fraction, texts)
+    return x, y, z
+
+
+def _axes_in_fractions() -> Content:
+    """Poses on three cylinders in boxes; the directions of the axes are no integers."""
+    content = mechanism_content("cylinders, boxes")
+    entries = []
+    for constraint, scale in zip(content["robot"]["constraints"], ("1/2", "3/5", "7/3"), strict=True):
+        point, direction = (_vector(constraint[key]) for key in ("point", "direction"))
+        x, y, z = (Fraction(scale) * value for value in direction)
+        square = Fraction(constraint["radius_squared"])
+        cylinder = AxisDistance(point, (x, y, z), _vector(constraint["platform"]), square, constraint["name"])
+        entries.append(constraint_entry(cylinder, (1, 1, 1)))
+    return content | {"robot": content["robot"] | {"constraints": entries}}
+
+
+def _boxes_of_fewer() -> Content:
+    """Boxes of a robot with a constraint too few."""
+    content = mechanism_content("H4, boxes")
+    return content | {"robot": content["robot"] | {"constraints": content["robot"]["constraints"][:-1]}}
+
+
 SECTIONS: dict[str, Case] = {
+    "cylinders whose axes are given in fractions, boxes": (_axes_in_fractions, ACCEPTED),
+    "boxes of a robot with a constraint too few": (_boxes_of_fewer, REJECTED),
     "a pose beside the point where it is held": (_beside_a_point, REJECTED),
     "a representation that is not in lowest terms": (_doubled, REJECTED),
     "a constraint that holds for all motions": (_free_in_the_plane, ACCEPTED),

@@ -959,14 +959,14 @@ def poses_at_most(robot: Robot) -> int | None:
 
 
 def is_finite(robot: Robot) -> bool:
-    """Whether the section of X by the forms and quadrics is finite, points at infinity included."""
-    quadrics = [dict(zip(q, pure.cleared(list(q.values())), strict=True)) for q in all_quadrics(robot)]
+    """Whether the section of X by the forms is finite, points at infinity included; of no cylinders."""
+    quadrics = [dict(zip(q, pure.cleared(list(q.values())), strict=True)) for q in quadrics_of_motions(robot.metric)]
     forms = [dict(enumerate(pure.cleared(form))) for form in robot.linear]
-    return any(is_finite_modulo(forms, quadrics, p, len(robot.quadrics)) for p in primes_of(robot))
+    return any(is_finite_modulo(forms, quadrics, p) for p in primes_of(robot))
 
 
 def is_finite_modulo(
-    forms: Sequence[Mapping[int, int]], quadrics: Sequence[Mapping[tuple[int, int], int]], p: int, k: int
+    forms: Sequence[Mapping[int, int]], quadrics: Sequence[Mapping[tuple[int, int], int]], p: int
 ) -> bool:
     """Whether, modulo a prime, forms, quadrics and a random form have all monomials of some degree."""
     random = Random(p)
@@ -987,19 +987,18 @@ def is_finite_modulo(
                     key = min(one, other), max(one, other)
                     total[key] = (total.get(key, 0) + value * x * y) % p
         found.append(total)
-    return not graded_dimensions(len(unknowns), found, MAX_DEGREE_OF_MONOMIALS + k, p)[-1]
+    return not graded_dimensions(len(unknowns), found, MAX_DEGREE_OF_MONOMIALS, p)[-1]
 
 
 def check_infinity(infinity: PointsAtInfinity, robot: Robot, weight: int) -> Iterator[str]:
     """Check 12."""
-    k = len(robot.quadrics)
-    fits = robot.kind.name == "spatial" and (k == 0 or robot.number_of_rows == 6)
-    pure.require(fits, "infinity: the points count for spatial motions and as many constraints as freedoms only")
+    fits = robot.kind.name == "spatial" and not robot.quadrics
+    pure.require(fits, "infinity: the points count for spatial motions without cylinders only")
     degree = len(infinity.h) - 1
-    pure.require(degree <= DEGREE << k, f"infinity: more than {DEGREE << k} points")
+    pure.require(degree <= DEGREE, f"infinity: more than {DEGREE} points")
     check_points(infinity)
     padded = [pure.padded(numerator, degree) for numerator in infinity.numerators]
-    for form in (*robot.linear, *(quadric.h for quadric in robot.quadrics)):
+    for form in robot.linear:
         weights = pure.cleared(form)[:16]
         inside = not any(pure.combination(weights, column) for column in zip(*padded, strict=True))
         pure.require(inside, "infinity: a linear form is not 0 at every point")
@@ -1010,8 +1009,8 @@ def check_infinity(infinity: PointsAtInfinity, robot: Robot, weight: int) -> Ite
     yield f"infinity: {degree} points, {singular} of them singular on the motions, count {count}"
     pure.require(is_finite(robot), "section: not proved finite")
     yield "section: finite, points at infinity included"
-    full = weight + count == DEGREE << k
-    pure.require(full, f"infinity: {weight} solutions and {count} at infinity are not {DEGREE << k}")
+    full = weight + count == DEGREE
+    pure.require(full, f"infinity: {weight} solutions and {count} at infinity are not {DEGREE}")
 
 
 def check_points(infinity: PointsAtInfinity) -> None:

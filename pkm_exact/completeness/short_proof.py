@@ -67,7 +67,7 @@ def short_proof(
         return ShortProof(CompletenessRoute.PRODUCT_BOUND if is_lower else CompletenessRoute.REFINED_BEZOUT)
     if modular_rank(section or closed_section(conditions), next(primes), total) == total:
         return ShortProof(CompletenessRoute.MODULAR_RANK)
-    if conditions.motion != SPATIAL or not _is_square(conditions):
+    if conditions.motion != SPATIAL or conditions.quadrics:
         return None
     if not _has_room(conditions, bound.degree - total, primes):
         return None

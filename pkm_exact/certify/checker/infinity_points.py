@@ -20,7 +20,7 @@ from pkm_exact.certify.checker.mechanism_document import Infinity
 from pkm_exact.certify.checker.mechanism_forms import Mechanism, cleared
 from pkm_exact.certify.checker.solutions import modulo, primitive_part, proved_coprime, vanishes
 from pkm_exact.certify.checker.study_motion import Metric, combination
-from pkm_exact.certify.checker.verdict import rejected
+from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
 
 
 def check_infinity(infinity: Infinity, mechanism: Mechanism) -> Iterator[str]:
@@ -28,8 +28,8 @@ def check_infinity(infinity: Infinity, mechanism: Mechanism) -> Iterator[str]:
     h, z = infinity.eliminant, infinity.coordinates
     bits = max(int(value.height_bits()) for value in (h, *z))
     charge(6 * 400 * int(h.degree() + 1) ** 2 * limbs(2 * bits))
-    if h.degree() > mechanism.degree_bound:
-        raise rejected(f"infinity: more than {mechanism.degree_bound} points, all that there can be")
+    if h.degree() > GREATEST_NUMBER:
+        raise rejected(f"infinity: more than {GREATEST_NUMBER} points, all that there can be")
     if h.leading_coefficient() < 0 or gcd(*(int(value.content()) for value in (h, *z))) != 1:
         raise rejected("infinity: not in lowest terms with positive leading coefficient")
     h0, slope = primitive_part(h), h.derivative()
@@ -41,8 +41,7 @@ def check_infinity(infinity: Infinity, mechanism: Mechanism) -> Iterator[str]:
         raise rejected("infinity: w.z is not 1 at the roots of the eliminant")
     if combination(infinity.separating_form, z) != fmpz_poly([0, 1]) * slope - h.degree() * h:
         raise rejected("infinity: the values of the separating form are not the roots of the eliminant")
-    forms = [*mechanism.linear, *(quadric.root for quadric in mechanism.quadrics)]
-    if any(combination(cleared(form)[:-1], z) for form in forms):
+    if any(combination(cleared(form)[:-1], z) for form in mechanism.linear):
         raise rejected("infinity: a point is not on all constraints")
     if not all(vanishes(value, h0) for value in _quadrics(z, mechanism.metric)):
         raise rejected("infinity: a point is not one of the closure of the rigid motions")

@@ -18,7 +18,7 @@ from pkm_exact.certify.checker.mechanism_solutions import are_regular, irregular
 from pkm_exact.certify.checker.multiplicity import multiplicities_of
 from pkm_exact.certify.checker.solutions import primitive_part
 from pkm_exact.certify.checker.traceform import quotient_algebra
-from pkm_exact.certify.checker.verdict import rejected
+from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
 
 
 @dataclass(frozen=True)
@@ -116,13 +116,13 @@ def _proved(document: MechanismDocument, listed: _Listed) -> Generator[str, None
     if document.infinity is not None:
         if mechanism.group.dimension != 6:
             raise rejected("infinity: points at infinity are counted for spatial motions only")
-        if mechanism.quadrics and mechanism.rank + len(mechanism.quadrics) != 6:
-            raise rejected("infinity: with cylinders, points at infinity are counted for six constraints only")
+        if mechanism.quadrics:
+            raise rejected("infinity: points at infinity are not counted where there are cylinders")
         yield from check_infinity(document.infinity, mechanism)
-        if listed.weight + document.infinity.multiplicity != mechanism.degree_bound:
+        if listed.weight + document.infinity.multiplicity != GREATEST_NUMBER:
             raise rejected(
                 f"infinity: {listed.weight} finite and {document.infinity.multiplicity} at infinity are not "
-                f"{mechanism.degree_bound}, the degree of the motions"
+                f"{GREATEST_NUMBER}, the degree of the motions"
             )
         if not is_finite(mechanism):
             raise rejected("infinity: not proved that the section is finite")

@@ -136,7 +136,7 @@ def _rate(form: Form, t: Sequence[Fraction], w: Sequence[Fraction], g: Metric, o
 def _equal_legs(mechanism: Mechanism, representation: Representation) -> bool:
     legs = [constraint.leg for constraint in mechanism.constraints]
     known = [leg for leg in legs if leg is not None]
-    if mechanism.group.dimension not in (3, 6) or mechanism.group.degree not in (6, 40) or len(known) < len(legs):
+    if mechanism.group.degree not in (6, 40) or len(known) < len(legs):
         raise rejected("self-motion: equal legs are those of spatial or planar robots with legs only")
     h0 = primitive_part(representation.eliminant)
     placed = motion(representation.quaternion, representation.translation, mechanism.metric)

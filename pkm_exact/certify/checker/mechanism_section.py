@@ -31,7 +31,7 @@ from pkm_exact.certify.checker.study_motion import Metric
 _TO_ORDER: Final = (1, 2, 3, 4, 5, 6, 0, *range(7, 17))
 """Places in a form of the coordinates in ``ORDER``, and of 1."""
 _HIGHEST: Final = 12
-"""Degree up to which graded algebras are looked at; two more for each cylinder would do, one is enough."""
+"""Degree up to which graded algebras are looked at."""
 _ATTEMPTS: Final = 3
 _ENTRY: Final = 4
 """Operations charged for an entry of a matrix modulo a prime, for each of its rows."""
@@ -147,14 +147,14 @@ def _pairs(terms: Mapping[tuple[int, ...], int]) -> dict[tuple[int, int], int]:
 
 
 def is_finite(mechanism: Mechanism) -> bool:
-    """Whether the motions and all forms and quadrics meet in finitely many points, those at infinity included.
+    """Whether the motions and all forms meet in finitely many points, those at infinity included; of no cylinders.
 
     With a further form, chosen at random, they then meet nowhere: modulo a prime the quadrics contain all monomials of
     some degree.
     """
     for attempt, p in enumerate(_primes(mechanism)):
         quadrics, size = _cut(mechanism, p, attempt)
-        if size == 0 or list(_parts(quadrics, size, p, _HIGHEST + len(mechanism.quadrics)))[-1] == 0:
+        if size == 0 or list(_parts(quadrics, size, p, _HIGHEST))[-1] == 0:
             return True
     return False
 
@@ -173,7 +173,7 @@ def _cut(mechanism: Mechanism, p: int, seed: int) -> tuple[list[dict[tuple[int, 
         embedding[j, column] = 1
         for row, pivot in enumerate(pivots):
             embedding[pivot, column] = -int(solved[row, j]) % p
-    symmetric = [*_motion_matrices(mechanism.metric, p), *_robot_matrices(mechanism, p)]
+    symmetric = list(_motion_matrices(mechanism.metric, p))
     charge(10**5 * len(symmetric) * (1 + size))
     found = []
     for entries in symmetric:
@@ -219,19 +219,6 @@ def _motion_matrices(metric: Metric, p: int) -> Iterator[list[int]]:
         yield entries
 
 
-def _robot_matrices(mechanism: Mechanism, p: int) -> Iterator[list[int]]:
-    """The same of factor F h - H^2."""
-    for quadric in mechanism.quadrics:
-        # With one denominator for both forms: factor F h - H^2 times its square.
-        scale = lcm(*(value.denominator for form in (quadric.whole, quadric.root) for value in form))
-        whole, root = ([int(value * scale) for value in form] for form in (quadric.whole, quadric.root))
-        above, below = quadric.factor.numerator * scale, quadric.factor.denominator
-        entries = [-below * root[i] * root[j] for i in range(SIZE) for j in range(SIZE)]
-        for i in range(SIZE):
-            entries[SIZE * i + SIZE - 1] += above * whole[i]
-        yield [value % p for value in entries]
-
-
 def _parts(quadrics: Sequence[Mapping[tuple[int, int], int]], size: int, p: int, highest: int) -> Iterator[int]:
     """The dimensions of A_0, A_1, .. up to the first that is 0, or to degree ``highest``."""
     yield 1
@@ -242,7 +229,7 @@ def _parts(quadrics: Sequence[Mapping[tuple[int, int], int]], size: int, p: int,
     for row, quadric in enumerate(quadrics):
         for pair, value in quadric.items():
             flat[row * len(monomials) + place[pair]] = value % p
-    reduced = _quotient(nmod_mat(len(quadrics), len(monomials), flat, p) if quadrics else None, len(monomials), p)
+    reduced = _quotient(nmod_mat(len(quadrics), len(monomials), flat, p), p)
     # lower[i] takes A_(t-1) to A_t by the i-th unknown; columns are images.
     lower = [_columns(reduced, [place[min(i, j), max(i, j)] for j in range(size)], p) for i in range(size)]
     for _ in range(2, highest):
@@ -268,8 +255,7 @@ def _next(lower: Sequence[nmod_mat], size: int, p: int) -> list[nmod_mat]:
             row[i * dimension : (i + 1) * dimension] = columns[j][c]
             row[j * dimension : (j + 1) * dimension] = [-value % p for value in columns[i][c]]
             flat += row
-    relations = nmod_mat(count, width, flat, p) if count else None
-    reduced = _quotient(relations, width, p)
+    reduced = _quotient(nmod_mat(count, width, flat, p), p)
     return [_columns(reduced, range(i * dimension, (i + 1) * dimension), p) for i in range(size)]
 
 
@@ -277,10 +263,9 @@ def _row_of(entries: Sequence[object]) -> list[int]:
     return [int(value) for value in entries]  # type: ignore[call-overload]
 
 
-def _quotient(relations: nmod_mat | None, width: int, p: int) -> tuple[dict[int, int], list[list[int]]]:
+def _quotient(relations: nmod_mat, p: int) -> tuple[dict[int, int], list[list[int]]]:
     """For each symbol its coordinates in the space of symbols modulo relations, as a list; and which are the basis."""
-    if relations is None:
-        return {column: column for column in range(width)}, [[int(i == j) for i in range(width)] for j in range(width)]
+    width = relations.ncols()
     reduced, rank = relations.rref()
     table = [_row_of(row) for row in reduced.table()[:rank]]
     pivots = [next(column for column, value in enumerate(row) if value) for row in table]

@@ -242,10 +242,7 @@ def is_regular(at: Expansion, radii: Sequence[arb], *, real: bool) -> bool:
     bounds = arb_mat([[v.abs_upper() for v in row] for row in at.defect(box, uncertain=True).tolist()])
     size = len(radii)
     unit = arb_mat([[int(i == j) for j in range(size)] for i in range(size)])
-    try:
-        vector = (unit - bounds).solve(arb_mat(size, 1, [1] * size)).mid()
-    except ZeroDivisionError:
-        return False
+    vector = (unit - bounds).solve(arb_mat(size, 1, [1] * size), nonstop=True).mid()  # NaN is not greater than 0
     images = (bounds * vector).entries()
     shrinks = all(v > 0 and image < v for v, image in zip(vector.entries(), images, strict=True))
     return shrinks and not _norm(at, box).contains(0)
