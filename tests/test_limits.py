@@ -176,6 +176,27 @@ def test_angles_of_cranks_are_compared_exactly_whole_turns_aside(pair: tuple[int
     assert limit_verdicts(found, upright, robot.problem(upright), solved("3-rrr").poses[:1]) == [{"angles": verdict}]
 
 
+def test_rods_whose_slides_meet_do_not_share_a_joint() -> None:
+    """Rods 1 and 2 on one guide, at one place: they touch there."""
+    robot = model("inclined-slides")
+    assert robot.chains is not None
+    twice = replace(
+        robot,
+        base_joints=(robot.base_joints[0], *robot.base_joints[:1], *robot.base_joints[2:]),
+        chains=(robot.chains[0], *robot.chains[:1], *robot.chains[2:]),
+        configurations=(),
+        limits=Limits(leg_distance=Fraction(1, 10**6)),
+    )
+    one, zero, high = (Interval(Fraction(x), Fraction(x)) for x in (1, 0, "1/4"))
+    pose = Pose(None, (zero, zero, high), ((one, zero, zero), (zero, one, zero), (zero, zero, one)), (one, *[zero] * 3))
+    for places, verdict in (
+        ([Fraction(1, 8)] * 6, "no"),
+        ([Fraction(1, 8), Fraction(1, 6), *[Fraction(1, 8)] * 4], "yes"),
+    ):
+        locked = twice.lock("there", places)
+        assert limit_verdicts(twice, locked, twice.problem(locked), [pose]) == [{"leg_distance": verdict}]
+
+
 def test_slides_of_robots_and_lengths_of_mechanisms_are_compared_exactly() -> None:
     slides = model("3-prr").configuration().joint_values
     pairs = tuple((value, value) for value in slides)

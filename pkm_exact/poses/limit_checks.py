@@ -101,7 +101,8 @@ def limit_verdicts(
         return [{} for _ in poses]
     with working_precision(PRECISION):
         actuators = _actuator_verdicts(limits, machine, locked, problem)
-        return [actuators | _pose_verdicts(limits, problem, pose) for pose in poses]
+        sharing = _sharing(machine)
+        return [actuators | _pose_verdicts(limits, problem, pose, sharing) for pose in poses]
 
 
 def _actuator_verdicts(
@@ -177,7 +178,9 @@ def at_least(value: arb) -> LimitVerdict:
     return LimitVerdict.YES if value >= 0 else LimitVerdict.NO if value < 0 else LimitVerdict.UNDECIDED
 
 
-def _pose_verdicts(limits: Limits, problem: ForwardProblem, pose: Pose) -> dict[str, LimitVerdict]:
+def _pose_verdicts(
+    limits: Limits, problem: ForwardProblem, pose: Pose, sharing: Callable[[Any, Any], bool]
+) -> dict[str, LimitVerdict]:
     roots = [arb(g).sqrt() for g in problem.metric]
     position = [hull(c.lo, c.hi) for c in pose.position]
     rotation = [[hull(entry.lo, entry.hi) for entry in row] for row in pose.rotation]
@@ -193,7 +196,7 @@ def _pose_verdicts(limits: Limits, problem: ForwardProblem, pose: Pose) -> dict[
         axes = [_turned(rotation, _ordinary(axis, roots)) for axis in limits.platform_cones.axes]
         found["platform_cones"] = _in_cones(limits.platform_cones, axes, tips, feet)
     if limits.leg_distance is not None:
-        found["leg_distance"] = are_apart(ball(limits.leg_distance), legs, feet, tips)
+        found["leg_distance"] = are_apart(ball(limits.leg_distance), legs, feet, tips, sharing)
     if limits.position:
         sides = zip(position, roots, limits.position, strict=False)
         found["position"] = together(
@@ -236,8 +239,26 @@ def in_cone(axis: Point, leg: Point, angle: Fraction) -> LimitVerdict:
     return at_least(_dot(axis, leg) - cosine * size)
 
 
-def _share_a_joint(leg: Any, other: Any) -> bool:
-    return bool(leg.base == other.base or leg.platform == other.platform)
+def _sharing(machine: Machine) -> Callable[[Any, Any], bool]:
+    """Whether two legs of a machine share a joint: not if each stands on a slide or crank of its own, which meet."""
+    drives = machine.drives if isinstance(machine, Mechanism) else ()
+    own = {entry.name: entry for entry in machine.constraints} if isinstance(machine, Mechanism) else {}
+
+    def movers(name: str) -> set[str]:
+        return {
+            drive.name for drive in drives for part in drive.parts if (part.constraint, part.field) == (name, "base")
+        }
+
+    def share_a_joint(leg: Any, other: Any) -> bool:
+        if leg.platform == other.platform:
+            return True
+        if leg.base != other.base or (isinstance(machine, Robot) and machine.chains):
+            return False
+        first, second = movers(leg.name), movers(other.name)
+        stand: Any = (own.get(leg.name, leg), own.get(other.name, other))
+        return first == second and bool(stand[0].base == stand[1].base)
+
+    return share_a_joint
 
 
 def are_apart(
@@ -245,7 +266,7 @@ def are_apart(
     legs: Sequence[Any],
     feet: Sequence[Point],
     tips: Sequence[Point],
-    share_a_joint: Callable[[Any, Any], bool] = _share_a_joint,
+    share_a_joint: Callable[[Any, Any], bool],
 ) -> LimitVerdict:
     """Whether all legs that share no joint are at least that far apart, as segments."""
     segments = list(zip(legs, feet, tips, strict=True))
