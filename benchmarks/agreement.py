@@ -76,7 +76,7 @@ def main() -> int:
     return int(set(tally) - {"agree", "fallback"} != set())
 
 
-def _random_robot(number: int) -> Case:
+def random_robot(number: int) -> Case:
     random = Random(f"robot {number}")
     place, axis = _vector(random), _vector(random)
     turn = rotation_of((Fraction(random.randint(0, 1000), 100), *axis))
@@ -123,7 +123,7 @@ def _rolland() -> tuple[Robot, StartSection | None]:
 
 
 CASES: dict[str, tuple[Callable[[int], Case], int]] = {
-    "robots": (_random_robot, 1000),
+    "robots": (random_robot, 1000),
     "lengths": (_random_lengths, 200),
     **{name: (partial(_of_family, name), 200) for name in FAMILIES},
 }
