@@ -132,15 +132,24 @@ def test_every_line_is_explained(kind: str) -> None:
 @pytest.mark.parametrize("digits", [None, 3])
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_stands_in_comments_holds_too(kind: str, digits: int | None) -> None:
-    """The joints written out are those of the hexagon, and the further configuration can be read."""
+    """The joints written out are those of the hexagon, and the further configuration and the limits can be read."""
     text = model_text(drawn(_design(kind, digits)), "r", "mm")
     pieces = re.sub(r"^hexagon = .*\n", "", text, flags=re.M)
-    pieces = re.sub(r"^# (joints = \[|    \[.*|\]|\[\[conf.*|name = .*|[a-z_]+ = \[.*)$", r"\1", pieces, flags=re.M)
+    pieces = re.sub(
+        r"^# (joints = \[|    \[.*|\]|\[limits\]|\[\[conf.*|name = .*|[a-z_]+ = \[.*)$", r"\1", pieces, flags=re.M
+    )
     robot, spelled = robot_from_toml(text), robot_from_toml(pieces)
     assert (spelled.base_joints, spelled.platform_joints) == (robot.base_joints, robot.platform_joints)
     assert len(robot.configurations) == 1
     assert len(spelled.configurations) == 2
     assert spelled.configurations[0] == robot.configurations[0]
+    assert robot.limits is None
+    assert spelled.limits is not None
+    (low, high), *_ = spelled.limits.lengths or spelled.limits.slides or spelled.limits.angles
+    if robot.chains:
+        assert low < 0 < high
+    else:
+        assert all(low**2 < square < high**2 for square in robot.configurations[0].lengths_squared)
     if not robot.chains:
         for measured, square in zip(
             spelled.configurations[1].lengths_squared, robot.configurations[0].lengths_squared, strict=True

@@ -45,6 +45,7 @@ def model_text(draft: Draft, name: str, unit: str) -> str:
         _platform(draft),
         _home(draft),
         _nominal(draft),
+        _limits(draft),
         _more(draft),
     )
     return "\n\n".join("\n".join(lines) for part in parts if (lines := list(part))) + "\n"
@@ -167,6 +168,34 @@ def _nominal(draft: Draft) -> Iterator[str]:
         yield f"position = [{_numbers(draft.position)}]"
         turn = "rpy_degrees = [0, 0, 0]" if draft.metric == UNIT_METRIC else "quaternion = [1, 0, 0, 0]"
         yield _line(turn, "not turned")
+
+
+def _limits(draft: Draft) -> Iterator[str]:
+    """How far the actuators go, as a comment that holds once the # is taken away."""
+    yield "# How far the actuators go, least and greatest; solve, track, region then say which poses keep that."
+    yield "# [limits]"
+    if not draft.chains:
+        roots = [rounded_root(square, _DIGITS) for square in draft.lengths_squared]
+        yield f"# lengths = [{_numbers([_two_digits(min(roots) * 4 / 5), _two_digits(max(roots) * 5 / 4)])}]"
+    elif _cranks(draft):
+        yield "# angles = [-85, 85]"
+    else:
+        half = _two_digits(draft.design.height / 2)
+        yield f"# slides = [{_numbers([-half, half])}]"
+
+
+def _two_digits(number: Fraction) -> Fraction:
+    """A positive number to two digits.
+
+    >>> _two_digits(Fraction(1925, 10)), _two_digits(Fraction(4, 300))
+    (Fraction(190, 1), Fraction(13, 1000))
+    """
+    step = Fraction(1)
+    while number < 10 * step:
+        step /= 10
+    while number >= 100 * step:
+        step *= 10
+    return round(number / step) * step
 
 
 def _more(draft: Draft) -> Iterator[str]:
