@@ -104,6 +104,16 @@ def test_zonotopes_are_measured(tmp_path: Path) -> None:
     assert all(row["agree"] and row["seconds"]["pkm_exact"] > 0 for row in rows)
 
 
+def test_tolerances_are_measured(tmp_path: Path) -> None:
+    """What is proved ends before the first singular robot that is seen."""
+    model = str(Path(__file__).parent.parent / "models" / "3-rpr-merlet-p.toml")
+    done = _run("bench_tolerances.py", model, "--rays", "20", "--json", str(tmp_path / "rows.json"))
+    assert done.returncode == 0, done.stderr
+    rows = json.loads((tmp_path / "rows.json").read_text())
+    assert [row["pose"] for row in rows] == [1, 2]
+    assert all(0 < row["proved"] < row["seen"] < 1 for row in rows)
+
+
 @pytest.mark.slow
 def test_following_is_measured(tmp_path: Path) -> None:
     done = _run("bench_following.py", "--runs", "1", "--json", str(tmp_path / "times.json"))
