@@ -455,17 +455,18 @@ MARGINS: dict[str, Case] = {**ROOTS, **CELLS, **BOUNDS, **POWERS, **SINGLE, **MO
 
 
 def huge() -> Content:
-    """A position of 2^5900 on the grid 2^-8192, by three forms that are multiplied from one to the next."""
-    factor = 10**590
+    """A position of 2^6200 on the grid 2^-7900, by three forms that are multiplied from one to the next."""
+    factor = 10**622
+    share = Fraction(1, 10**311)
     pose = Pose((1, 0, 0, 0), (0, factor, factor**2, factor**3))
     forms = []
     for place in (4, 5, 6):
         coefficients = [0] * 16
-        coefficients[place] = 1
+        coefficients[place] = share
         if place > 4:
-            coefficients[place - 1] = -factor
+            coefficients[place - 1] = -factor * share
         forms.append(pose.linear(coefficients))
     content = listing("translation", [pose], forms, None)
-    content = {**content, "box_exponent": 8192, "poses": []}
+    content = {**content, "box_exponent": 7900, "poses": []}
     fit_real_poses(content, 1)
     return content

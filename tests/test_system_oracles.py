@@ -154,6 +154,16 @@ exec sleep 100
 """
 
 
+def _is_gone(process: int) -> bool:
+    """Whether there is no such process; one that was killed may be there a moment longer."""
+    sleep(0.01)
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return True
+    return False
+
+
 def test_a_program_that_is_asked_ends_with_us(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Interrupted, or when the time is over, we leave neither the program nor its files behind."""
     note, folder, program = tmp_path / "pid", tmp_path / "temporary", tmp_path / "msolve"
@@ -174,6 +184,5 @@ def test_a_program_that_is_asked_ends_with_us(tmp_path: Path, monkeypatch: pytes
         solve_within_limits(
             SYSTEM, seconds=60, megabytes=None, width=Fraction(1), oracle="msolve", progress=interrupted
         )
-    with pytest.raises(ProcessLookupError):
-        os.kill(int(note.read_text()), 0)
+    assert any(_is_gone(int(note.read_text())) for _ in range(1000))
     assert not list(folder.iterdir())
