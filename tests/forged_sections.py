@@ -153,7 +153,16 @@ def _boxes_of_fewer() -> Content:
     return content | {"robot": content["robot"] | {"constraints": content["robot"]["constraints"][:-1]}}
 
 
+def _turned_one_way() -> Content:
+    """A platform that turns about a point, all nine entries of R given: no unknown is left."""
+    at = Pose((1, 0, 0, 0), (0, 0, 0, 0))
+    axes = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    content = listing("spherical", [at], [at.angle(one, other) for one in axes for other in axes])
+    return content | {"claim": "complete", "completeness_route": "modular-rank"}
+
+
 SECTIONS: dict[str, Case] = {
+    "a platform that cannot turn": (_turned_one_way, ACCEPTED),
     "cylinders whose axes are given in fractions, boxes": (_axes_in_fractions, ACCEPTED),
     "boxes of a robot with a constraint too few": (_boxes_of_fewer, REJECTED),
     "a pose beside the point where it is held": (_beside_a_point, REJECTED),
