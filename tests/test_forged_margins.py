@@ -22,4 +22,4 @@ def test_a_margin(name: str) -> None:
 def test_the_plain_checker_writes_no_longer_numbers_than_python_does() -> None:
     answer = pure.check_bytes(canonical_bytes(sealed(huge())))
     assert answer.status == "too-large"
-    assert answer.lines[-1].startswith("boxes: a coordinate ")
+    assert answer.lines[-1].startswith("boxes: a coordinate of more than")
