@@ -88,6 +88,7 @@ def crank_weights(robot: Machine) -> tuple[int | None, ...]:
 
     Examples
     --------
+    >>> from pkm_exact import Robot
     >>> crank_weights(Robot.load("models/3-rrr.toml")), crank_weights(Robot.load("models/3-rpr-merlet-p.toml"))
     ((1, 1, 1), (None, None, None))
     """

@@ -109,7 +109,7 @@ def double_cells(found: DoubleCoordinates, exponent: int) -> list[list[Interval 
 
     Examples
     --------
-    >>> coordinates = DoubleCoordinates(np.array([[0.375, 0.5, 0.4999]]), np.full((1, 3), 1e-12))
+    >>> coordinates = DoubleCoordinates(np.array([[0.375, 0.5, 0.4999]]), np.full((1, 3), 1e-9))
     >>> [cell and str(cell.lo) for cell in double_cells(coordinates, 2)[0]]
     ['1/4', None, '1/4']
     """

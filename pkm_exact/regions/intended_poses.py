@@ -74,7 +74,7 @@ def deviation(pose: Pose, columns: Sequence[str], row: Sequence[Fraction]) -> De
     >>> place = [c.midpoint for c in pose.position[:2]]
     >>> off = deviation(pose, ("x", "y", "theta"), (place[0] + 3, place[1] + 4, Fraction(0)))
     >>> print(off.distance)
-    5.000000000000000
+    5.000000000
     """
     with working_precision(_PRECISION):
         s = parameter(Fraction(0), Fraction(0))

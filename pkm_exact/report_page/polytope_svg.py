@@ -33,8 +33,8 @@ def polytope_svg(panel: StaticsPanel) -> Markup:
     >>> from pkm_exact import Robot
     >>> from pkm_exact.pictures.statics_picture import statics_panels
     >>> at = Robot.load("models/3-rpr-merlet-p.toml").at({"position": [5, "9/2"], "half_tangent": "1/3"})
-    >>> print(polytope_svg(statics_panels(at.measures(speeds=1))[0])[:63])
-    <svg viewBox="0 0 240 240" class="polytope" role="img" aria-labe
+    >>> print(polytope_svg(statics_panels(at.measures(speeds=1))[0])[:56])
+    <svg viewBox="0 0 240 240" class="polytope" role="img" a
     """
     polytope = panel.polytope
     points = np.array([[_double(value) for value in vertex] for vertex in polytope.vertices])
