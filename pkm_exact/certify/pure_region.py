@@ -1,7 +1,7 @@
 """Checks region certificates with Python's integers and nothing else.
 
 The part of the plain checker that ``pure.py``, beside this file, uses when it meets such a certificate. Written from
-the definition of the format and its proofs, ``docs/regions.md``; it shares no line with the other checker.
+the definition of the format and its proofs, ``docs/certificates-regions.md``; it shares no line with the other checker.
 """
 
 from __future__ import annotations

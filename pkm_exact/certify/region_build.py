@@ -1,4 +1,4 @@
-"""Region certificates: a paving and what follows from it, written down for the checkers (``docs/regions.md``)."""
+"""Region certificates: a paving and what follows from it, for the checkers (``docs/certificates-regions.md``)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The conditions of a region certificate as polynomials, from the robot and the chart alone (``docs/regions.md``)."""
+"""The conditions of a region certificate as polynomials (``docs/certificates-regions.md``), from robot and chart."""
 
 from __future__ import annotations
 
