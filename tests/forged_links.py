@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import deepcopy
 from fractions import Fraction
 from typing import Any
 
@@ -24,7 +23,7 @@ from handmade_links import (
     on_line,
     system,
 )
-from tables_of_rows import merged
+from tables_of_rows import merged, put
 
 Row = tuple[Content, str, str]
 """A certificate without its digest, the verdict, and how its last line begins."""
@@ -32,16 +31,6 @@ Row = tuple[Content, str, str]
 ONE, NOTHING = "not proven complete: one pose", "not proven complete: no solution"
 UNPROVED = "box: that it holds exactly one pose is not proved"
 SHEARED = "system: its polynomials are not those"
-
-
-def put(content: Content, value: Any, *path: Any) -> Content:
-    """With another entry."""
-    found = deepcopy(content)
-    entry: Any = found
-    for key in path[:-1]:
-        entry = entry[key]
-    entry[path[-1]] = value
-    return found
 
 
 # Poses of one body: unknowns that are integers, and constraints that hold there

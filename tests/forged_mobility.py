@@ -7,20 +7,10 @@ from fractions import Fraction
 from typing import Any
 
 from handmade_mobility import REGULAR, Content, O, X, Y, Z, certificate, joint, subgroups
-from tables_of_rows import merged
+from tables_of_rows import merged, put
 
 Row = tuple[Content, str, str]
 """A certificate without its digest, the verdict, and how its last line begins."""
-
-
-def put(content: Content, value: Any, *path: Any) -> Content:
-    """With another entry."""
-    found = deepcopy(content)
-    entry: Any = found
-    for key in path[:-1]:
-        entry = entry[key]
-    entry[path[-1]] = value
-    return found
 
 
 def legs(*chains: list[tuple[str, Any, Any]]) -> list[Content]:

@@ -9,7 +9,7 @@ from math import isqrt
 from typing import Any
 
 from handmade_statics import Content, machine, polytopes
-from tables_of_rows import merged
+from tables_of_rows import merged, put
 
 Row = tuple[Content, str, str]
 """A certificate without its digest, the verdict, and how its last line begins."""
@@ -71,15 +71,6 @@ def _changed(content: Content, change: Callable[[Content], Any]) -> Content:
     return found
 
 
-def _put(content: Content, value: Any, *path: Any) -> Content:
-    found = deepcopy(content)
-    entry: Any = found
-    for key in path[:-1]:
-        entry = entry[key]
-    entry[path[-1]] = value
-    return found
-
-
 LISTS = (("velocity_polytope", "vertices"), ("velocity_polytope", "facets"))
 LISTS += (("wrench_polytope", "vertices"), ("wrench_polytope", "facets"))
 
@@ -100,11 +91,11 @@ def list_rows() -> dict[str, Row]:
         for key, part in LISTS:
             entries = content[key][part]
             for place, other in ((0, 1), (len(entries) - 1, 0)):
-                left = _put(content, entries[:place] + entries[place + 1 :], key, part)
+                left = put(content, entries[:place] + entries[place + 1 :], key, part)
                 found[f"{name}: {key}.{part} without {place}"] = (left, "rejected", f"{key}: not all")
-                twice = _put(content, [*entries, entries[place]], key, part)
+                twice = put(content, [*entries, entries[place]], key, part)
                 found[f"{name}: {key}.{part} twice {place}"] = (twice, "rejected", f"{key}: a")
-                swapped = _put(content, [*entries[:place], entries[other], *entries[place + 1 :]], key, part)
+                swapped = put(content, [*entries[:place], entries[other], *entries[place + 1 :]], key, part)
                 found[f"{name}: {key}.{part} again {place}"] = (swapped, "rejected", f"{key}: a")
     return found
 
@@ -112,13 +103,13 @@ def list_rows() -> dict[str, Row]:
 def _moved(content: Content, place: int, step: Fraction) -> Content:
     line = content["velocity_polytope"]["vertices"][place][0]
     k = next(k for k, x in enumerate(line) if x != "0")
-    return _put(content, str(Fraction(line[k]) * (1 + step)), "velocity_polytope", "vertices", place, 0, k)
+    return put(content, str(Fraction(line[k]) * (1 + step)), "velocity_polytope", "vertices", place, 0, k)
 
 
 def _offset(content: Content, place: int, step: Fraction) -> Content:
     offset = content["wrench_polytope"]["facets"][place]["offset"]
     k = next(k for k, x in enumerate(offset) if x != "0")
-    return _put(content, str(Fraction(offset[k]) + step), "wrench_polytope", "facets", place, "offset", k)
+    return put(content, str(Fraction(offset[k]) + step), "wrench_polytope", "facets", place, "offset", k)
 
 
 OUTSIDE, OTHERS = "velocity_polytope: a vertex lies outside", "velocity_polytope: not all"
@@ -136,17 +127,17 @@ POLYTOPES: dict[str, Row] = {
         for step in (SMALL, -SMALL)
     },
     "no vertex of wrenches": (
-        _put(HEX, [], "wrench_polytope", "vertices"),
+        put(HEX, [], "wrench_polytope", "vertices"),
         "rejected",
         "wrench_polytope: not all vertices",
     ),
     "a vertex of wrenches that is none": (
-        _put(HEX, [*HEX["wrench_polytope"]["vertices"][1:], [1, 1, -1]], "wrench_polytope", "vertices"),
+        put(HEX, [*HEX["wrench_polytope"]["vertices"][1:], [1, 1, -1]], "wrench_polytope", "vertices"),
         "rejected",
         "wrench_polytope",
     ),
     "a vertex of wrenches that is none, first": (
-        _put(HEX, [[-1, -1, 1], *HEX["wrench_polytope"]["vertices"][1:]], "wrench_polytope", "vertices"),
+        put(HEX, [[-1, -1, 1], *HEX["wrench_polytope"]["vertices"][1:]], "wrench_polytope", "vertices"),
         "rejected",
         "wrench_polytope",
     ),
@@ -161,12 +152,12 @@ POLYTOPES: dict[str, Row] = {
         "wrench_polytope",
     ),
     "a vertex in the middle": (
-        _put(HEX, [*HEX["velocity_polytope"]["vertices"], [["0"] * 3] * 2], "velocity_polytope", "vertices"),
+        put(HEX, [*HEX["velocity_polytope"]["vertices"], [["0"] * 3] * 2], "velocity_polytope", "vertices"),
         "rejected",
         "velocity_polytope: not all vertices",
     ),
     "a vertex on a side": (
-        _put(
+        put(
             HEX,
             [*HEX["velocity_polytope"]["vertices"], [["1", "0", "0"], ["0", "0", "0"]]],
             "velocity_polytope",
@@ -176,7 +167,7 @@ POLYTOPES: dict[str, Row] = {
         "velocity_polytope: not all vertices",
     ),
     "a vertex of wrenches more": (
-        _put(HEX, [*HEX["wrench_polytope"]["vertices"], [1, 1, -1]], "wrench_polytope", "vertices"),
+        put(HEX, [*HEX["wrench_polytope"]["vertices"], [1, 1, -1]], "wrench_polytope", "vertices"),
         "rejected",
         "wrench_polytope",
     ),
@@ -193,7 +184,7 @@ POLYTOPES: dict[str, Row] = {
         "wrench_polytope: a leg exerts nothing",
     ),
     "a facet of wrenches more": (
-        _put(
+        put(
             HEX,
             [*HEX["wrench_polytope"]["facets"], {"normal": ["1", "2"], "offset": ["1", "2", "3"]}],
             "wrench_polytope",
@@ -203,7 +194,7 @@ POLYTOPES: dict[str, Row] = {
         "wrench_polytope: not all facets",
     ),
     "a facet of twists more": (
-        _put(
+        put(
             HONEST["sides that are none"],
             [*HONEST["sides that are none"]["velocity_polytope"]["facets"], [4, 1]],
             "velocity_polytope",
@@ -213,7 +204,7 @@ POLYTOPES: dict[str, Row] = {
         "velocity_polytope: not all facets",
     ),
     "the second of two sides": (
-        _put(
+        put(
             HONEST["legs alike"],
             [[2, 1] if f == [1, -1] else f for f in HONEST["legs alike"]["velocity_polytope"]["facets"]],
             "velocity_polytope",
@@ -399,7 +390,7 @@ INDICES: dict[str, Row] = {
 
 
 def _with(status: str, value: Any, *path: Any, content: Content | None = None) -> Row:
-    return _put(BASE if content is None else content, value, *path), status, ""
+    return put(BASE if content is None else content, value, *path), status, ""
 
 
 UNIT = [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]]
@@ -582,7 +573,7 @@ FORMAT: dict[str, Row] = {
         "ellipsoid",
     ),
     "no rotation, and a leg of no joints": (
-        _put(_put(SQUARE, "2", "rotation", 0, 0), {}, "legs", 1),
+        put(put(SQUARE, "2", "rotation", 0, 0), {}, "legs", 1),
         "malformed",
         "legs[2]",
     ),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import deepcopy
 from fractions import Fraction
 from math import isqrt
 from typing import Any
@@ -24,7 +23,7 @@ from handmade_systems import (
     system_content,
     trimmed,
 )
-from tables_of_rows import merged
+from tables_of_rows import merged, put
 
 from pkm_exact.certify import pure
 from pkm_exact.certify.checker.solutions import PRIMES
@@ -33,16 +32,6 @@ Row = tuple[Content, str]
 """A certificate without its digest, and the verdict."""
 
 MADE = handmade()
-
-
-def put(content: Content, value: Any, *path: Any) -> Content:
-    """With another entry."""
-    found = deepcopy(content)
-    entry: Any = found
-    for key in path[:-1]:
-        entry = entry[key]
-    entry[path[-1]] = value
-    return found
 
 
 def none(texts: tuple[str, ...], route: str | None, names: str = "x,y", **entries: Any) -> Content:

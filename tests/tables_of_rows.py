@@ -1,9 +1,10 @@
-"""Tables of certificates whose rows have names of their own."""
+"""Tables of certificates whose rows have names of their own, and certificates with one entry changed."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TypeVar
+from copy import deepcopy
+from typing import Any, TypeVar
 
 Entry = TypeVar("Entry")
 
@@ -15,4 +16,14 @@ def merged(*tables: Mapping[str, Entry]) -> dict[str, Entry]:
         twice = sorted(set(found) & set(table))
         assert not twice, twice
         found |= table
+    return found
+
+
+def put(content: dict[str, Any], value: Any, *path: Any) -> dict[str, Any]:
+    """With another entry."""
+    found = deepcopy(content)
+    entry: Any = found
+    for key in path[:-1]:
+        entry = entry[key]
+    entry[path[-1]] = value
     return found
