@@ -73,6 +73,8 @@ class Tab:
         for kind in ("browser", "performance"):
             driver.get_log(kind)
         driver.get(path.as_uri())
+        # A page that was not drawn yet is deaf to keys and touch.
+        driver.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
 
     def run(self, script: str, *arguments: Any) -> Any:
         return self.driver.execute_script(script, *arguments)
@@ -152,6 +154,7 @@ def _opened(driver: WebDriver, path: Path) -> Iterator[Tab]:
     """The page, which must have neither complained nor asked for anything when the test is over."""
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", _screen(1400, 900))
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", _media("light"))
+    driver.execute_cdp_cmd("Emulation.setFocusEmulationEnabled", {"enabled": True})
     tab = Tab(driver, path)
     yield tab
     assert driver.get_log("browser") == []
