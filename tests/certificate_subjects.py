@@ -48,6 +48,10 @@ def _mobility(name: str) -> Content:
     return mobility_certificate(mobility_of(read_linkage(f"models/chains/{name}.toml")))
 
 
+def _nothing_finite() -> Content:
+    return {**_mobility("seven-link-oblique"), "version": 1, "finite": None}
+
+
 CIRCLE = tuple(
     (Fraction(x, r), Fraction(y, r), Fraction(0))
     for x, y, r in ((3, 4, 5), (5, 0, 5), (-3, 4, 5), (-5, 0, 5), (5, -12, 13), (-4, -3, 5))
@@ -151,7 +155,8 @@ SUBJECTS = {
     "mobility, Sarrus": Subject(partial(_mobility, "sarrus"), 29, complete=2000),
     "mobility, seven-link": Subject(partial(_mobility, "seven-link"), 20, complete=2000),
     "mobility, planar loops": Subject(partial(_mobility, "peaucellier"), 0, complete=2000),
-    "mobility, nothing finite": Subject(partial(_mobility, "seven-link-oblique"), 0, complete=1000),
+    "mobility, nothing finite": Subject(_nothing_finite, 0, complete=1000),
+    "mobility-2, seven-link": Subject(partial(_mobility, "seven-link-oblique"), 20, complete=2000),
     "unproved multiplicities": Subject(partial(_unproved, "3-rpr-triple")),
     "not proven complete": Subject(lambda: without_proof(golden("similar-planar-s")), complete=1500),
     "nothing known": Subject(_nothing),

@@ -82,11 +82,14 @@ FREE = (
 """All entries that a new digest can cover, with the reason. Docs: ``docs/certificates.md``, "What a digest binds"."""
 
 FREE_MOBILITY = (
-    Free("mechanism", "the question: the same is proved of the other mechanism", ("mobility",)),
-    Free("*.rows", "another minor that is not 0", ("mobility",)),
-    Free("actuator_sets.*.complete", "claims less if it is false", ("mobility",)),
+    Free("mechanism", "the question: the same is proved of the other mechanism", ("mobility", "mobility-2")),
+    Free("*.rows", "another minor that is not 0", ("mobility", "mobility-2")),
+    Free("actuator_sets.*.complete", "claims less if it is false", ("mobility", "mobility-2")),
     Free("finite", "null claims less", ("mobility",), below=False),
     Free("finite.legs", "another order of the legs", ("mobility",), below=False),
+    Free("finite.dependencies", "others prove the same", ("mobility-2",)),
+    Free("finite.above", "another section, or a greater degree", ("mobility-2",)),
+    Free("finite.below", "another order of the legs, other freedoms, other vectors", ("mobility-2",)),
 )
 """The same for certificates of mobility. Docs: ``docs/certificates-mobility.md``."""
 
@@ -112,7 +115,7 @@ FREE_2 = (
 WORDS: dict[str, tuple[str, ...]] = {
     "format": ("pkm_exact certificate", "pkm_exact tolerance certificate", "pkm_exact mobility certificate"),
     "kind": ("6-UPS", "3-RPR", "3-RRR"),
-    "argument": ("regular", "subgroups", "second-order"),
+    "argument": ("regular", "subgroups", "second-order", "rank", "cone", "definite", "indefinite"),
     "method": ("exact", "krawczyk", "newton"),
     "claim": (
         "complete",

@@ -18,6 +18,7 @@ from pkm_exact.certify import (
     build_constraints,
     links_build,
     mobility_build,
+    mobility_second_build,
     pure,
     region_build,
     statics_build,
@@ -31,6 +32,7 @@ from pkm_exact.certify.checker.certificate_kinds import KINDS, CertificateKind
 POSES, TOLERANCES = "certificate-1.schema.json", "tolerance-certificate-1.schema.json"
 SECOND = "certificate-2.schema.json"
 MOBILITY = "mobility-certificate-1.schema.json"
+MOBILITY_2 = "mobility-certificate-2.schema.json"
 SYSTEMS = "system-certificate-1.schema.json"
 REGIONS = "region-certificate-1.schema.json"
 STATICS = "statics-certificate-1.schema.json"
@@ -48,11 +50,11 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     """The validator for a certificate of this kind."""
     by_format = {tolerance_build.FORMAT: TOLERANCES, mobility_build.FORMAT: MOBILITY}
     name = by_format.get(content["format"], POSES)
-    name = SECOND if name == POSES and content["version"] == 2 else name
+    name = {POSES: SECOND, MOBILITY: MOBILITY_2}[name] if content["version"] == 2 else name
     return jsonschema.Draft202012Validator(_schema(name))
 
 
-@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, REGIONS, STATICS, LINKS])
+@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, REGIONS, STATICS, LINKS])
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
 
@@ -186,6 +188,12 @@ def test_the_page_of_mobility_defines_every_key_in_its_order() -> None:
     parts += [root["properties"]["mobility"], root["properties"]["actuator_sets"]]
     parts += [definitions[key] for key in ("sets", "finite", "leg")]
     assert _tables("Format", "## Checks", "certificates-mobility.md") == [_keys(part) for part in parts]
+    second = _schema(MOBILITY_2)["$defs"]
+    expected = [_keys(second[key]) for key in ("finite", "above", "below")]
+    assert _tables("Version 2", "## What the digest binds", "certificates-mobility.md") == expected
+    page = (CERTS.parent / "docs" / "certificates-mobility.md").read_text()
+    words = [word for key in ("above", "below") for word in second[key]["properties"]["argument"]["enum"]]
+    assert all(f'`"{word}"`' in page for word in words)
 
 
 def test_the_page_of_regions_defines_every_key_in_its_order() -> None:
@@ -225,7 +233,7 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
     writers = (build, build_constraints, tolerance_build, system_build, mobility_build, region_build, statics_build)
-    writers = (*writers, links_build)
+    writers = (*writers, mobility_second_build, links_build)
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

@@ -124,13 +124,16 @@ NEEDED_2: dict[str, tuple[str, Path_, Any]] = {
 }
 """The same for ``FREE_2``."""
 
-SARRUS, OBLIQUE = "mobility, Sarrus", "mobility, nothing finite"
+SARRUS, OBLIQUE = "mobility, Sarrus", "mobility-2, seven-link"
 NEEDED_MOBILITY: dict[str, tuple[str, Path_, Any]] = {
     "mechanism": (SARRUS, ("mechanism", "source"), "elsewhere"),
     "*.rows": (OBLIQUE, ("platform", "rows", 0), 4),
     "actuator_sets.*.complete": (SARRUS, ("actuator_sets", "platform", "complete"), False),
     "finite": (SARRUS, ("finite",), None),
     "finite.legs": (SARRUS, ("finite", "legs"), lambda legs: legs[::-1]),
+    "finite.dependencies": (OBLIQUE, ("finite", "dependencies", 0, 2), "2"),
+    "finite.above": (OBLIQUE, ("finite", "above", "degree"), 3),
+    "finite.below": (OBLIQUE, ("finite", "below", "legs"), lambda legs: legs[::-1]),
 }
 """The same for ``FREE_MOBILITY``."""
 

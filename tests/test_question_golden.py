@@ -23,6 +23,7 @@ COMMANDS = {
         "1/3",
         *LIMITS,
     ],
+    "mobility/seven-link-oblique": ["mobility", "models/chains/seven-link-oblique.toml"],
     "regions/rolland-6-6": ["region", "models/rolland-6-6.toml", "certs/regions/rolland-6-6.toml"],
 }
 
@@ -41,7 +42,9 @@ def test_it_comes_out_again_and_is_accepted(name: str, tmp_path: Path, monkeypat
 def test_every_one_has_its_command_in_the_makefile() -> None:
     makefile = (ROOT / "Makefile").read_text()
     found = {
-        f"{path.parent.name}/{path.stem}" for part in ("statics", "regions") for path in (CERTS / part).glob("*.json")
+        f"{path.parent.name}/{path.stem}"
+        for part in ("statics", "regions", "mobility")
+        for path in (CERTS / part).glob("*.json")
     }
     assert found == set(COMMANDS)
     assert all(f"{' '.join(command)} -o certs/{name}.json" in makefile for name, command in COMMANDS.items())

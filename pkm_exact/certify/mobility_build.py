@@ -39,10 +39,11 @@ def mobility_certificate(found: LinkageMobility) -> dict[str, Any]:
         tuple(Fraction(int(name == other)) for other in found.linkage.freedoms) for name in found.actuation.actuated
     ]
     matrix = free.loops.matrix
+    version, finite = _finite(found)
     return sealed(
         {
             "format": FORMAT,
-            "version": VERSION,
+            "version": version,
             "mechanism": _mechanism(found.linkage),
             "actuated": list(found.actuation.actuated),
             "loops": rank_proof(matrix, size),
@@ -62,7 +63,7 @@ def mobility_certificate(found: LinkageMobility) -> dict[str, Any]:
                 "platform": listed_sets(found.hold_platform, found.linkage),
                 "mechanism": listed_sets(found.hold_mechanism, found.linkage),
             },
-            "finite": _finite(found),
+            "finite": finite,
         }
     )
 
@@ -169,29 +170,18 @@ def listed_sets(sets: ActuatorSets, linkage: Linkage) -> dict[str, Any]:
     return {"complete": sets.is_complete, "sets": [list(names) for names in ordered]}
 
 
-def _finite(found: LinkageMobility) -> dict[str, Any] | None:
+def _finite(found: LinkageMobility) -> tuple[int, dict[str, Any] | None]:
+    """The version that has the words for it, and the argument for the finite mobility."""
+    from pkm_exact.certify import mobility_second_build
     from pkm_exact.mobility.finite_mobility import Argument
-    from pkm_exact.mobility.reachable import reachable
+    from pkm_exact.mobility.second_order_proof import second_order_proof
 
     argument = found.finite.argument
     if argument is Argument.REGULAR:
-        return {"argument": str(argument), "legs": []}
-    if argument is not Argument.SUBGROUPS:
-        return None
-    legs = []
-    for leg in found.legs:
-        filled = reachable(leg, frozenset())
-        legs.append({"joints": _in_order(leg.linkage), "cut": filled.cut if filled else 0})
-    return {"argument": str(argument), "legs": legs}
-
-
-def _in_order(leg: Linkage) -> list[str]:
-    """The joints of a serial leg from the base to the platform."""
-    body, names = leg.base, []
-    left = list(leg.joints)
-    while left:
-        joint = next(joint for joint in left if body in joint.bodies)
-        left.remove(joint)
-        names.append(joint.name)
-        body = joint.bodies[1] if joint.bodies[0] == body else joint.bodies[0]
-    return names
+        return VERSION, {"argument": str(argument), "legs": []}
+    if argument is Argument.SUBGROUPS:
+        return VERSION, {"argument": str(argument), "legs": mobility_second_build.legs_entry(found.linkage)}
+    proof = second_order_proof(found.free, found.finite)
+    if proof is None:
+        return VERSION, None
+    return mobility_second_build.VERSION, mobility_second_build.finite_entry(found, proof)

@@ -7,11 +7,11 @@ shares no line with the other checker.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
-from math import gcd, lcm
+from itertools import combinations_with_replacement, pairwise
+from math import comb, gcd, lcm
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 if TYPE_CHECKING or __package__:
@@ -28,6 +28,9 @@ FORMAT: Final = "pkm_exact mobility certificate"
 MAX_BODIES: Final = 64
 MAX_FREEDOMS: Final = 128
 MAX_SETS: Final = 1 << 16
+MAX_DEGREE: Final = 12
+MAX_MONOMIALS: Final = 500
+PRIME: Final = (1 << 61) - 1
 AXES: Final = {"R": 1, "P": 1, "H": 1, "C": 1, "U": 2, "S": 0, "screw": 0}
 KEYS: Final = (
     "format version mechanism actuated loops platform locked_loops locked_platform mobility actuator_sets finite"
@@ -259,7 +262,7 @@ def longest(rows: Sequence[Sequence[Fraction]]) -> int:
     return pure.most_bits(numbers)
 
 
-def whole(row: Sequence[Fraction]) -> Integers:
+def whole(row: Sequence[Fraction | int]) -> Integers:
     """A multiple of a row in integers without a common factor."""
     denominator = lcm(*(x.denominator for x in row))
     found = [x.numerator * (denominator // x.denominator) for x in row]
@@ -267,7 +270,7 @@ def whole(row: Sequence[Fraction]) -> Integers:
     return [x // divisor for x in found] if divisor > 1 else found
 
 
-def echelon(rows: Sequence[Sequence[Fraction]]) -> list[tuple[int, Integers]]:
+def echelon(rows: Sequence[Sequence[Fraction | int]]) -> list[tuple[int, Integers]]:
     """Rows in integers that span the same, each with the place at which it begins; later rows are 0 there."""
     found: list[tuple[int, Integers]] = []
     for row in rows:
@@ -435,22 +438,37 @@ def finite_argument(value: Any, names: Sequence[str]) -> tuple[str, tuple[Leg, .
     word, legs = pure.an_object(value, "finite", "argument legs")
     argument = pure.one_of(("regular", "subgroups"))(word, "finite.argument")
 
+    read = some_legs(names)(legs, "finite.legs")
+    pure.well_formed(bool(read) == (argument == "subgroups"), "finite.legs: not those of the argument")
+    return argument, read
+
+
+def some_legs(names: Sequence[str]) -> pure.Reader:
+    """The reader of a list of legs."""
+
     def a_leg(entry: Any, where: str) -> Leg:
         joints, cut = pure.an_object(entry, where, "joints cut")
         read = pure.a_list(name_in(names))(joints, f"{where}.joints")
         return Leg(read, pure.a_number(cut, f"{where}.cut"))
 
-    read = pure.a_list(a_leg)(legs, "finite.legs")
-    pure.well_formed(bool(read) == (argument == "subgroups"), "finite.legs: not those of the argument")
-    return argument, read
+    return pure.a_list(a_leg)
 
 
-def along(mechanism: Mechanism, path: Way) -> list[Row]:
-    """The twists of the one-freedom joints in the order in which they are passed."""
-    found: list[Row] = []
+def passed(mechanism: Mechanism, path: Way) -> list[tuple[int, int]]:
+    """The places of the one-freedom joints in the order in which they are passed, with 1 or -1."""
+    starts = [0]
+    for joint in mechanism.joints:
+        starts.append(starts[-1] + len(joint.twists))
+    found = []
     for place, sign in path:
-        found += mechanism.joints[place].twists[::sign]
+        found += [(k, sign) for k in range(starts[place], starts[place + 1])[::sign]]
     return found
+
+
+def along(mechanism: Mechanism, path: Way, held: Collection[int] = ()) -> list[Row]:
+    """The twists of the one-freedom joints in the order in which they are passed, without those that are held."""
+    twists = [twist for joint in mechanism.joints for twist in joint.twists]
+    return [twists[k] for k, _ in passed(mechanism, path) if k not in held]
 
 
 def canonical(rows: Sequence[Sequence[Fraction]]) -> list[Row]:
@@ -503,9 +521,18 @@ def check_finite(mechanism: Mechanism, loops: Sequence[Way], claim: tuple[str, t
     """Prove that the finite mobility is the instantaneous one."""
     argument, legs = claim
     if argument == "regular":
-        dimensions = sum(len(algebra(along(mechanism, loop))) for loop in loops)
-        pure.require(dimensions == rank, "finite: the loops are not regular")
-        return
+        pure.require(dimension_of_groups(mechanism, loops) == rank, "finite: the loops are not regular")
+    else:
+        check_legs(mechanism, legs)
+
+
+def dimension_of_groups(mechanism: Mechanism, loops: Sequence[Way], held: Collection[int] = ()) -> int:
+    """The sum of the dimensions of the groups of the loops."""
+    return sum(len(algebra(along(mechanism, loop, held))) for loop in loops)
+
+
+def check_legs(mechanism: Mechanism, legs: Sequence[Leg], held: Collection[int] = ()) -> None:
+    """Prove that the legs fill groups, or products of two, and that these are transversal."""
     whole_groups: list[list[Row]] = []
     cut_legs: list[tuple[list[Row], list[Row]]] = []
     used: list[str] = []
@@ -514,7 +541,7 @@ def check_finite(mechanism: Mechanism, loops: Sequence[Way], claim: tuple[str, t
         path, bodies = chain_of(mechanism, leg)
         used += leg.joints
         inner += bodies
-        twists = along(mechanism, path)
+        twists = along(mechanism, path, held)
         pure.well_formed(leg.cut < max(1, len(twists)), "finite.legs: a cut behind the leg's joints")
         first, second = algebra(twists[: leg.cut]), algebra(twists[leg.cut :])
         filled = rank_of([*first, *second]) == rank_of(twists)
@@ -560,6 +587,187 @@ def are_transversal(groups: Sequence[list[Row]], cut_legs: Sequence[tuple[list[R
 
 
 # ---------------------------------------------------------------------------------------------------------------------
+# Version 2
+# ---------------------------------------------------------------------------------------------------------------------
+
+Square: TypeAlias = list[list[Fraction]]
+"""A symmetric matrix, of a quadratic form."""
+
+
+class Bounds(NamedTuple):
+    """Bounds of the mobility near the configuration, those of the platform, and what proves them."""
+
+    mobility: tuple[int, int]
+    platform: tuple[int, int]
+    dependencies: tuple[Row, ...]
+    above: str
+    section: tuple[Row, ...]
+    degree: int
+    below: str | None
+    held: tuple[int, ...]
+    legs: tuple[Leg, ...]
+    signs: tuple[Row, ...]
+
+
+def some_bounds(value: Any, joints: Sequence[str], freedoms: Sequence[str]) -> Bounds:
+    """The entry ``finite``."""
+    word, least, most, low, high, dependencies, above, below = pure.an_object(
+        value, "finite", "argument least most platform_least platform_most dependencies above below"
+    )
+    pure.one_of(("second-order",))(word, "finite.argument")
+    mobility = pure.a_number(least, "finite.least"), pure.a_number(most, "finite.most")
+    platform = pure.a_number(low, "finite.platform_least"), pure.a_number(high, "finite.platform_most")
+    some_rows = pure.a_list(pure.a_list(pure.a_rational))
+    upper, section, degree = pure.an_object(above, "finite.above", "argument section degree")
+    pure.one_of(("rank", "cone", "definite"))(upper, "finite.above.argument")
+    cut, number = some_rows(section, "finite.above.section"), pure.a_number(degree, "finite.above.degree")
+    fits = bool(cut) and 2 <= number <= MAX_DEGREE if upper == "cone" else not cut and not number
+    pure.well_formed(fits, "finite.above: not the section and degree of the argument")
+    known = some_rows(dependencies, "finite.dependencies")
+    if below is None:
+        return Bounds(mobility, platform, known, upper, cut, number, None, (), (), ())
+    lower, held, legs, vectors = pure.an_object(below, "finite.below", "argument locked legs vectors")
+    pure.one_of(("regular", "subgroups", "indefinite"))(lower, "finite.below.argument")
+    shut = in_order(freedoms)(held, "finite.below.locked")
+    read, signs = some_legs(joints)(legs, "finite.below.legs"), some_rows(vectors, "finite.below.vectors")
+    sizes = {"regular": (False, 0), "subgroups": (True, 0), "indefinite": (False, 2)}
+    fits = (bool(read), len(signs)) == sizes[lower] and not (shut and signs)
+    pure.well_formed(fits, "finite.below: not the parts of the argument")
+    return Bounds(mobility, platform, known, upper, cut, number, lower, shut, read, signs)
+
+
+def check_bounds(
+    mechanism: Mechanism,
+    loops: Sequence[Way],
+    bounds: Bounds,
+    matrices: Sequence[Sequence[Sequence[Fraction]]],
+    motions: Sequence[Row],
+) -> str:
+    """The line of the bounds, if all is proved; ``matrices`` are M and P."""
+    m, p = matrices
+    for u in bounds.dependencies:
+        pure.well_formed(len(u) == len(m), "finite.dependencies: not a number for each equation")
+        columns = [list(column) for column in zip(*m, strict=True)] if m else []
+        pure.require(not any(applied(columns, u)), "finite.dependencies: not one of the equations")
+    forms = [form_of(mechanism, loops, u, motions) for u in bounds.dependencies]
+    check_above(bounds, forms, len(motions))
+    least, low = (0, 0)
+    if bounds.below == "indefinite":
+        one_more = dimension_of_groups(mechanism, loops) == len(mechanism.freedoms) - len(motions) + 1
+        pure.require(one_more, "finite.below: the loops do not ask one thing more")
+        right = all(len(y) == len(motions) for y in bounds.signs)
+        pure.well_formed(right, "finite.below.vectors: not a number for each motion")
+        both = bool(forms) and value_of(forms[0], bounds.signs[0]) > 0 > value_of(forms[0], bounds.signs[1])
+        pure.require(both, "finite.below: the form has not both signs")
+        least = len(motions) - 1
+    elif bounds.below is not None:
+        kept = [k for k in range(len(mechanism.freedoms)) if k not in bounds.held]
+        rest = [[row[k] for k in kept] for row in m]
+        rank = rank_of(rest)
+        if bounds.below == "regular":
+            regular = dimension_of_groups(mechanism, loops, bounds.held) == rank
+            pure.require(regular, "finite.below: the loops are not regular")
+        else:
+            check_legs(mechanism, bounds.legs, bounds.held)
+        least, low = len(kept) - rank, rank_of([*rest, *([row[k] for k in kept] for row in p)]) - rank
+    pure.require(bounds.mobility[0] == least, "finite.least: not the number that follows")
+    pure.require(bounds.platform[0] == low, "finite.platform_least: not the number that follows")
+    pure.require(bounds.platform[1] == min(bounds.mobility[1], 6), "finite.platform_most: not the number that follows")
+    known = " to ".join(map(str, sorted(set(bounds.mobility))))
+    return f"finite: mobility {known} near the configuration, by the argument second-order"
+
+
+def form_of(mechanism: Mechanism, loops: Sequence[Way], u: Row, motions: Sequence[Row]) -> Square:
+    """Q_u: along each loop the Lie products of the sum of the x_i so far with the next one."""
+    count = len(motions)
+    twists = [twist for joint in mechanism.joints for twist in joint.twists]
+    found = [[Fraction(0)] * count for _ in range(count)]
+    for number, loop in enumerate(loops):
+        weights = u[6 * number : 6 * number + 6]
+        sums: list[Row] = [(Fraction(0),) * 6] * count
+        for k, sign in passed(mechanism, loop):
+            bits = longest([*sums, twists[k], weights]) + longest([[motion[k] for motion in motions]])
+            pure.spend(count * (count + 20) * 8 * pure.fraction_cost(bits, bits))
+            products = [product(done, twists[k]) for done in sums]
+            values = [sum((w * x for w, x in zip(weights, each, strict=True)), Fraction(0)) for each in products]
+            for a in range(count):
+                for b in range(count):
+                    found[a][b] += values[a] * sign * motions[b][k]
+            sums = [added(done, sign * motion[k], twists[k]) for done, motion in zip(sums, motions, strict=True)]
+    return [[(found[a][b] + found[b][a]) / 2 for b in range(count)] for a in range(count)]
+
+
+def value_of(form: Square, y: Row) -> Fraction:
+    """Q(y)."""
+    return sum((a * b for a, b in zip(y, applied(form, y), strict=True)), Fraction(0))
+
+
+def check_above(bounds: Bounds, forms: Sequence[Square], mobility: int) -> None:
+    """Prove that the mobility near the configuration is not greater."""
+    most = mobility
+    if bounds.above == "definite":
+        most = 0
+        pure.require(bool(forms) and is_positive(forms[0]), "finite.above: the form is not positive")
+    elif bounds.above == "cone":
+        right = all(len(vector) == mobility for vector in bounds.section)
+        pure.well_formed(right, "finite.above.section: not a number for each motion")
+        most = mobility - len(bounds.section)
+        cut = []
+        for form in forms:
+            images = [applied(form, vector) for vector in bounds.section]
+            cut.append([applied(images, vector) for vector in bounds.section])
+        proved_0 = are_all_monomials(cut, len(bounds.section), bounds.degree)
+        pure.require(proved_0, "finite.above: the section of the cone may be more than 0")
+    pure.require(bounds.mobility[1] == most, "finite.most: not the number that follows")
+
+
+def is_positive(form: Square) -> bool:
+    """Whether completing squares, one coordinate after another, gives positive ones only, for all coordinates."""
+    rows = [list(row) for row in form]
+    while rows:
+        bits = longest(rows)
+        pure.spend(len(rows) ** 2 * 3 * pure.fraction_cost(bits, bits))
+        first, *others = rows
+        if first[0] <= 0:
+            return False
+        rows = [[x - row[0] / first[0] * y for x, y in zip(row[1:], first[1:], strict=True)] for row in others]
+    return True
+
+
+def are_all_monomials(forms: Sequence[Square], count: int, degree: int) -> bool:
+    """Whether all monomials of a degree are combinations of products of monomials with forms."""
+    number = comb(count + degree - 1, degree)
+    pure.affordable(number <= MAX_MONOMIALS, f"finite.above: more than {MAX_MONOMIALS} monomials")
+    names = {name: place for place, name in enumerate(combinations_with_replacement(range(count), degree))}
+    rows = []
+    for form in forms:
+        for others in combinations_with_replacement(range(count), degree - 2):
+            pure.spend(1000 * number)
+            row = [Fraction(0)] * number
+            for a, b in combinations_with_replacement(range(count), 2):
+                row[names[tuple(sorted((a, b, *others)))]] = form[a][b] * (1 if a == b else 2)
+            rows.append(whole(row))
+    return rank_modulo(rows, PRIME) == number or len(echelon(rows)) == number
+
+
+def rank_modulo(rows: Sequence[Integers], p: int) -> int:
+    """The rank modulo a prime: that over the rational numbers is not less."""
+    found: list[tuple[int, Integers]] = []
+    for row in rows:
+        pure.spend(len(row) * (300 + pure.division_cost(pure.most_bits(row), 61)) + len(found) * len(row) * 200)
+        rest = [x % p for x in row]
+        for place, other in found:
+            if rest[place]:
+                factor = rest[place]
+                rest = [(x - factor * y) % p for x, y in zip(rest, other, strict=True)]
+        place = next((k for k, x in enumerate(rest) if x), -1)
+        if place >= 0:
+            inverse = pow(rest[place], -1, p)
+            found.append((place, [x * inverse % p for x in rest]))
+    return len(found)
+
+
+# ---------------------------------------------------------------------------------------------------------------------
 # The checks
 # ---------------------------------------------------------------------------------------------------------------------
 
@@ -567,11 +775,16 @@ def are_transversal(groups: Sequence[list[Row]], cut_legs: Sequence[tuple[list[R
 def replayed(body: dict[str, Any]) -> Iterator[str]:
     """The content, read at once, and its checks, one after another."""
     version = body.get("version")
-    known = body.get("format") == FORMAT and type(version) is int and version == 1
-    pure.well_formed(known, f"format: not a {FORMAT}, version 1")
+    known = body.get("format") == FORMAT and type(version) is int and version in (1, 2)
+    pure.well_formed(known, f"format: not a {FORMAT}, version 1 or 2")
     content = dict(zip(KEYS.split(), pure.an_object(body, "certificate", KEYS), strict=True))
     mechanism = a_mechanism(content["mechanism"])
-    finite = finite_argument(content["finite"], [joint.name for joint in mechanism.joints])
+    names = [joint.name for joint in mechanism.joints]
+    finite: tuple[str, tuple[Leg, ...]] | Bounds | None
+    if version == 1:
+        finite = finite_argument(content["finite"], names)
+    else:
+        finite = some_bounds(content["finite"], names, mechanism.freedoms)
     among, sets = actuator_sets(content["actuator_sets"], mechanism.freedoms)
     counts = dict(zip(COUNTS.split(), pure.an_object(content["mobility"], "mobility", COUNTS), strict=True))
     actuated = in_order(mechanism.freedoms)(content["actuated"], "actuated")
@@ -588,7 +801,7 @@ def checks(
     claimed: Mapping[str, int],
     among: Sequence[int],
     sets: Mapping[str, Sets],
-    finite: tuple[str, tuple[Leg, ...]] | None,
+    finite: tuple[str, tuple[Leg, ...]] | Bounds | None,
 ) -> Iterator[str]:
     """One line per claim that is proved."""
     loops, path = loops_of(mechanism)
@@ -617,6 +830,9 @@ def checks(
     yield check_sets("mechanism", sets["mechanism"], among, speeds, every)
     if finite is None:
         yield "finite: nothing is claimed"
+        return
+    if isinstance(finite, Bounds):
+        yield check_bounds(mechanism, loops, finite, (matrix, platform), motions)
         return
     check_finite(mechanism, loops, finite, rank)
     yield f"finite: mobility {free} near the configuration, by the argument {finite[0]}"

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from pkm_exact.cli import arguments
-from pkm_exact.cli.program import PROGRAM, ExitCode
+from pkm_exact.cli.program import ExitCode
 from pkm_exact.errors import InputError
-from pkm_exact.wording import printable
 
 if TYPE_CHECKING:
     from pkm_exact.constraints.form import Vector
@@ -118,13 +117,7 @@ def _of_linkage(
         from pkm_exact.certify.build import canonical_bytes
         from pkm_exact.certify.mobility_build import mobility_certificate
 
-        content = mobility_certificate(found)
-        arguments.write_output(output, canonical_bytes(content))
-        if content["finite"] is None and found.finite.is_known:
-            missing = (
-                f"the finite mobility is proved, but certificates do not have the argument {found.finite.argument}"
-            )
-            click.echo(f"{PROGRAM}: note: {printable(output)}: {missing}: it claims nothing of it", err=True)
+        arguments.write_output(output, canonical_bytes(mobility_certificate(found)))
     report = mobility_report.linkage_object if as_json else mobility_report.linkage_text
     return report(found), found.finite.is_known
 

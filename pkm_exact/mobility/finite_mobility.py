@@ -7,10 +7,11 @@ Rank alone tells no more than an upper bound. The dimension d at the configurati
     is the sum of the dimensions of these groups, the equations are regular and d is the instantaneous mobility.
     subgroups Each leg by itself moves the platform within a group, or within a product of two, and reaches a
     neighbourhood there (equal dimensions). If these manifolds are transversal, groups counted as their intersection and
-    equal ones once, d is the instantaneous mobility. second-order d is at most the dimension of the cone of those
-    speeds for which the accelerations can be chosen to fit. From below, it is at least what one of the other arguments
-    proves with some freedoms locked; or the loops ask one thing more than their rank says, a quadratic form in the
-    second order, whose signature decides. The bounds agree.
+    equal ones once, d is the instantaneous mobility.
+    second-order d is at most the dimension of the cone of those speeds for which the accelerations can be chosen to
+    fit, and 0 if a quadratic form that must be 0 there is definite. From below, it is at least what one of the other
+    arguments proves with some freedoms locked; or the loops ask one thing more than their rank says, a quadratic form
+    in the second order that takes both signs. The bounds agree.
 
 Otherwise there are bounds: the dimension of the cone from above, and what is proved with some freedoms locked from
 below.
@@ -92,10 +93,11 @@ def finite(found: Instantaneous) -> Finite:
         return Finite(total, total, argument, platform, platform if certain else min(total, 6))
     least, most = 0, cone_dimension(found)
     left = group_dimensions(found, found.locked) - found.rank
-    forms = obstructions(found)
-    if left == 1 and forms:
-        least, smaller = signature(forms[0], total).bounds()
-        most = min(most, smaller)
+    signatures = [signature(entry.form, total) for entry in obstructions(found)]
+    if any(one.is_definite for one in signatures):
+        most = 0
+    elif left == 1 and any(one.is_indefinite for one in signatures):
+        least, most = total - 1, min(most, total - 1)
     if least == most:
         return Finite(least, most, Argument.SECOND_ORDER, 0, min(most, 6))
     least, platform_least, locked = _with_freedoms_locked(found, most)

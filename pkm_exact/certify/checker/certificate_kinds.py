@@ -100,7 +100,7 @@ KINDS: Final = (
     CertificateKind(POSES, 2, lambda body: _mechanism_checks(read_mechanism_document(body))),
     CertificateKind(TOLERANCES, 1, lambda body: check_tolerances(read_tolerances(body))),
     CertificateKind(SYSTEMS, 1, lambda body: check_system(read_system_document(body))),
-    CertificateKind(MOBILITY, 1, lambda body: check_mobility(read_mobility(body))),
+    *(CertificateKind(MOBILITY, version, lambda body: check_mobility(read_mobility(body))) for version in (1, 2)),
     CertificateKind(REGIONS, 1, lambda body: check_region(read_region(body))),
     CertificateKind(LINKS, 1, lambda body: check_links(read_links(body))),
     CertificateKind(STATICS, 1, lambda body: check_statics(read_statics(body))),

@@ -18,6 +18,9 @@ TYPES: Final = {"R": 1, "P": 1, "H": 1, "C": 1, "U": 2, "S": 0, "screw": 0}
 """Types of joints, with their numbers of axes."""
 FREEDOMS: Final = {"R": 1, "P": 1, "H": 1, "C": 2, "U": 2, "S": 3}
 ARGUMENTS: Final = ("regular", "subgroups")
+ABOVE: Final = ("rank", "cone", "definite")
+BELOW: Final = ("regular", "subgroups", "indefinite")
+MOST_DEGREE: Final = 12
 _KEYS: Final = (
     "format",
     "version",
@@ -81,6 +84,24 @@ class LegOfProof:
 
 
 @dataclass(frozen=True)
+class SecondOrder:
+    """Bounds of the finite mobility, and why it is not greater and not less; freedoms by their places."""
+
+    least: int
+    most: int
+    platform_least: int
+    platform_most: int
+    dependencies: tuple[Vector, ...]
+    above: str
+    section: tuple[Vector, ...]
+    degree: int
+    below: str | None
+    locked: tuple[int, ...]
+    legs: tuple[LegOfProof, ...]
+    vectors: tuple[Vector, ...]
+
+
+@dataclass(frozen=True)
 class MobilityDocument:
     """What a mobility certificate says; bodies and freedoms by their places."""
 
@@ -95,6 +116,7 @@ class MobilityDocument:
     sets: dict[str, Sets]
     argument: str | None
     legs: tuple[LegOfProof, ...]
+    second_order: SecondOrder | None = None
 
     @property
     def freedoms(self) -> int:
@@ -123,7 +145,14 @@ def read_mobility(body: dict[str, Any]) -> MobilityDocument:
     names = _freedom_names(read)
     _require_connected(read, len(known), ends[0])
     freedoms = {freedom: place for place, freedom in enumerate(names)}
-    argument, legs = _finite(values["finite"], {joint.name: place for place, joint in enumerate(read)})
+    joint_places = {joint.name: place for place, joint in enumerate(read)}
+    argument: str | None = None
+    legs: tuple[LegOfProof, ...] = ()
+    second: SecondOrder | None = None
+    if values["version"] == 2:
+        second = _second_order(values["finite"], joint_places, freedoms)
+    else:
+        argument, legs = _finite(values["finite"], joint_places)
     among, sets = _actuator_sets(values["actuator_sets"], freedoms)
     counts = entries(values["mobility"], "mobility", COUNTS)
     keys = ("loops", "platform", "locked_loops", "locked_platform")
@@ -138,6 +167,7 @@ def read_mobility(body: dict[str, Any]) -> MobilityDocument:
         sets,
         argument,
         legs,
+        second,
     )
 
 
@@ -261,12 +291,45 @@ def _finite(value: Any, joints: dict[str, int]) -> tuple[str | None, tuple[LegOf
     argument, legs = entries(value, "finite", ("argument", "legs"))
     word = choice(argument, "finite.argument", ARGUMENTS)
 
-    def leg(entry: Any, where: str) -> LegOfProof:
-        names, cut = entries(entry, where, ("joints", "cut"))
-        places = items(names, f"{where}.joints", None, lambda name, place: _name_in(name, place, joints))
-        return LegOfProof(places, count(cut, f"{where}.cut"))
-
-    read = items(legs, "finite.legs", None, leg)
+    read = _legs(legs, "finite.legs", joints)
     if bool(read) != (word == "subgroups"):
         raise malformed("finite.legs: not those of the argument")
     return word, read
+
+
+def _legs(value: Any, where: str, joints: dict[str, int]) -> tuple[LegOfProof, ...]:
+    def leg(entry: Any, place: str) -> LegOfProof:
+        names, cut = entries(entry, place, ("joints", "cut"))
+        places = items(names, f"{place}.joints", None, lambda name, where: _name_in(name, where, joints))
+        return LegOfProof(places, count(cut, f"{place}.cut"))
+
+    return items(value, where, None, leg)
+
+
+def _second_order(value: Any, joints: dict[str, int], freedoms: dict[str, int]) -> SecondOrder:
+    keys = ("argument", "least", "most", "platform_least", "platform_most", "dependencies", "above", "below")
+    word, *bounds, dependencies, above, below = entries(value, "finite", keys)
+    choice(word, "finite.argument", ("second-order",))
+    least, most, lower, upper = (count(x, f"finite.{key}") for key, x in zip(keys[1:5], bounds, strict=True))
+    why, section, degree = entries(above, "finite.above", ("argument", "section", "degree"))
+    choice(why, "finite.above.argument", ABOVE)
+    cut = _vectors(section, "finite.above.section")
+    number = count(degree, "finite.above.degree")
+    fits = 2 <= number <= MOST_DEGREE if why == "cone" else number == 0
+    if not fits or bool(cut) != (why == "cone"):
+        raise malformed("finite.above: not the section and degree of the argument")
+    known = _vectors(dependencies, "finite.dependencies")
+    above_parts = (least, most, lower, upper, known, why, cut, number)
+    if below is None:
+        return SecondOrder(*above_parts, None, (), (), ())
+    how, locked, legs, vectors = entries(below, "finite.below", ("argument", "locked", "legs", "vectors"))
+    choice(how, "finite.below.argument", BELOW)
+    shut, read = _names(locked, "finite.below.locked", freedoms), _legs(legs, "finite.below.legs", joints)
+    signs = _vectors(vectors, "finite.below.vectors")
+    if bool(read) != (how == "subgroups") or len(signs) != 2 * (how == "indefinite") or (shut and signs):
+        raise malformed("finite.below: not the parts of the argument")
+    return SecondOrder(*above_parts, how, shut, read, signs)
+
+
+def _vectors(value: Any, where: str) -> tuple[Vector, ...]:
+    return items(value, where, None, lambda x, place: items(x, place, None, rational))

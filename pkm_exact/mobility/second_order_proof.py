@@ -1,0 +1,84 @@
+"""What proves the bounds of a finite mobility in the second order, piece by piece, for certificates."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from pkm_exact.mobility.finite_mobility import Argument, Finite, smooth_argument
+from pkm_exact.mobility.instantaneous_mobility import Instantaneous
+from pkm_exact.mobility.second_order import (
+    Obstruction,
+    closing_degree,
+    obstructions,
+    section_vectors,
+    signature,
+    squares,
+)
+from pkm_exact.screws.exact_matrix import Row
+
+
+@dataclass(frozen=True)
+class SecondOrderProof:
+    """Why the mobility is not greater, and not less.
+
+    Attributes
+    ----------
+    dependencies : tuple of rows
+        Vectors u with u M = 0 whose forms are used.
+    above : str
+        "rank", "cone" or "definite".
+    section : tuple of rows
+        Motions that span what the cone is cut with.
+    degree : int
+        In which all monomials on the section are multiples of the forms; 0 without a section.
+    below : str or None
+        None if nothing is claimed, "indefinite", or the argument that applies with freedoms locked.
+    signs : tuple of rows
+        A motion at which the first form is positive, and one at which it is negative.
+    """
+
+    dependencies: tuple[Row, ...]
+    above: str
+    section: tuple[Row, ...] = ()
+    degree: int = 0
+    below: str | None = None
+    signs: tuple[Row, ...] = ()
+
+
+def second_order_proof(free: Instantaneous, finite: Finite) -> SecondOrderProof | None:
+    """The proof of the bounds of a finite mobility; None if they say nothing, or a smooth argument says all.
+
+    Examples
+    --------
+    >>> from pkm_exact import mobility_of, read_linkage
+    >>> found = mobility_of(read_linkage("models/chains/seven-link-oblique.toml"))
+    >>> proof = second_order_proof(found.free, found.finite)
+    >>> proof.above, proof.degree, proof.below
+    ('cone', 2, 'subgroups')
+    """
+    smooth = finite.argument in (Argument.REGULAR, Argument.SUBGROUPS)
+    if smooth or (finite.least, finite.most) == (0, free.total):
+        return None
+    forms = obstructions(free)
+    known = tuple(entry.factors for entry in forms)
+    below, signs = _below(free, finite, forms)
+    if finite.most == free.total:
+        return SecondOrderProof((), "rank", below=below)
+    for entry in forms:
+        if finite.most == 0 and signature(entry.form, free.total).is_definite:
+            sign = 1 if squares(entry.form, free.total)[0][0] > 0 else -1
+            return SecondOrderProof((tuple(sign * x for x in entry.factors),), "definite")
+    degree = closing_degree(free, finite.most)
+    if degree is None:  # one less than the motions, but the first form is 0 on the vector that would be looked at
+        return SecondOrderProof(known, "cone", (squares(forms[0].form, free.total)[0][1],), 2, below, signs)
+    return SecondOrderProof(known, "cone", section_vectors(free.total, finite.most), degree, below, signs)
+
+
+def _below(free: Instantaneous, finite: Finite, forms: list[Obstruction]) -> tuple[str | None, tuple[Row, ...]]:
+    """By what the lower bound is proved, and motions at which the first form has both signs."""
+    if not finite.least:
+        return None, ()
+    if finite.locked:
+        return str(smooth_argument(free.linkage, finite.locked)), ()
+    values = squares(forms[0].form, free.total)
+    return "indefinite", tuple(next(y for value, y in values if sign * value > 0) for sign in (1, -1))

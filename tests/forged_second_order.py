@@ -1,0 +1,428 @@
+"""Mobility certificates of version 2, honest ones and forgeries made by hand: bounds of the finite mobility."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from forged_mobility import Row, legs
+from handmade_mobility import REGULAR, Content, O, X, Y, Z, certificate, joint, subgroups, texts
+from tables_of_rows import merged, put
+
+
+def hinges(*places: int, axes: Any = (Z,), arm: bool = False) -> list[Content]:
+    """A loop of joints in a line; an arm turns on the body between the first two of them, else that is the top."""
+    count = len(places)
+    bodies = ["base", "x" if arm else "top", *(f"b{k}" for k in range(2, count))]
+    kind = "R" if len(axes) == 1 else "U"
+    found = [joint(f"j{k}", kind, bodies[k], bodies[(k + 1) % count], (x, 0, 0), axes) for k, x in enumerate(places)]
+    return [*found, joint("arm", "R", "x", "top", (1, 1, 0), [X])] if arm else found
+
+
+FIRST = ["0", "0", "0", "-1", "0", "0"]
+"""The equation of the line's direction: stretched joints leave it without terms of first order."""
+LESS = ["0", "0", "0", "1", "0", "0"]
+ROLL = ["1", "0", "0", "0", "0", "0"]
+"""The equation of turning about the line."""
+OTHER = ["0", "0", "1", "0", "0", "0"]
+"""An equation that the hinges do not fulfil by themselves."""
+
+
+def bounds(
+    mobility: tuple[int, int],
+    platform: tuple[int, int],
+    known: Any = (),
+    above: Any = ("rank", [], 0),
+    below: Any = None,
+) -> Content:
+    """The entry; ``below`` by argument, locked freedoms, legs and vectors."""
+    names = ("argument", "least", "most", "platform_least", "platform_most", "dependencies", "above", "below")
+    why = dict(zip(("argument", "section", "degree"), (above[0], texts(above[1]), above[2]), strict=True))
+    how = None
+    if below is not None:
+        argument, locked, legs, vectors = (*below, *[[]] * 3)[:4]
+        how = {"argument": argument, "locked": locked, "legs": legs, "vectors": texts(vectors)}
+    return dict(zip(names, ("second-order", *mobility, *platform, list(known), why, how), strict=True))
+
+
+def second(content: Content, entry: Any) -> Content:
+    return content | {"version": 2, "finite": entry}
+
+
+DEFINITE = ("definite", [], 0)
+TRIANGLE = certificate(hinges(0, 1, 3), [], [])
+STRETCHED = certificate(hinges(0, 1, 3, 6), [], [])
+FLAT = certificate(hinges(0, 1, 4, 3), [], [])
+LONG = certificate(hinges(0, 1, 2, 3, 4, 5, 6, 7), [], [])
+ARM = certificate(hinges(0, 1, 3, arm=True), [], [])
+RODS = certificate(hinges(0, 1, 3, axes=(Y, Z)), [], [])
+OPEN = certificate([joint("a", "R", "base", "top", O, [Z])], [], [])
+TIGHT = certificate([joint("a", "R", "base", "top", O, [Z]), joint("b", "R", "base", "top", (1, 0, 0), [Z])], [], [])
+SEVEN = certificate(
+    [*legs([(k, O, [a]) for k in "PR" for a in (X, Y, Z)]), joint("b", "R", "top", "aside", O, [Z])], [], []
+)
+"""Six freedoms of the platform, and one of a body aside."""
+SLIDE, LINE = ("P", O, [Z]), [("R", (x, 0, 0), [Z]) for x in (0, 1, 3)]
+LEGS = certificate(legs([SLIDE, *LINE[:2]], [SLIDE, LINE[2]]), [], [])
+"""A stretched triangle that slides along its hinges."""
+MANY = [*ROLL[:3], str((1 << 61) - 1), "0", "0"]
+"""The sum of the equation of turning and that of the line, the latter a prime number of times."""
+
+SIGNS = [[0, 1], [2, -3]]
+
+TRUE: dict[str, tuple[Content, Content]] = {
+    "a stretched triangle": (TRIANGLE, bounds((0, 0), (0, 0), [FIRST], DEFINITE)),
+    "a stretched triangle, its cone": (TRIANGLE, bounds((0, 0), (0, 0), [FIRST], ("cone", [[1]], 2))),
+    "a stretched triangle, its cone in degree 12": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [LESS], ("cone", [[-3]], 12)),
+    ),
+    "a stretched triangle, its rank": (TRIANGLE, bounds((0, 1), (0, 1))),
+    "a stretched triangle, its rank and a dependency": (TRIANGLE, bounds((0, 1), (0, 1), [FIRST, ROLL])),
+    "four in a line": (STRETCHED, bounds((0, 0), (0, 0), [FIRST, ROLL], DEFINITE)),
+    "a flat parallelogram": (
+        FLAT,
+        bounds((1, 1), (0, 1), [FIRST], ("cone", [[0, 1]], 2), ("indefinite", [], [], SIGNS)),
+    ),
+    "a flat parallelogram, from above": (FLAT, bounds((0, 1), (0, 1), [ROLL, FIRST], ("cone", [[0, 1]], 2))),
+    "a flat parallelogram, from below": (FLAT, bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], SIGNS))),
+    "an arm on a stretched triangle": (
+        ARM,
+        bounds((1, 1), (1, 1), [FIRST], ("cone", [[1, 5]], 2), ("regular", ["j0", "j1"])),
+    ),
+    "an arm, nothing below": (ARM, bounds((0, 1), (0, 1), [FIRST], ("cone", [[1, 0]], 2))),
+    "rods in a line": (RODS, bounds((0, 0), (0, 0), [FIRST, ROLL], ("cone", [[1, 0], [0, 1]], 3))),
+    "rods in a line, definite": (RODS, bounds((0, 0), (0, 0), [FIRST], DEFINITE)),
+    "rods in a line, modulo a prime": (
+        RODS,
+        bounds((0, 0), (0, 0), [ROLL, MANY], ("cone", [[1, 0], [0, 1]], 3)),
+    ),
+    "a hinge": (OPEN, bounds((1, 1), (1, 1), below=("regular",))),
+    "a hinge, its leg": (OPEN, bounds((1, 1), (1, 1), below=("subgroups", [], subgroups(("a", 0))["legs"]))),
+    "a hinge that is held": (OPEN, bounds((0, 1), (0, 1), below=("regular", ["a"]))),
+    "a hinge without equations": (OPEN, bounds((1, 1), (1, 1), [[]], below=("regular",))),
+    "hinges that cannot move": (TIGHT, bounds((0, 0), (0, 0), [ROLL])),
+    "hinges that cannot move, without a dependency": (TIGHT, bounds((0, 0), (0, 0), below=None)),
+    "a triangle, regular when it is held": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST], DEFINITE, ("regular", ["j0", "j1"])),
+    ),
+    "seven motions, six of the platform": (SEVEN, bounds((0, 7), (0, 6))),
+    "a chain of eight": (LONG, bounds((0, 0), (0, 0), [FIRST], DEFINITE)),
+    "legs of an arm": (
+        LEGS,
+        bounds(
+            (1, 1),
+            (1, 1),
+            [FIRST],
+            ("cone", [[5, 1]], 2),
+            ("subgroups", ["a2"], subgroups(("a1 a2 a3", 0), ("b1 b2", 0))["legs"]),
+        ),
+    ),
+}
+ABOVE, BELOW, MOST, LEAST = "finite.above: ", "finite.below: ", "finite.most: not the number", "finite.least: not the"
+LOW, HIGH, KNOWN = "finite.platform_least: not", "finite.platform_most: not", "finite.dependencies: "
+SECTION = ABOVE + "the section of the cone may be more"
+GROUPS = subgroups(("a", 0))["legs"]
+FALSE: dict[str, tuple[Content, Content, str, str]] = {
+    "an equation that is none": (TRIANGLE, bounds((0, 0), (0, 0), [OTHER], DEFINITE), "rejected", KNOWN + "not one of"),
+    "a second equation that is none": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST, OTHER], DEFINITE),
+        "rejected",
+        KNOWN + "not one of",
+    ),
+    "five numbers for six equations": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST[:5]], DEFINITE),
+        "malformed",
+        KNOWN + "not a number",
+    ),
+    "seven numbers for six equations": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST, [*FIRST, "0"]], DEFINITE),
+        "malformed",
+        KNOWN + "not a number",
+    ),
+    "a number for no equation": (
+        OPEN,
+        bounds((1, 1), (1, 1), [["1"]], below=("regular",)),
+        "malformed",
+        KNOWN + "not a",
+    ),
+    "the rank, one less": (TRIANGLE, bounds((0, 0), (0, 0)), "rejected", MOST),
+    "the rank, one more": (TRIANGLE, bounds((0, 2), (0, 2)), "rejected", MOST),
+    "definite, one more": (TRIANGLE, bounds((0, 1), (0, 1), [FIRST], DEFINITE), "rejected", MOST),
+    "the cone, one less": (FLAT, bounds((0, 0), (0, 0), [FIRST], ("cone", [[0, 1]], 2)), "rejected", MOST),
+    "the cone, one more": (FLAT, bounds((0, 2), (0, 2), [FIRST], ("cone", [[0, 1]], 2)), "rejected", MOST),
+    "definite without a form": (TRIANGLE, bounds((0, 0), (0, 0), [], DEFINITE), "rejected", ABOVE + "the form"),
+    "a negative form": (TRIANGLE, bounds((0, 0), (0, 0), [LESS], DEFINITE), "rejected", ABOVE + "the form"),
+    "a form that is 0": (TRIANGLE, bounds((0, 0), (0, 0), [ROLL], DEFINITE), "rejected", ABOVE + "the form"),
+    "two negative squares": (STRETCHED, bounds((0, 0), (0, 0), [LESS], DEFINITE), "rejected", ABOVE + "the form"),
+    "a form of both signs": (FLAT, bounds((0, 0), (0, 0), [FIRST], DEFINITE), "rejected", ABOVE + "the form"),
+    "a form that is 0 somewhere": (ARM, bounds((0, 0), (0, 0), [FIRST], DEFINITE), "rejected", ABOVE + "the form"),
+    "a form of an edge": (RODS, bounds((0, 0), (0, 0), [ROLL], DEFINITE), "rejected", ABOVE + "the form"),
+    "only the second form is positive": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [ROLL, FIRST], DEFINITE),
+        "rejected",
+        ABOVE + "the form",
+    ),
+    "a section in the cone": (FLAT, bounds((0, 1), (0, 1), [FIRST], ("cone", [[1, -1]], 2)), "rejected", SECTION),
+    "another section in the cone": (FLAT, bounds((0, 1), (0, 1), [FIRST], ("cone", [[1, -2]], 9)), "rejected", SECTION),
+    "a section of nothing": (FLAT, bounds((0, 1), (0, 1), [FIRST], ("cone", [[0, 0]], 2)), "rejected", SECTION),
+    "a section twice": (
+        RODS,
+        bounds((0, 0), (0, 0), [FIRST, ROLL], ("cone", [[1, 1], [1, 1]], 3)),
+        "rejected",
+        SECTION,
+    ),
+    "one form on two motions": (
+        RODS,
+        bounds((0, 0), (0, 0), [FIRST], ("cone", [[1, 0], [0, 1]], 5)),
+        "rejected",
+        SECTION,
+    ),
+    "one form twice": (
+        RODS,
+        bounds((0, 0), (0, 0), [FIRST, LESS], ("cone", [[1, 0], [0, 1]], 3)),
+        "rejected",
+        SECTION,
+    ),
+    "a degree too low": (
+        RODS,
+        bounds((0, 0), (0, 0), [FIRST, ROLL], ("cone", [[1, 0], [0, 1]], 2)),
+        "rejected",
+        SECTION,
+    ),
+    "a cone without a form": (FLAT, bounds((0, 1), (0, 1), [], ("cone", [[0, 1]], 2)), "rejected", SECTION),
+    "a section of three numbers": (
+        FLAT,
+        bounds((0, 1), (0, 1), [FIRST], ("cone", [[0, 1, 0]], 2)),
+        "malformed",
+        "finite.above.section: not a number",
+    ),
+    "a section of one number": (
+        RODS,
+        bounds((0, 0), (0, 0), [FIRST, ROLL], ("cone", [[1, 0], [1]], 3)),
+        "malformed",
+        "finite.above.section: not a number",
+    ),
+    "too many monomials": (
+        LONG,
+        bounds((1, 1), (0, 1), [FIRST], ("cone", [[int(i == j) for j in range(6)] for i in range(5)], 10)),
+        "too-large",
+        ABOVE + "more than 500",
+    ),
+    "a degree of 1": (FLAT, bounds((0, 1), (0, 1), [FIRST], ("cone", [[0, 1]], 1)), "malformed", ABOVE + "not the"),
+    "a degree of 13": (FLAT, bounds((0, 1), (0, 1), [FIRST], ("cone", [[0, 1]], 13)), "malformed", ABOVE + "not the"),
+    "a cone without a section": (
+        FLAT,
+        bounds((0, 2), (0, 2), [FIRST], ("cone", [], 2)),
+        "malformed",
+        ABOVE + "not the",
+    ),
+    "a rank with a section": (
+        FLAT,
+        bounds((0, 2), (0, 2), [FIRST], ("rank", [[0, 1]], 0)),
+        "malformed",
+        ABOVE + "not the",
+    ),
+    "a rank with a degree": (FLAT, bounds((0, 2), (0, 2), [FIRST], ("rank", [], 2)), "malformed", ABOVE + "not the"),
+    "definite with a degree": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST], ("definite", [], 2)),
+        "malformed",
+        ABOVE + "not the",
+    ),
+    "definite with a section": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST], ("definite", [[1]], 0)),
+        "malformed",
+        ABOVE + "not the",
+    ),
+    "a false degree": (TRIANGLE, bounds((0, 1), (0, 1), [], ("rank", [], False)), "malformed", "finite.above.degree"),
+    "an argument above of its own": (
+        TRIANGLE,
+        bounds((0, 1), (0, 1), [], ("words", [], 0)),
+        "malformed",
+        "finite.above",
+    ),
+    "something below from nothing": (TRIANGLE, bounds((1, 1), (0, 1)), "rejected", LEAST),
+    "something of the platform from nothing": (TRIANGLE, bounds((0, 1), (1, 1)), "rejected", LOW),
+    "more of the platform": (TRIANGLE, bounds((0, 1), (0, 2)), "rejected", HIGH),
+    "less of the platform": (TRIANGLE, bounds((0, 1), (0, 0)), "rejected", HIGH),
+    "seven motions of a platform": (
+        SEVEN,
+        bounds((0, 7), (0, 7)),
+        "rejected",
+        HIGH,
+    ),
+    "both signs, one more": (
+        FLAT,
+        bounds((2, 2), (0, 2), [FIRST], below=("indefinite", [], [], SIGNS)),
+        "rejected",
+        LEAST,
+    ),
+    "both signs of the platform": (
+        FLAT,
+        bounds((1, 2), (1, 2), [FIRST], below=("indefinite", [], [], SIGNS)),
+        "rejected",
+        LOW,
+    ),
+    "both signs the other way round": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], SIGNS[::-1])),
+        "rejected",
+        BELOW + "the form",
+    ),
+    "both signs, none positive": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], [[1, -1], [2, -3]])),
+        "rejected",
+        BELOW + "the form",
+    ),
+    "both signs, none negative": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], [[0, 1], [1, -2]])),
+        "rejected",
+        BELOW + "the form",
+    ),
+    "both signs without a form": (
+        FLAT,
+        bounds((1, 2), (0, 2), [], below=("indefinite", [], [], SIGNS)),
+        "rejected",
+        BELOW + "the form",
+    ),
+    "both signs of the second form": (
+        FLAT,
+        bounds((1, 2), (0, 2), [ROLL, FIRST], below=("indefinite", [], [], SIGNS)),
+        "rejected",
+        BELOW + "the form",
+    ),
+    "both signs, three numbers": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], [[0, 1], [2, -3, 0]])),
+        "malformed",
+        "finite.below.vectors: not a number",
+    ),
+    "both signs, where more is asked": (
+        RODS,
+        bounds((1, 2), (0, 2), [ROLL], below=("indefinite", [], [], [[1, 1], [1, -1]])),
+        "rejected",
+        BELOW + "the loops do not ask",
+    ),
+    "a regular loop that is not": (
+        TRIANGLE,
+        bounds((1, 1), (0, 1), below=("regular",)),
+        "rejected",
+        BELOW + "the loops",
+    ),
+    "a regular loop that is not, one held": (
+        ARM,
+        bounds((1, 2), (1, 2), [FIRST], below=("regular", ["j0"])),
+        "rejected",
+        BELOW + "the loops",
+    ),
+    "an arm that is held": (
+        ARM,
+        bounds((1, 2), (1, 2), [FIRST], below=("regular", ["j0", "j1", "arm"])),
+        "rejected",
+        LEAST,
+    ),
+    "an arm, more below": (
+        ARM,
+        bounds((2, 2), (1, 2), [FIRST], below=("regular", ["j0", "j1"])),
+        "rejected",
+        LEAST,
+    ),
+    "an arm, the platform still": (
+        ARM,
+        bounds((1, 2), (0, 2), [FIRST], below=("regular", ["j0", "j1"])),
+        "rejected",
+        LOW,
+    ),
+    "an arm that is no leg": (
+        ARM,
+        bounds((1, 2), (1, 2), [FIRST], below=("subgroups", ["j0", "j1"], subgroups(("j0 arm", 0))["legs"])),
+        "rejected",
+        "finite: not every joint",
+    ),
+    "legs that do not fill": (
+        LEGS,
+        bounds((2, 2), (2, 2), [], below=("subgroups", [], subgroups(("a1 a2 a3", 0), ("b1 b2", 0))["legs"])),
+        "rejected",
+        "finite: ",
+    ),
+    "freedoms in another order": (
+        ARM,
+        bounds((1, 2), (1, 2), [FIRST], below=("regular", ["j1", "j0"])),
+        "malformed",
+        "finite.below.locked: not in the order",
+    ),
+    "a freedom that is none": (
+        OPEN,
+        bounds((0, 1), (0, 1), below=("regular", ["b"])),
+        "malformed",
+        "finite.below.locked",
+    ),
+    "both signs with a freedom held": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", ["j0"], [], SIGNS)),
+        "malformed",
+        BELOW + "not the parts",
+    ),
+    "both signs with legs": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], subgroups(("j0", 0))["legs"], SIGNS)),
+        "malformed",
+        BELOW + "not the parts",
+    ),
+    "both signs at one vector": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], SIGNS[:1])),
+        "malformed",
+        BELOW + "not the parts",
+    ),
+    "both signs at three vectors": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], [*SIGNS, [0, 1]])),
+        "malformed",
+        BELOW + "not the parts",
+    ),
+    "regular with legs": (OPEN, bounds((1, 1), (1, 1), below=("regular", [], GROUPS)), "malformed", BELOW + "not the"),
+    "regular with vectors": (
+        OPEN,
+        bounds((1, 1), (1, 1), below=("regular", [], [], [[1], [1]])),
+        "malformed",
+        BELOW + "not the",
+    ),
+    "subgroups without legs": (OPEN, bounds((1, 1), (1, 1), below=("subgroups",)), "malformed", BELOW + "not the"),
+    "subgroups with vectors": (
+        OPEN,
+        bounds((1, 1), (1, 1), below=("subgroups", [], GROUPS, [[1], [1]])),
+        "malformed",
+        BELOW + "not the",
+    ),
+    "an argument below of its own": (
+        OPEN,
+        bounds((1, 1), (1, 1), below=("words",)),
+        "malformed",
+        "finite.below.argument",
+    ),
+    "a bound below 0": (OPEN, bounds((-1, 1), (1, 1)), "malformed", "finite.least"),
+    "nothing in version 2": (OPEN, None, "malformed", "finite: not an object"),
+    "version 1 in version 2": (OPEN, REGULAR, "malformed", "finite: not an object"),
+    "another argument in version 2": (
+        OPEN,
+        bounds((1, 1), (1, 1), below=("regular",)) | {"argument": "regular"},
+        "malformed",
+        "finite.argument",
+    ),
+}
+_TRUE = {f"second: {name}": (second(*pair), "accepted", "finite: mobility") for name, pair in TRUE.items()}
+_FALSE = {f"second: {name}": (second(content, e), status, line) for name, (content, e, status, line) in FALSE.items()}
+_ONE: dict[str, Row] = {
+    "second: version 2 in version 1": (put(_TRUE["second: a hinge"][0], 1, "version"), "malformed", "finite: not an"),
+    "second: version 3": (put(_TRUE["second: a hinge"][0], 3, "version"), "malformed", "format: not a"),
+}
+ROWS: dict[str, Row] = merged(_TRUE, _FALSE, _ONE)
