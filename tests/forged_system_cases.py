@@ -390,6 +390,11 @@ WEIGHTS: dict[str, Row] = {
     "three polynomials, one of them twice": (
         listed("x,y", (*FAT[::2], "2*x^2"), represented([(0, 0)], (1, 1)), multiplicities=4)
         | complete("modular-rank", 4),
+        "accepted",
+    ),
+    "three polynomials, one of them twice, called three": (
+        listed("x,y", (*FAT[::2], "2*x^2"), represented([(0, 0)], (1, 1)), multiplicities=3)
+        | complete("modular-rank", 3),
         "rejected",
     ),
     "stairs": (listed("x,y", STAIRS, represented(STEPS, (5, 1)), **complete("modular-rank", 5)), "accepted"),

@@ -36,7 +36,7 @@ from hashlib import sha256
 from importlib import import_module
 from itertools import accumulate, chain, combinations, count, islice, pairwise
 from math import gcd, isqrt, lcm
-from typing import Any, Final, NamedTuple, TypeAlias
+from typing import Any, Final, NamedTuple, TypeAlias, TypeVar
 
 __all__ = ["Verdict", "check_bytes", "main"]
 
@@ -127,9 +127,12 @@ class Work:
         self.size = size
         self.allowed = WORK_OF_ANY_FILE + WORK_OF_A_BYTE * size
         self.spent = 0
+        self.tried: int | None = None
 
     def spend(self, operations: int) -> None:
         """Count operations; refuse if they are too many."""
+        if self.tried is not None and self.spent + operations > self.tried:
+            raise Refusal("too-large", "work: an attempt takes more than its part of what is allowed")
         self.spent += operations
         affordable(
             self.spent <= self.allowed,
@@ -146,6 +149,25 @@ def spend(operations: int) -> None:
     work = WORK.get()
     if work is not None:
         work.spend(operations)
+
+
+Found = TypeVar("Found")
+
+
+def attempted(find: Callable[[], Found], part: int) -> Found | None:
+    """What is found with one part, of so many, of the work allowed; None if that is not enough."""
+    work = WORK.get()
+    try:
+        if work is not None:
+            work.tried = work.spent + work.allowed // part
+        return find()
+    except Refusal as refusal:
+        if refusal.status != "too-large":
+            raise
+        return None
+    finally:
+        if work is not None:
+            work.tried = None
 
 
 def product_cost(a: int, b: int) -> int:
@@ -1744,6 +1766,8 @@ def echelon_form(rows: Sequence[Mapping[Monomial, int]]) -> list[Terms]:
     affordable(few, f"elimination: a matrix of more than {MAX_ENTRIES_OF_A_MATRIX} entries")
     for n in MERSENNE[:3]:
         pivots, independent = pivots_modulo(matrix, n)
+        if not pivots:
+            continue
         denominator, bits = common_denominator(independent, pivots, n)
         for larger in islice(prime_exponents(bits + 40), 2):
             solved = solved_modulo(independent, pivots, larger)

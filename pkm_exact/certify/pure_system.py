@@ -19,7 +19,7 @@ from fractions import Fraction
 from functools import partial
 from hashlib import sha256
 from itertools import combinations, pairwise
-from math import gcd, isqrt, prod
+from math import comb, gcd, isqrt, prod
 from random import Random
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
@@ -45,6 +45,8 @@ MAX_FORMS: Final = 64
 MAX_STATES: Final = 1 << 20
 ATTEMPTS: Final = 3
 """Primes that are tried."""
+PART_FOR_MULTIPLICITIES: Final = 4
+"""One part of so many of the work allowed may be spent on them before an algebra is tried."""
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Format
@@ -692,6 +694,288 @@ def weights_of(weights: Weighed, h0: Polynomial) -> dict[pure.Ends, int]:
 
 
 # ---------------------------------------------------------------------------------------------------------------------
+# Check 5: multiplicities, by functionals of growing order
+# ---------------------------------------------------------------------------------------------------------------------
+
+Sparse: TypeAlias = dict[int, Fraction]
+"""A vector without its zeros."""
+
+
+@dataclass(frozen=True)
+class Number:
+    """An element of Q[T] / (a), where a is squarefree: coefficients of 1, T, .., T^(d - 1)."""
+
+    a: Polynomial
+    value: tuple[Fraction, ...]
+
+    def __add__(self, other: Number) -> Number:
+        self.spend(other, len(self.value))
+        return Number(self.a, tuple(x + y for x, y in zip(self.value, other.value, strict=True)))
+
+    def __rmul__(self, scalar: int | Fraction) -> Number:
+        pure.spend(len(self.value) * pure.fraction_cost(bits_of(scalar), self.bits()))
+        return Number(self.a, tuple(scalar * x for x in self.value))
+
+    def __mul__(self, other: Number) -> Number:
+        """The product, by Horner's rule."""
+        self.spend(other, 2 * len(self.value) ** 2)
+        total = (Fraction(0),) * len(self.value)
+        for factor in reversed(self.value):
+            total = times_root(self.a, total)
+            total = tuple(x + factor * y for x, y in zip(total, other.value, strict=True))
+        return Number(self.a, total)
+
+    def bits(self) -> int:
+        """The size of the longest coefficient."""
+        return max(map(bits_of, self.value))
+
+    def spend(self, other: Number, operations: int) -> None:
+        """Count operations with the coefficients of both, which grow by those of a."""
+        bits = self.bits() + len(self.a) * pure.most_bits(self.a)
+        pure.spend(operations * pure.fraction_cost(bits, other.bits()))
+
+
+def bits_of(value: int | Fraction) -> int:
+    """The size of a number."""
+    return max(value.numerator.bit_length(), value.denominator.bit_length())
+
+
+def times_root(a: Polynomial, value: Sequence[Fraction]) -> tuple[Fraction, ...]:
+    """T times an element of Q[T] / (a)."""
+    top = value[-1] / a[-1]
+    return tuple(x - top * y for x, y in zip((Fraction(0), *value[:-1]), a[:-1], strict=True))
+
+
+def number_in(a: Polynomial, polynomial: Polynomial) -> Number:
+    """The class of an integer polynomial."""
+    bits = pure.most_bits(polynomial) + len(polynomial) * pure.most_bits(a)
+    pure.spend(len(polynomial) * len(a) * pure.fraction_cost(bits, pure.most_bits(a)))
+    total = (Fraction(0),) * (len(a) - 1)
+    for coefficient in reversed(polynomial):
+        low, *rest = times_root(a, total)
+        total = (low + coefficient, *rest)
+    return Number(a, total)
+
+
+class Expansion:
+    """F^h(h', N + y) as a polynomial in y_1, .., y_n over Q[T] / (a), order by order; y_i is h' (x_i - z_i)."""
+
+    def __init__(self, a: Polynomial, form: Forms, values: Values) -> None:
+        self.form = form
+        self.values = values
+        self.one = number_in(a, [1])
+        self.known: dict[pure.Monomial, Number] = {}
+
+    def extend(self, order: int) -> None:
+        """Find the coefficients of the products of so many y."""
+        for (power, *others), value in self.form.items():
+            for part, ways in divisors(others, order):
+                rest = (power, *(e - c for e, c in zip(others, part, strict=True)))
+                term = value * ways * (self.values.monomial(rest) if any(rest) else self.one)
+                self.known[part] = self.known[part] + term if part in self.known else term
+
+
+def divisors(exponents: Sequence[int], order: int) -> Iterator[tuple[pure.Monomial, int]]:
+    """Products of so many variables that divide a monomial, with the number of ways to choose them from its factors."""
+    pure.spend(3000)
+    if not exponents:
+        yield (), 1
+        return
+    first, *rest = exponents
+    for c in range(max(order - sum(rest), 0), min(first, order) + 1):
+        for part, ways in divisors(rest, order - c):
+            yield (c, *part), ways * comb(first, c)
+
+
+class Functionals:
+    """D_k over Q: the first d of its basis are T^q times the value at z, for q < d; the others are 0 at 1.
+
+    ``axes[i][b]`` has the coordinates of y_i times element b of the basis, ``root[b]`` those of T times it.
+    """
+
+    def __init__(self, a: Polynomial, number: int, tuples: Sequence[Sparse], smaller: Functionals | None) -> None:
+        degree, self.a = len(a) - 1, a
+        self.length = degree + len(tuples)
+        units = [{q + 1: Fraction(1)} for q in range(degree - 1)]
+        last = {q: Fraction(-c, a[-1]) for q, c in enumerate(a[:-1]) if c}
+        self.axes: list[list[Sparse]] = [[{} for _ in range(degree)] for _ in range(number)]
+        self.root: list[Sparse] = [*units, last]
+        if smaller is not None:
+            self.adopt(tuples, smaller)
+
+    def adopt(self, tuples: Sequence[Sparse], smaller: Functionals) -> None:
+        """Take in the functionals with these products with y_1, .., y_n, one after another, in the smaller space.
+
+        Each has a 1 at a place of its own, its first; what is there are the coordinates of all.
+        """
+        degree, length = len(self.a) - 1, smaller.length
+        place = {min(each): degree + number for number, each in enumerate(tuples)}
+        inside: list[Sparse] = [{} for _ in range(length)]
+        for b in range(length):
+            if b < degree:
+                inside[b][b] = Fraction(1)
+            for axis, rows in enumerate(smaller.axes):
+                for column, value in rows[b].items():
+                    if axis * length + column in place:
+                        inside[b][place[axis * length + column]] = value
+        for each in tuples:
+            parts: list[Sparse] = [{} for _ in self.axes]
+            turned: Sparse = {}
+            for column, value in each.items():
+                axis, b = divmod(column, length)
+                add_multiple(parts[axis], value, inside[b])
+                if degree > 1:
+                    moved = {axis * length + c: entry for c, entry in smaller.root[b].items()}
+                    add_multiple(turned, value, {place[c]: entry for c, entry in moved.items() if c in place})
+            for rows, part in zip(self.axes, parts, strict=True):
+                rows.append(part)
+            self.root.append(turned)
+
+    def larger(self, expansions: Sequence[Expansion]) -> Functionals:
+        """D_(k+1)."""
+        number = len(self.axes)
+        equations = [*self.commuting(), *(row for each in expansions for row in self.vanishing(each))]
+        rows: list[pure.Terms] = [
+            {(column,): value for column, value in zip(row, pure.cleared(list(row.values())), strict=True)}
+            for row in equations
+        ]
+        reduced = pure.echelon_form(rows)  # the largest column first
+        pivots = {next(iter(row))[0]: row for row in reduced}
+        by_column: dict[int, Sparse] = {c: {c: Fraction(1)} for c in range(number * self.length) if c not in pivots}
+        for pivot, row in pivots.items():
+            pure.spend(5000 * len(row))
+            for (column,), value in row.items():
+                if column != pivot:
+                    by_column[column][pivot] = Fraction(-value, row[(pivot,)])
+        return Functionals(self.a, number, list(by_column.values()), self)
+
+    def commuting(self) -> Iterator[Sparse]:
+        """Equations for the products L_i of a functional with the y_i, one after another: y_j L_i = y_i L_j."""
+        columns = [transposed(rows, self.length) for rows in self.axes]
+        for i, j in combinations(range(len(columns)), 2):
+            for left, right in zip(columns[j], columns[i], strict=True):
+                pure.spend(1000 * (len(left) + len(right)))
+                row = {i * self.length + b: value for b, value in left.items()}
+                row |= {j * self.length + b: -value for b, value in right.items()}
+                if row:
+                    yield row
+
+    def vanishing(self, expansion: Expansion) -> Iterator[Sparse]:
+        """Equations for the same: the functional is 0 at a polynomial."""
+        degree = len(self.a) - 1
+        roots = [number_in(self.a, [0] * q + [1]) for q in range(degree)]
+        at: dict[pure.Monomial, dict[int, Number]] = {(0,) * len(self.axes): dict(enumerate(roots))}
+        rows: list[Sparse] = [{} for _ in range(degree)]
+        for monomial, coefficient in expansion.known.items():
+            if any(coefficient.value):
+                axis = next(i for i, c in enumerate(monomial) if c)
+                for b, value in self.values_at(lowered(monomial, axis), at).items():
+                    for row, entry in zip(rows, (value * coefficient).value, strict=True):
+                        if entry:
+                            add_multiple(row, entry, {axis * self.length + b: Fraction(1)})
+        return (row for row in rows if row)
+
+    def values_at(self, monomial: pure.Monomial, at: dict[pure.Monomial, dict[int, Number]]) -> dict[int, Number]:
+        """Those of the basis at a product of some y."""
+        if monomial not in at:
+            axis = next(i for i, c in enumerate(monomial) if c)
+            smaller = self.values_at(lowered(monomial, axis), at)
+            found: dict[int, Number] = {}
+            for b, row in enumerate(self.axes[axis]):
+                for term in (value * smaller[c] for c, value in row.items() if c in smaller):
+                    found[b] = found[b] + term if b in found else term
+            at[monomial] = found
+        return at[monomial]
+
+
+def lowered(monomial: pure.Monomial, axis: int) -> pure.Monomial:
+    """The monomial divided by a variable."""
+    return (*monomial[:axis], monomial[axis] - 1, *monomial[axis + 1 :])
+
+
+def transposed(rows: Sequence[Sparse], length: int) -> list[Sparse]:
+    """The columns."""
+    found: list[Sparse] = [{} for _ in range(length)]
+    for b, row in enumerate(rows):
+        for column, value in row.items():
+            found[column][b] = value
+    return found
+
+
+def add_multiple(target: Sparse, factor: Fraction, row: Mapping[int, Fraction]) -> None:
+    """Add a multiple of a vector."""
+    pure.spend(sum(pure.fraction_cost(bits_of(factor), bits_of(value)) for value in row.values()))
+    for column, value in row.items():
+        total = target.get(column, Fraction(0)) + factor * value
+        if total:
+            target[column] = total
+        else:
+            target.pop(column, None)
+
+
+def local_algebras(points: Points, forms: Sequence[Forms], a: Polynomial) -> tuple[int, Polynomial]:
+    """The sum of the multiplicities m(t) of isolated solutions at the roots t of a, and V with V(t) = m(t) a'(t)."""
+    numbers = Values([number_in(a, each) for each in points.coordinates])
+    expansions = [Expansion(a, form, numbers) for form in forms]
+    space = Functionals(a, len(points.coordinates) - 1, [], None)
+    for order in range(1, MAX_NUMBER + 2):
+        for expansion in expansions:
+            expansion.extend(order)
+        larger = space.larger(expansions)
+        if larger.length == space.length:
+            break
+        space = larger
+    sums = power_sums(space, len(a) - 1)
+    v = [sum(x * y for x, y in zip(a[i:], sums, strict=False)) for i in range(1, len(a))]
+    pure.require(all(Fraction(x).denominator == 1 for x in v), "multiplicity: sums of powers that are none")
+    return space.length, [int(x) for x in v]
+
+
+def power_sums(space: Functionals, number: int) -> list[Fraction]:
+    """The traces of 1, T, T^2, ..: the sums of m(t) t^j."""
+    sums = [Fraction(space.length)] + [Fraction(0)] * (number - 1)
+    for b in range(space.length if number > 1 else 0):
+        vector: Sparse = {b: Fraction(1)}
+        for j in range(1, number):
+            further: Sparse = {}
+            for column, value in vector.items():
+                add_multiple(further, value, space.root[column])
+            vector = further
+            sums[j] += vector.get(b, Fraction(0))
+    return sums
+
+
+def multiplicities(points: Points, forms: Sequence[Forms], weights: Weighed) -> tuple[int, Polynomial]:
+    """The sum of all multiplicities m(t), the solutions being isolated, and V with V(t) = m(t) h0'(t) at the roots."""
+    h0 = points.h0
+    total, v = len(h0) - 1, pure.derivative(h0)
+    for a, weight in weights.parts:
+        if weight > 1:
+            number, part = local_algebras(points, forms, a)
+            total += number - (len(a) - 1)
+            surplus = [x - y for x, y in zip(part, pure.derivative(a), strict=True)]
+            rest = quotient(h0, a)
+            pure.spend(
+                len(surplus) * len(rest) * (300 + pure.product_cost(pure.most_bits(surplus), pure.most_bits(rest)))
+            )
+            for i, x in enumerate(surplus):
+                for j, y in enumerate(rest):
+                    v[i + j] += x * y
+    return total, v
+
+
+def quotient(b: Polynomial, a: Polynomial) -> Polynomial:
+    """b / a over Z."""
+    pure.spend(len(a) * len(b) * (300 + pure.product_cost(pure.most_bits(a), 2 * pure.most_bits(b))))
+    rest, found = list(b), [0] * (len(b) - len(a) + 1)
+    for place in reversed(range(len(found))):
+        found[place] = rest[place + len(a) - 1] // a[-1]
+        for power, coefficient in enumerate(a, place):
+            rest[power] -= found[place] * coefficient
+    return found
+
+
+# ---------------------------------------------------------------------------------------------------------------------
 # Check 6: bounds
 # ---------------------------------------------------------------------------------------------------------------------
 
@@ -1064,6 +1348,7 @@ def proved_of_all(certificate: Certificate, representation: pure.Representation,
         return Proved("complete", "multihomogeneous-bezout", number, by_weight, line)
     if certificate.infinity is not None:
         further = certificate.infinity.multiplicity
+        total, by_weight = filled(certificate, representation, weights, (bound or 0) - further)
         line = f"infinity: {total} solutions and {further} at infinity, but the degrees leave room for {bound}"
         pure.require(total + further == bound, line)
         line = (
@@ -1072,13 +1357,26 @@ def proved_of_all(certificate: Certificate, representation: pure.Representation,
         )
         return Proved("complete", "counting-at-infinity", total, by_weight, line)
     if certificate.elimination is not None:
-        return proved_by_elimination(certificate, representation, weights, by_weight)
+        return proved_by_elimination(certificate, representation, weights)
     if certificate.route == "modular-rank":
         found = number_of(certificate.number, list(map(top_form, certificate.polynomials)), MAX_NUMBER)
+        if found is not None:
+            total, by_weight = filled(certificate, representation, weights, found)
         pure.require(found == total, f"modular rank: {total} solutions, not proved that there are no others")
         return Proved("complete", "modular-rank", total, by_weight, room_for(total))
     line = f"not proven complete: {number} solutions are proved, others are not excluded"
     return Proved("not-proven-complete", None, None, by_weight if regular else None, line)
+
+
+def filled(
+    certificate: Certificate, representation: pure.Representation, weights: Weighed, number: int
+) -> tuple[int, dict[pure.Ends, int]]:
+    """The weights, and their sum, if this is the number there can be; else the multiplicities of isolated solutions."""
+    points = finite_points(representation)
+    if weights.total == number or weights.regular():
+        return weights.total, weights_of(weights, points.h0)
+    total, v = multiplicities(points, list(map(homogeneous, certificate.polynomials)), weights)
+    return total, pure.multiplicities(v, representation) if total == number else {}
 
 
 def room_for(number: int) -> str:
@@ -1090,13 +1388,14 @@ def proved_by_elimination(
     certificate: Certificate,
     representation: pure.Representation,
     weights: Weighed,
-    by_weight: dict[pure.Ends, int],
 ) -> Proved:
-    """Complete if the weights fill what the top forms leave, or by the algebra of all solutions."""
+    """Complete if the solutions fill what the top forms leave, or by the algebra of all solutions."""
     elimination = elements_of(certificate)
-    total = weights.total
-    if number_of(certificate.number, list(map(top_form, elimination.elements)), MAX_NUMBER) == total:
-        return Proved("complete", "exact-elimination", total, by_weight, room_for(total))
+    left = number_of(certificate.number, list(map(top_form, elimination.elements)), MAX_NUMBER)
+    if left is not None:
+        few = pure.attempted(partial(filled, certificate, representation, weights, left), PART_FOR_MULTIPLICITIES)
+        if few is not None and few[0] == left:
+            return Proved("complete", "exact-elimination", left, few[1], room_for(left))
     basis = elimination.basis(MAX_NUMBER)
     line = f"elimination: it leaves {len(basis)} monomials, the solutions are not proved to fill them"
     pure.require(basis, line)

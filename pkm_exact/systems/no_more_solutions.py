@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from pkm_exact.algebra.elimination_trace import Trace
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
@@ -23,7 +23,8 @@ from pkm_exact.policy import Policy
 from pkm_exact.stages import Watch
 from pkm_exact.systems.algebra_multiplicities import algebra_multiplicities
 from pkm_exact.systems.bezout import groups_with, product_of_degrees, total_degrees
-from pkm_exact.systems.points_at_infinity import filling_points
+from pkm_exact.systems.local_multiplicity import exact_weights
+from pkm_exact.systems.points_at_infinity import with_room_left
 from pkm_exact.systems.regularity import Weights, derivatives, has_full_rank, total_weight, weights_at
 from pkm_exact.systems.shortened_elimination import with_basis_only, with_falls_only
 from pkm_exact.systems.system_claims import SystemRoute
@@ -37,11 +38,13 @@ class ListedSolutions:
 
     Attributes
     ----------
+    system : PolynomialSystem
     representation : UnivariateRepresentation
     weights : Weights
         Numbers that are at most the multiplicities of isolated solutions; empty if all are regular.
     """
 
+    system: PolynomialSystem = field(repr=False)
     representation: UnivariateRepresentation
     weights: Weights
 
@@ -55,15 +58,27 @@ class ListedSolutions:
         """The sum of the weights."""
         return total_weight(self.weights) if self.weights else self.representation.degree
 
+    def filling(self, room: int | None) -> Weights | None:
+        """The multiplicities if they are proved to sum to the greatest number possible, all solutions being isolated.
+
+        The weights, if they do; otherwise the exact ones.
+        """
+        if room == self.weight:
+            return self.weights
+        if room is None or self.is_regular or room < self.weight:
+            return None
+        exact = exact_weights(self.system.polynomials, self.representation, self.weights, room)
+        return exact if exact is not None and total_weight(exact) == room else None
+
 
 def listed(representation: UnivariateRepresentation, system: PolynomialSystem, policy: Policy) -> ListedSolutions:
     """The list with the weights of its members."""
     table = derivatives(system.polynomials, len(system.unknowns))
     if has_full_rank(table, representation, policy):
-        return ListedSolutions(representation, ())
+        return ListedSolutions(system, representation, ())
     square = len(system.polynomials) == len(system.unknowns)
     weights = weights_at(table, representation, policy, square=square)
-    return ListedSolutions(representation, () if all(weight == 1 for _, weight in weights) else weights)
+    return ListedSolutions(system, representation, () if all(weight == 1 for _, weight in weights) else weights)
 
 
 def prove_complete(
@@ -85,8 +100,10 @@ def prove_by_bounds(found: ListedSolutions, system: PolynomialSystem, policy: Po
     degree = found.representation.degree
     if found.is_regular and degree == product_of_degrees(total_degrees(system), len(system.unknowns)):
         return ListProof(SystemRoute.REFINED_BEZOUT, degree)
-    if room_for(system, found.weight, policy) == found.weight:
-        return ListProof(SystemRoute.MODULAR_RANK, found.weight, found.weights)
+    room = room_for(system, degree if found.is_regular else policy.dimension_limit, policy)
+    weights = found.filling(room)
+    if room is not None and weights is not None:
+        return ListProof(SystemRoute.MODULAR_RANK, room, weights)
     groups = groups_with(system, degree) if found.is_regular else None
     return ListProof(SystemRoute.MULTIHOMOGENEOUS_BEZOUT, degree, groups=groups) if groups is not None else None
 
@@ -95,9 +112,10 @@ def prove_by_search(
     found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None = None
 ) -> ListProof | None:
     """A proof for which something must be found first; errors as ``prove_complete``."""
-    points = filling_points(system, found.weight, policy)
-    if points is not None:
-        return ListProof(SystemRoute.COUNTING_AT_INFINITY, found.weight, found.weights, infinity=points)
+    points, room = with_room_left(system, found.weight, policy) or (None, None)
+    weights = found.filling(room)
+    if room is not None and weights is not None:
+        return ListProof(SystemRoute.COUNTING_AT_INFINITY, room, weights, infinity=points)
     proofs = (_by_elimination(basis, found, system, policy, watch) for basis in _eliminations(system, policy))
     return next((proof for proof in proofs if proof is not None), None)
 
@@ -133,13 +151,14 @@ def _by_elimination(
     modular: GroebnerBasis, found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None
 ) -> ListProof | None:
     """The proof by polynomials over Q that follow: where degrees fall, or else by the whole algebra."""
-    size, weight = len(system.unknowns), found.weight
     try:
         basis = exact_basis(system, with_falls_only(modular), watch)
-        room = number_of(size, elements_of(basis), policy.dimension_limit, policy, system.digest)
-        require(room is None or room >= weight, "there is room for fewer solutions than were verified", room=room or 0)
-        if room == weight:
-            return ListProof(SystemRoute.EXACT_ELIMINATION, weight, found.weights, elimination=_steps(basis))
+        room = number_of(len(system.unknowns), elements_of(basis), policy.dimension_limit, policy, system.digest)
+        enough = room is None or room >= found.weight
+        require(enough, "there is room for fewer solutions than were verified", room=room or 0)
+        weights = found.filling(room)
+        if room is not None and weights is not None:
+            return ListProof(SystemRoute.EXACT_ELIMINATION, room, weights, elimination=_steps(basis))
         return _by_algebra(exact_basis(system, with_basis_only(modular), watch), found, policy)
     except (UnluckyPrimeError, OutOfReachError) as error:
         if isinstance(error, MoreSolutionsError):

@@ -1,4 +1,4 @@
-"""The points at infinity of a system, where finite solutions and they fill the product of the degrees together."""
+"""The points at infinity of a system, where they are finitely many, and what they leave of a bound by degrees."""
 
 from __future__ import annotations
 
@@ -18,8 +18,11 @@ from pkm_exact.systems.top_forms import homogeneous, is_finite_in_space, terms_o
 _LARGEST = 99
 
 
-def filling_points(system: PolynomialSystem, weight: int, policy: Policy) -> InfinitePoints | None:
-    """The points at infinity, if finite solutions of a weight and they are proved to be all; otherwise None."""
+def with_room_left(system: PolynomialSystem, weight: int, policy: Policy) -> tuple[InfinitePoints, int] | None:
+    """The points at infinity, and how many finite solutions they leave room for, with multiplicity.
+
+    None if they are infinitely many or not found, or leave less than the weight of solutions that are known.
+    """
     size = len(system.unknowns)
     bound = product_of_degrees(total_degrees(system), size)
     if bound is None or not weight < bound <= policy.dimension_limit or not is_finite_in_space(system, policy):
@@ -37,9 +40,9 @@ def filling_points(system: PolynomialSystem, weight: int, policy: Policy) -> Inf
         return None
     points = InfinitePoints(chart, found.representation, 0)
     multiplicity = infinite_weight(system, points, policy)
-    if weight + multiplicity != bound:
+    if weight + multiplicity > bound:
         return None
-    return InfinitePoints(chart, found.representation, multiplicity)
+    return InfinitePoints(chart, found.representation, multiplicity), bound - multiplicity
 
 
 def infinite_weight(system: PolynomialSystem, points: InfinitePoints, policy: Policy) -> int:

@@ -35,14 +35,21 @@ class Budget:
         self.size = size
         self.limit = BASE + PER_BYTE * size
         self.spent = 0
+        self.attempt: int | None = None
 
     def charge(self, operations: int) -> None:
         """Count operations that are about to be done; refuses if they exceed what is left."""
+        if self.attempt is not None and self.spent + operations > self.attempt:
+            raise TooMuchError
         self.spent += operations
         if self.spent > self.limit:
             raise too_large(
                 f"work: checking takes more than {self.limit} operations, all that a file of {self.size} bytes may cost"
             )
+
+
+class TooMuchError(Exception):
+    """The part of a budget that may be spent on one attempt is spent."""
 
 
 _IN_FORCE: Final[ContextVar[Budget | None]] = ContextVar("budget", default=None)
@@ -56,6 +63,20 @@ def spending(budget: Budget) -> Iterator[None]:
         yield
     finally:
         _IN_FORCE.reset(token)
+
+
+@contextmanager
+def attempting(divisor: int) -> Iterator[None]:
+    """Let what is done meanwhile cost one part of so many of what the file may cost; ``TooMuchError`` beyond it."""
+    budget = _IN_FORCE.get()
+    if budget is None:
+        yield
+        return
+    budget.attempt = budget.spent + budget.limit // divisor
+    try:
+        yield
+    finally:
+        budget.attempt = None
 
 
 def charge(operations: int) -> None:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from flint import fmpz_poly, nmod_poly
 
-from pkm_exact.certify.checker.budget import charge
+from pkm_exact.certify.checker.budget import TooMuchError, attempting, charge
 from pkm_exact.certify.checker.claims import check_listed_multiplicities
 from pkm_exact.certify.checker.elimination import Elimination, echelon, follow
 from pkm_exact.certify.checker.multiplicity import multiplicities_by
 from pkm_exact.certify.checker.solutions import modulo, primitive_part
 from pkm_exact.certify.checker.system_document import Points, SystemDocument, Witness
+from pkm_exact.certify.checker.system_multiplicities import multiple_solutions
 from pkm_exact.certify.checker.system_points import check_at_infinity, check_points
 from pkm_exact.certify.checker.system_reals import check_real_solutions
 from pkm_exact.certify.checker.system_room import (
@@ -27,6 +29,9 @@ from pkm_exact.certify.checker.system_terms import Terms, homogeneous, linear, t
 from pkm_exact.certify.checker.system_weights import Weighed, weighed_at_infinity, weighed_solutions
 from pkm_exact.certify.checker.traceform import quotient_algebra
 from pkm_exact.certify.checker.verdict import rejected
+
+_PART_FOR_MULTIPLICITIES: Final = 4
+"""The part of the work, one of so many, after which an algebra is tried instead."""
 
 
 class _Proved(NamedTuple):
@@ -124,7 +129,7 @@ def _solutions_listed(document: SystemDocument, points: Points) -> Iterator[str]
 
 def _proved(document: SystemDocument, points: Points, weighed: Weighed) -> _Proved:
     """What the certificate proves of the solutions listed."""
-    number, weight = int(points.eliminant.degree()), weighed.total
+    number = int(points.eliminant.degree())
     bound = bezout_number(document.polynomials, document.size)
     if weighed.are_regular and number == bound:
         if document.route != "refined-bezout":
@@ -138,25 +143,43 @@ def _proved(document: SystemDocument, points: Points, weighed: Weighed) -> _Prov
         line = f"complete: {number} isolated solutions are the multihomogeneous Bezout number, there is no other"
         return _Proved("complete", number, (), line)
     if document.infinity is not None:
-        return _counted_at_infinity(document, weighed, bound)
+        return _counted_at_infinity(document, points, weighed, bound)
     if document.elimination is not None:
         return _by_elimination(document, points, weighed)
     if document.route == "modular-rank":
-        left = room(document.size, [top_form(polynomial) for polynomial in document.polynomials], MOST_SOLUTIONS)
-        if left != weight:
-            raise rejected(f"modular rank: it leaves {left or 'no known number'}, and {weight} solutions are proved")
-        return _Proved("complete", weight, weighed.factors, _left_line(weight))
+        return _by_rank(document, points, weighed)
     if document.route is not None:
         raise rejected(f"claim: {_claimed(document)} is not proved by what is in the certificate")
     line = f"not proven complete: {number} solutions are proved, others are not excluded"
     return _Proved("not-proven-complete", None, (), line)
 
 
+def _by_rank(document: SystemDocument, points: Points, weighed: Weighed) -> _Proved:
+    """The list is complete if it fills what the polynomials leave, nothing being at infinity."""
+    left = room(document.size, [top_form(polynomial) for polynomial in document.polynomials], MOST_SOLUTIONS)
+    if left is None:
+        raise rejected(f"modular rank: it leaves no known number, and {weighed.total} solutions are proved")
+    filled = _filling(document, points, weighed, left)
+    if filled.total != left:
+        raise rejected(f"modular rank: it leaves {left}, and {filled.total} solutions are proved")
+    return _Proved("complete", left, filled.factors, _left_line(left))
+
+
+def _filling(document: SystemDocument, points: Points, weighed: Weighed, number: int) -> Weighed:
+    """The solutions with their weights if these sum to the number that there can be; otherwise with multiplicities.
+
+    All must be known to be isolated.
+    """
+    if weighed.total == number or weighed.are_regular:
+        return weighed
+    return multiple_solutions(points, document.polynomials, weighed)
+
+
 def _left_line(number: int) -> str:
     return f"complete: polynomials that vanish at all solutions leave room for {number}, there is no other"
 
 
-def _counted_at_infinity(document: SystemDocument, weighed: Weighed, bound: int | None) -> _Proved:
+def _counted_at_infinity(document: SystemDocument, points: Points, weighed: Weighed, bound: int | None) -> _Proved:
     infinity = document.infinity
     if infinity is None or bound is None:
         raise rejected("infinity: there are fewer polynomials than variables")
@@ -165,18 +188,19 @@ def _counted_at_infinity(document: SystemDocument, weighed: Weighed, bound: int 
     there = weighed_at_infinity(infinity, document.polynomials).total
     if infinity.multiplicity != there:
         raise rejected(f"infinity: {infinity.multiplicity} claimed, the points count {there}")
-    if weighed.total + there != bound:
-        raise rejected(f"infinity: {weighed.total} and {there} at infinity, but the product of the degrees is {bound}")
     size = document.size + 1
     forms = [homogeneous(polynomial) for polynomial in document.polynomials]
     plane = {tuple(int(i == j) for j in range(size)): pow(3, 1000 + i, 65537) for i in range(size)}
     if room(size, [*forms, plane], MOST_IN_SPACE) is None:
         raise rejected("infinity: not proved that the points common to all polynomials are finitely many")
+    filled = _filling(document, points, weighed, bound - there)
+    if filled.total + there != bound:
+        raise rejected(f"infinity: {filled.total} and {there} at infinity, but the product of the degrees is {bound}")
     line = (
-        f"complete: {weighed.total} solutions and {there} at infinity, with multiplicity, are the product of the "
+        f"complete: {filled.total} solutions and {there} at infinity, with multiplicity, are the product of the "
         "degrees, there is no other"
     )
-    return _Proved("complete", weighed.total, weighed.factors, line)
+    return _Proved("complete", filled.total, filled.factors, line)
 
 
 def _eliminated(document: SystemDocument) -> Elimination:
@@ -188,8 +212,12 @@ def _by_elimination(document: SystemDocument, points: Points, weighed: Weighed) 
     """The list is complete if it fills what the elements leave, or has as many solutions as their algebra."""
     elimination = _eliminated(document)
     tops = [top_form(element) for element in elimination.elements]
-    if room(document.size, tops, MOST_SOLUTIONS) == weighed.total:
-        return _Proved("complete", weighed.total, weighed.factors, _left_line(weighed.total))
+    left = room(document.size, tops, MOST_SOLUTIONS)
+    if left is not None:
+        with suppress(TooMuchError), attempting(_PART_FOR_MULTIPLICITIES):
+            filled = _filling(document, points, weighed, left)
+            if filled.total == left:
+                return _Proved("complete", left, filled.factors, _left_line(left))
     algebra = quotient_algebra(elimination, MOST_SOLUTIONS)
     if algebra is None or algebra.distinct_solutions() != points.eliminant.degree():
         raise rejected("elimination: the solutions are not proved to fill what it leaves")
