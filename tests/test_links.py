@@ -4,7 +4,7 @@ import json
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
-from math import atan2, degrees
+from math import atan2, degrees, hypot
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -45,7 +45,8 @@ COUNTS = {  # complex solutions, real poses
     "3-prrr-rotary": (8, 8),
     "micabo-h-links": (12, 2),
 }
-SINGLE = ("5-rrr-rr", "5-r3-rr", "5-r3-r2")
+FIVE_LEGS = ("5-rrr-rr", "5-r3-rr", "5-r3-r2")
+SINGLE = (*FIVE_LEGS, "5-strut-pentapod")
 """Of these one pose is proved."""
 SLOW = ("watt", "stephenson", "micabo-h-links")
 Matrix = Sequence[Sequence[Fraction]]
@@ -179,7 +180,7 @@ def test_other_starts_find_other_poses() -> None:
     assert found == {True, False}
 
 
-@pytest.mark.parametrize("name", SINGLE)
+@pytest.mark.parametrize("name", FIVE_LEGS)
 def test_the_platform_of_a_five_legged_machine_is_near_its_start(name: str) -> None:
     """The motors are turned by a few degrees from where all bodies stand at their starts."""
     found = solve_from_start(_links(name), width=Fraction(1, 10**20))
@@ -187,6 +188,23 @@ def test_the_platform_of_a_five_legged_machine_is_near_its_start(name: str) -> N
     assert max(value.width for value in _entries(pose)) <= Fraction(1, 10**20)
     assert float(pose.quaternion[0]) > 0.99
     assert not pose.position[0].contains(Fraction(0))
+
+
+def test_the_struts_of_collars_with_radius_have_their_lengths() -> None:
+    """A strut ends where its plane through the tool's axis meets its collar, of radius 40."""
+    links = _links("5-strut-pentapod")
+    found = solve_from_start(links, width=Fraction(1, 10**20))
+    pose = found.platform_pose(found.assemblies[0])
+    struts = [c for c in links.declared.constraints if isinstance(c, Distance)]
+    assert len(struts) == 5
+    for strut in struts:
+        x, y, z = (
+            float(
+                place.midpoint + sum(entry.midpoint * value for entry, value in zip(row, strut.platform, strict=True))
+            )
+            for place, row in zip(pose.position, pose.rotation, strict=True)
+        )
+        assert (hypot(x, y) - 40) ** 2 + (z - float(strut.base[2])) ** 2 == pytest.approx(float(strut.length_squared))
 
 
 def test_a_width_that_holds_both_poses_is_made_smaller() -> None:
