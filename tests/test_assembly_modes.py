@@ -39,7 +39,11 @@ def test_the_table_says_which_poses_share_a_mode(capsys: pytest.CaptureFixture[s
     lines = capsys.readouterr().out.split("\n")
     (line,) = (line for line in lines if line.startswith("assembly modes: "))
     for sign, words in (("+", "> 0"), ("-", "< 0")):
-        numbers = [row.split()[0] for row in lines if re.match(r" *[0-9]+ .* " + re.escape(sign) + r" +[0-9.]+$", row)]
+        numbers = [
+            row.split()[0]
+            for row in lines
+            if re.match(r" *[0-9]+ .* " + re.escape(sign) + r" +[0-9.]+ +[A-Z.0-9-]+$", row)
+        ]
         assert f"{len(numbers)} " in line
         assert f"with det J {words} ({', '.join(numbers)})" in line
 

@@ -179,7 +179,7 @@ def test_csv_has_decimals_and_angles_in_degrees(quick: Solution, capsys: Capture
             for found, wanted in zip(matrix, pose.rotation, strict=True):
                 assert found == pytest.approx([float(x) for x in wanted[:2]], abs=1e-7)
     assert main(["solve", str(ROOT / "models" / "3-rpr-merlet-p.toml"), "--format", "csv"]) == 0
-    assert capsys.readouterr().out.splitlines()[0].startswith("pose,claim,multiplicity,x,y,degrees")
+    assert capsys.readouterr().out.splitlines()[0].startswith("pose,name,claim,multiplicity,x,y,degrees")
 
 
 def test_given_lengths_are_exact_and_have_no_name(quick: Solution, capsys: Capture) -> None:

@@ -226,7 +226,7 @@ def test_solve_says_at_each_pose_which_limits_hold(planar: Path, capsys: Capture
     assert main(["solve", str(planar)]) == 0
     table = capsys.readouterr().out.splitlines()
     assert table[-3].split()[-1] == "limits"
-    assert [line.split()[6:] for line in table[-2:]] == [["no", "(platform_cones)"], ["yes"]]
+    assert [line.split()[7:] for line in table[-2:]] == [["no", "(platform_cones)"], ["yes"]]
     assert main(["solve", str(planar), "--format", "json"]) == 0
     content = json.loads(capsys.readouterr().out)
     assert [(pose["number"], pose["feasible"]) for pose in content["poses"]] == [(1, "no"), (2, "yes")]

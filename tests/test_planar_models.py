@@ -194,7 +194,7 @@ def test_the_table_shows_an_angle(capsys: Capture) -> None:
     assert lines[3] == "assembly modes: 1 pose with det J > 0 (2), 1 with det J < 0 (1)"
     assert "angle [degrees]" in lines[4]
     lines = lines[1:]
-    assert lines[4].split() == ["x", "y", "theta", "det", "J", "cond", "J"]
+    assert lines[4].split() == ["x", "y", "theta", "det", "J", "cond", "J", "name"]
     assert lines[5].split()[:4] == ["1", "3.369707131", "6.216516215", "-46.2252860"]
     assert lines[6].split()[:4] == ["2", "5.000000000", "5.000000000", "0.0000000"]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 LONGEST_TIME: Final = 10**8
 MOST_LENGTHS: Final = 64
+_POSE_NAME: Final = re.compile(r"[PN0X](-[A-Z]{1,2}){1,2}(\.[0-9]{1,9})?")
 NEAR: Final = 0
 """Instead of the number of a pose: that of the nearest to the nominal pose."""
 JointWord: TypeAlias = tuple[Fraction, bool]
@@ -62,14 +64,16 @@ def near(context: click.Context, _option: click.Parameter, value: str | None) ->
     return None if value is None else _any_numbers(context, value, "--near")
 
 
-def start_pose(context: click.Context, _option: click.Parameter, value: str | None) -> int | None:
-    """The number of a pose that --start denotes, or ``NEAR``; None if it is not given."""
-    if value is None:
-        return None
+def start_pose(context: click.Context, _option: click.Parameter, value: str | None) -> int | str | None:
+    """The number of a pose that --start denotes, its name, or ``NEAR``; None if it is not given."""
+    if value is None or _POSE_NAME.fullmatch(value):
+        return value
     if value == "near":
         return NEAR
     if not value.isascii() or not value.isdigit() or not int(value[:9]) > 0 or len(value) > 9:
-        raise click.UsageError(f"--start: {shown(value)} is no pose; give its number, from 1, or near.", context)
+        raise click.UsageError(
+            f"--start: {shown(value)} is no pose; give its number, from 1, its name, such as P-U-EU, or near.", context
+        )
     return int(value)
 
 

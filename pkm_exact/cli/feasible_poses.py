@@ -12,6 +12,7 @@ from pkm_exact.wording import counted
 if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.nominal_pose import NominalPose
+    from pkm_exact.numeric.carried_names import CarriedNames
     from pkm_exact.poses.limit_checks import LimitVerdict
     from pkm_exact.poses.pose import Pose
     from pkm_exact.solution import Solution
@@ -38,6 +39,8 @@ class ShownPoses:
         How many poses are not listed, and why.
     nearest : tuple of int
         Numbers of the poses nearest to the nominal one.
+    pose_names : tuple of str
+        The names of the poses (``poses.pose_names``), or those that were carried to them from a certificate.
     """
 
     poses: tuple[Pose, ...]
@@ -46,31 +49,39 @@ class ShownPoses:
     names: tuple[str, ...]
     notes: tuple[str, ...] = ()
     nearest: tuple[int, ...] = ()
+    pose_names: tuple[str, ...] = ()
 
     @staticmethod
     def of(robot: Machine, configuration: str | None, solution: Solution, *, feasible_only: bool = False) -> ShownPoses:
         """The poses to list."""
-        numbers = tuple(range(1, len(solution.poses) + 1))
-        nearest = _nearest(robot, solution)
+        from pkm_exact.poses.pose_names import pose_names
+
+        shown = ShownPoses(
+            solution.poses,
+            tuple(range(1, len(solution.poses) + 1)),
+            tuple({} for _ in solution.poses),
+            (),
+            nearest=_nearest(robot, solution),
+            pose_names=pose_names(solution.poses, solution.problem.motion),
+        )
         if robot.limits is None:
-            return ShownPoses(solution.poses, numbers, tuple({} for _ in numbers), (), nearest=nearest)
+            return shown
         from pkm_exact.poses.limit_checks import LimitVerdict, limit_verdicts, together
 
         locked = None if configuration is None else robot.configuration(configuration)
         verdicts = limit_verdicts(robot, locked, solution.problem, solution.poses)
-        names = robot.limits.names
+        shown = replace(shown, verdicts=tuple(verdicts), names=robot.limits.names)
         if not feasible_only:
-            return ShownPoses(solution.poses, numbers, tuple(verdicts), names, nearest=nearest)
+            return shown
         found = [together(verdict.values()) for verdict in verdicts]
         kept = [place for place, verdict in enumerate(found) if verdict is LimitVerdict.YES]
-        return ShownPoses(
-            tuple(solution.poses[place] for place in kept),
-            tuple(numbers[place] for place in kept),
-            tuple(verdicts[place] for place in kept),
-            names,
-            (_left_out(found.count(LimitVerdict.NO), found.count(LimitVerdict.UNDECIDED)),),
-            nearest,
-        )
+        left_out = _left_out(found.count(LimitVerdict.NO), found.count(LimitVerdict.UNDECIDED))
+        return replace(shown._at(kept), notes=(left_out,))
+
+    def named(self, found: CarriedNames) -> ShownPoses:
+        """With names that were carried from a certificate."""
+        names = tuple(found.names[number - 1] for number in self.numbers)
+        return replace(self, pose_names=names, notes=(*self.notes, *found.notes))
 
     def only_nearest(self) -> ShownPoses:
         """Only the pose nearest to the nominal one, or those that may be."""
@@ -89,6 +100,7 @@ class ShownPoses:
             poses=tuple(self.poses[place] for place in places),
             numbers=tuple(self.numbers[place] for place in places),
             verdicts=tuple(self.verdicts[place] for place in places),
+            pose_names=tuple(self.pose_names[place] for place in places),
         )
 
     def label(self, place: int) -> str:
@@ -99,15 +111,16 @@ class ShownPoses:
     @property
     def headings(self) -> tuple[str, ...]:
         """Of the table's columns after those of the poses."""
-        return ("limits",) if self.names else ()
+        return ("name", "limits") if self.names else ("name",)
 
     def cells(self, place: int) -> tuple[str, ...]:
         """What stands in them."""
+        name = self.pose_names[place]
         if not self.names:
-            return ()
+            return (name,)
         from pkm_exact.poses.limit_checks import in_words
 
-        return (in_words(self.verdicts[place]),)
+        return name, in_words(self.verdicts[place])
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -124,13 +137,14 @@ class ShownPoses:
         return [str(together(verdicts.values())), *(str(verdicts[name]) for name in self.names)]
 
     def entry(self, place: int) -> dict[str, Any]:
-        """What JSON has of them: for a robot without limits at most the number, where it is not that of the row."""
+        """What JSON has of them: the name, the number where it is not that of the row, and the limits if there are."""
+        name = {"name": self.pose_names[place]}
         if not self.names:
             in_order = self.numbers == tuple(range(1, len(self.numbers) + 1))
-            return {} if in_order else {"number": self.numbers[place]}
+            return name if in_order else name | {"number": self.numbers[place]}
         feasible, *others = self.fields(place)
         limits = dict(zip(self.names, others, strict=True))
-        return {"number": self.numbers[place], "feasible": feasible, "limits": limits}
+        return name | {"number": self.numbers[place], "feasible": feasible, "limits": limits}
 
 
 def _sort_value(shown: ShownPoses, key: str, place: int, nominal: NominalPose | None) -> tuple[float, int]:

@@ -129,8 +129,12 @@ def _jacobian(pose: Pose) -> dict[str, Any] | None:
     return {index.name: index.exact(pose) for index in shown_in(Output.JSON)} | {"length": str(pose.jacobian.length)}
 
 
+def _who(shown: ShownPoses, place: int) -> tuple[str, str]:
+    return str(shown.numbers[place]), shown.pose_names[place]
+
+
 def as_rows(solution: Solution, shown: ShownPoses) -> Iterator[list[str]]:
-    """A header and one row per pose: its number, the claim about the whole list, multiplicity, exact bounds."""
+    """A header and one row per pose: number, name, the claim about the whole list, multiplicity, exact bounds."""
     names = ["t", "x", "y", "z"]
     names += [f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
     names += [f"q{k}" for k in range(4)]
@@ -138,6 +142,7 @@ def as_rows(solution: Solution, shown: ShownPoses) -> Iterator[list[str]]:
     further = [column for index in indices for column in index.columns]
     yield [
         "pose",
+        "name",
         "claim",
         "multiplicity",
         *(f"{name}_{end}" for name in names for end in ("lo", "hi")),
@@ -149,7 +154,7 @@ def as_rows(solution: Solution, shown: ShownPoses) -> Iterator[list[str]]:
         entries = [*pose.position, *(entry for row in pose.rotation for entry in row), *pose.quaternion]
         bounds = [end for entry in entries for end in ends(entry)]
         measured = [field for index in indices for field in index.fields(pose)]
-        first = [str(shown.numbers[place]), str(solution.claim), str(pose.multiplicity), *parameter]
+        first = [*_who(shown, place), str(solution.claim), str(pose.multiplicity), *parameter]
         yield [*first, *bounds, *measured, *shown.fields(place)]
 
 
@@ -159,12 +164,12 @@ def as_decimal_rows(solution: Solution, shown: ShownPoses) -> Iterator[list[str]
     indices = shown_in(Output.CSV)
     names = ["x", "y", "degrees"] if planar else ["x", "y", "z", "roll", "pitch", "yaw", "q0", "q1", "q2", "q3"]
     further = [column for index in indices for column in index.columns]
-    yield ["pose", "claim", "multiplicity", *names, *further, *shown.columns]
+    yield ["pose", "name", "claim", "multiplicity", *names, *further, *shown.columns]
     for place, pose in enumerate(shown.poses):
         angles = roll_pitch_yaw(pose)
         values = [*pose.position[:2], angles[2]] if planar else [*pose.position, *angles, *pose.quaternion]
         measured = [field for index in indices for field in index.fields(pose)]
-        first = [str(shown.numbers[place]), str(solution.claim), str(pose.multiplicity)]
+        first = [*_who(shown, place), str(solution.claim), str(pose.multiplicity)]
         yield [*first, *("" if value is None else str(value) for value in values), *measured, *shown.fields(place)]
 
 

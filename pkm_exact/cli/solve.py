@@ -91,6 +91,13 @@ _WITH_NOTES: Final = ("table", "json")
     is_flag=True,
     help="Say which poses are proved to be joined by motions of the platform without a singular pose.",
 )
+@click.option(
+    "--names-from",
+    "source",
+    type=arguments.FilePath(),
+    metavar="CERT.json",
+    help="Carry the names of the poses from a certificate of this robot, along certified branches of regular poses.",
+)
 @click.option("-v", "--verbose", is_flag=True, help="Say more: method, box widths, stages on a terminal.")
 def solve(
     model: str,
@@ -110,6 +117,7 @@ def solve(
     nearest: bool,
     sort: str,
     joined: bool,
+    source: str | None,
     verbose: bool,
 ) -> int:
     """Find all real poses of the robot in the file MODEL for one configuration, or for given leg lengths.
@@ -122,6 +130,7 @@ def solve(
     Examples:
       certify-poses solve models/rolland-6-6.toml -o rolland.json
       certify-poses solve models/hexa.toml --configuration level --time-limit 10
+      certify-poses solve models/3-rpr-merlet-p.toml --lengths 7.1,5.1,5 --names-from certs/3-rpr-merlet-p.json
       certify-poses solve models/rolland-6-6.toml --method newton --start 0,0,800,1,0,0,0
     """
     _require_one([("--configuration", configuration), ("--lengths", lengths), ("--joints", joints)])
@@ -149,14 +158,15 @@ def solve(
         robot, configuration = joint_configuration(robot, joints, "--joints")
     chosen, problem = arguments.chosen_problem(robot, model, configuration, lengths)
     name = chosen.name if chosen else None
+    from pkm_exact.cli.names_from import named_poses, with_names
+
+    reference = named_poses(source, problem, method)
     tolerances = (
         None
         if tolerance is None
         else tolerance_report.chosen_tolerances(jointed(robot, "--tolerance"), model, tolerance)
     )
-    if output is not None:
-        arguments.require_other_file(Path(output), model, "-o")
-        arguments.require_writable(Path(output), "-o")
+    _require_output(output, model, source)
 
     from pkm_exact.cli.joint_words import say_joint_notes
     from pkm_exact.interactive.progress import Progress
@@ -173,6 +183,7 @@ def solve(
     from pkm_exact.cli.feasible_poses import ShownPoses
 
     shown = ShownPoses.of(robot, name, solution, feasible_only=feasible)
+    shown = with_names(shown, solution, source, reference, verbose=verbose)
     shown = (shown.only_nearest() if nearest else shown).arranged(sort, robot.nominal)
     if tolerances is not None:
         with Progress(verbose=verbose) as progress:
@@ -198,6 +209,16 @@ def solve(
     groups = joined_modes(robot, solution, verbose=verbose) if joined else None
     report(robot, name, solution, layout, verbose=verbose, shown=shown, joined=groups)
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM
+
+
+def _require_output(output: str | None, model: str, source: str | None) -> None:
+    """Refuse an output that is an input, or cannot be written."""
+    if output is None:
+        return
+    arguments.require_other_file(Path(output), model, "-o")
+    if source is not None:
+        arguments.require_other_file(Path(output), source, "-o", "the certificate of the names")
+    arguments.require_writable(Path(output), "-o")
 
 
 def _require_choosable(

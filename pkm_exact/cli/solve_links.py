@@ -32,6 +32,7 @@ _NOT_FOR_LINKS: Final = (
     ("nearest", "--nearest: a mechanism with passive bodies has no nominal pose; leave it out"),
     ("sort", "--sort: poses of a mechanism with passive bodies have one order; leave it out"),
     ("joined", "--joined: is for robots with legs of variable length; leave it out"),
+    ("source", "--names-from: is for robots with one platform; leave it out"),
     ("feasible", "--feasible: a mechanism with passive bodies has no limits; leave it out"),
 )
 

@@ -42,8 +42,8 @@ _SECONDS_PER_LINE: Final = 0.1
     "number",
     callback=arguments.start_pose,
     metavar="POSE",
-    help="The pose to follow: its number in the list that `solve` prints for the path's first row, or near: the one "
-    "nearest to the model's nominal pose. Not for poses.",
+    help="The pose to follow: its number or name in the list that `solve` prints for the path's first row, or near: "
+    "the one nearest to the model's nominal pose. Not for poses.",
 )
 @click.option(
     "--working-modes",
@@ -76,7 +76,7 @@ _SECONDS_PER_LINE: Final = 0.1
 def track(
     model: str,
     path: str,
-    number: int | None,
+    number: int | str | None,
     modes: str | None,
     intended: str | None,
     within: str | None,
@@ -145,7 +145,7 @@ def _refuse_for_poses(context: click.Context) -> None:
 def _track_joints(
     robot: Robot | Mechanism,
     files: tuple[str, str],
-    number: int,
+    number: int | str,
     width: Fraction,
     target: Path,
     wanted: Intended | None,
@@ -168,6 +168,8 @@ def _track_joints(
         wanted.read_with(joints)
     if number == arguments.NEAR:
         number = _nearest(robot, model, joints, width, verbose=verbose)
+    if isinstance(number, str):
+        number = _named(robot, joints, number, width, verbose=verbose)
     with TrackStore(target, _job(robot, joints, number, width)) as store, Progress(verbose=verbose) as progress:
         try:
             stopped = _follow(robot, joints, number, width, store, progress)
@@ -216,6 +218,20 @@ def _nearest(robot: Robot | Mechanism, model: str, joints: JointPath, width: Fra
             f"{model}: --start near: poses {', '.join(map(str, found.numbers))} are equally near; give one of these"
         )
     return found.numbers[0]
+
+
+def _named(robot: Robot | Mechanism, joints: JointPath, name: str, width: Fraction, *, verbose: bool) -> int:
+    """The number of the pose at the first row that has a name."""
+    from pkm_exact.interactive.progress import Progress
+    from pkm_exact.poses.pose_names import pose_names
+
+    with Progress(verbose=verbose) as progress:
+        names = pose_names(_solution(robot, joints, width, progress).poses, robot.motion)
+    if name not in names:
+        raise InputError(
+            f"--start {name}: the first row has no pose of that name; give one of {', '.join(names) or 'another row'}"
+        )
+    return names.index(name) + 1
 
 
 def _job(robot: Robot | Mechanism, joints: JointPath, number: int, width: Fraction) -> str:

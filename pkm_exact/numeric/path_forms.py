@@ -38,7 +38,8 @@ from pkm_exact.wording import shown
 
 JointRow: TypeAlias = tuple[Fraction, ...]
 """Leg lengths, slide positions, or half tangents of crank angles; lengths, offsets and products of a mechanism."""
-_STATIONS: Final = (Fraction(0), Fraction(1, 2), Fraction(1))
+STATIONS: Final = (Fraction(0), Fraction(1, 2), Fraction(1))
+"""Shares of a piece of a path at which its equations are evaluated."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,15 +86,20 @@ def _locked(robot: Robot, values: JointRow) -> Configuration:
 
 def path_forms(robot: Machine, frames: CentredFrames, first: JointRow, last: JointRow) -> PathForms:
     """The equations between two rows, at the precision in force."""
-    stations = [tuple(a + s * (b - a) for a, b in zip(first, last, strict=True)) for s in _STATIONS]
+    stations = [tuple(a + s * (b - a) for a, b in zip(first, last, strict=True)) for s in STATIONS]
     found = [
         _leg_rows(robot, frames, values) if isinstance(robot, Robot) else _form_rows(robot, frames, values, first)
         for values in stations
     ]
-    study = [study_row()] if robot.motion.has_study_condition else []
+    return quadratic(robot.motion, found)
+
+
+def quadratic(motion: Motion, found: Sequence[list[list[arb]]]) -> PathForms:
+    """The equations from the rows of the constraints at the three ``STATIONS``."""
+    study = [study_row()] if motion.has_study_condition else []
     start, between, end = (arb_mat(study + rows) for rows in found)
     square = 2 * (start - 2 * between + end)
-    return PathForms(robot.motion, (start, end - start - square, square))
+    return PathForms(motion, (start, end - start - square, square))
 
 
 def _leg_rows(robot: Robot, frames: CentredFrames, values: JointRow) -> list[list[arb]]:

@@ -25,8 +25,9 @@ from pkm_exact.numeric.centred import CentredFrames, CentredRobot, centred_frame
 from pkm_exact.numeric.charts import in_chart
 from pkm_exact.numeric.linearisation import Linearisation, chart_weights
 from pkm_exact.numeric.nominal import certified_point, certified_pose, core_radii, exact_integer
-from pkm_exact.numeric.path_forms import JointRow, path_forms, problem_at, require_quadratic
+from pkm_exact.numeric.path_forms import JointRow
 from pkm_exact.numeric.pose_maps import pose_map
+from pkm_exact.numeric.problem_path import ProblemPath, RobotRows
 from pkm_exact.numeric.tracked_branch import BranchPoint, TrackedSample, TrackingStopped, TrackPolicy
 from pkm_exact.numeric.tube import FloatPath, Prediction, Tube, floats, predict, prove, station
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, Enclosures, disjoint_cells, exponent_for_width, pose_in_cells
@@ -83,12 +84,49 @@ def track_branch(
     >>> corners = joints((0, 0), (10, 0), (3, 10)), joints((0, 0), (4, 0), (2, 2))
     >>> robot = Robot("example", "3-RPR", "m", "made up", *corners)
     >>> rows = joints((7, 5, 5), ("7.5", 5, 5))
-    >>> poses = solve(problem_at(robot, rows[0])).poses
+    >>> poses = solve(robot.problem([length * length for length in rows[0]])).poses
     >>> [(sample.row, sample.det_sign) for sample in track_branch(robot, rows, poses[0])]
     [(0, -1), (1, -1)]
     """
-    run = _Run(robot, rows, width, policy or TrackPolicy(), on_step)
+    if isinstance(start, Pose):
+        _require_regular(start)
+    run = _Run(RobotRows(robot, rows), width, policy or TrackPolicy(), on_step)
     return run.samples(start, poses)
+
+
+def followed_pose(
+    path: ProblemPath, start: Pose, poses: Sequence[Pose], *, width: Fraction = DEFAULT_WIDTH
+) -> TrackedSample:
+    """The pose of the last robot of a path that a branch of regular poses joins to one of the first.
+
+    Parameters
+    ----------
+    path : ProblemPath
+    start : Pose
+        Of the first robot; its Jacobian is not looked at.
+    poses : sequence of Pose
+        All poses of the first robot.
+    width : Fraction
+        Largest width of the box found, in any coordinate.
+
+    Raises
+    ------
+    InputError
+        If the start is singular or nearly so, or the robots are not of one make.
+    TrackingStopped
+        If the branch cannot be followed so far.
+
+    Examples
+    --------
+    >>> from pkm_exact import read_robot, solve
+    >>> robot = read_robot("models/3-rpr-merlet-p.toml")
+    >>> near, far = robot.problem(robot.configuration()), robot.problem([Fraction(n) for n in (51, 26, 26)])
+    >>> poses = solve(near).poses
+    >>> [followed_pose(ProblemPath((near, far)), pose, poses).det_sign for pose in poses]
+    [-1, 1]
+    """
+    *_, last = _Run(path, width, TrackPolicy(), None).samples(start, poses)
+    return last
 
 
 def _require_regular(start: Pose) -> None:
@@ -111,25 +149,23 @@ def _require_tracked(problem: ForwardProblem) -> None:
 
 @dataclass(frozen=True)
 class _Run:
-    robot: Machine
-    rows: Sequence[JointRow]
+    path: RobotRows | ProblemPath
     width: Fraction
     policy: TrackPolicy
     on_step: Callable[[int, Fraction], None] | None
 
     def samples(self, start: Pose | BranchPoint, poses: Sequence[Pose]) -> Iterator[TrackedSample]:
-        problem = problem_at(self.robot, self.rows[0])
+        problem = self.path.problem(0)
         _require_tracked(problem)
-        require_quadratic(self.robot)
+        self.path.require()
         frames = centred_frames(problem)
         if isinstance(start, BranchPoint):
             point, near = start, self._again(frames, start)
         else:
-            _require_regular(start)
             near = self._start(frames, start, poses or [start])
             point = self._branch_point(0, near, 0, self._sign(frames, near))
             yield TrackedSample(self._boxed(frames, 0, near), 0, point)
-        for row in range(point.row, len(self.rows) - 1):
+        for row in range(point.row, len(self.path) - 1):
             tube, steps, halvings = self._followed(frames, row, near, point.halvings)
             near = self._arrived(frames, row + 1, tube)
             point = self._branch_point(row + 1, near, halvings, point.det_sign)
@@ -149,14 +185,14 @@ class _Run:
 
     def _robot_at(self, row: int, frames: CentredFrames) -> CentredRobot:
         try:
-            return centred_robot(problem_at(self.robot, self.rows[row]), frames)
+            return centred_robot(self.path.problem(row), frames)
         except InputError as error:
             raise InputError(f"row {row + 1}: {error}") from None
 
     def _followed(self, frames: CentredFrames, row: int, near: Linearisation, halvings: int) -> tuple[Tube, int, int]:
         """The tube that reaches the next row, the number of steps, and the length of the next."""
         with working_precision(STEP_PRECISION):
-            path = FloatPath.of(path_forms(self.robot, frames, self.rows[row], self.rows[row + 1]))
+            path = FloatPath.of(self.path.forms(frames, row))
             entering = _core_ball(near, self._exponent)
             here = predict(path, floats(entering)[:, 0], 0.0)
             reached, steps = Fraction(0), 0
@@ -211,8 +247,7 @@ class _Run:
 
     def _sign(self, frames: CentredFrames, near: Linearisation) -> int:
         """That of det J at the start of the branch itself, which a list may not have, if it is not complete."""
-        problem = problem_at(self.robot, self.rows[0])
-        (jacobian,) = pose_jacobians(self._enclosures(frames, 0, near), problem, [None])
+        (jacobian,) = pose_jacobians(self._enclosures(frames, 0, near), self.path.problem(0), [None])
         return jacobian.det_sign or 0
 
     def _enclosures(self, frames: CentredFrames, row: int, near: Linearisation) -> Enclosures:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.indices.index import Index, Output
 from pkm_exact.indices.pose_indices import shown_in
+from pkm_exact.poses.pose_names import pose_signature, told_apart
 from pkm_exact.report_page.numerals import bound, distance, in_unit, shortened
 from pkm_exact.roots.interval import Interval, decimal
 
@@ -149,9 +150,23 @@ def certified_rows(document: Mapping[str, Any], scene: Scene) -> PoseRows:
     """The rows of a pose certificate."""
     columns = (*_coordinate_columns(scene), *_common_columns(scene))
     names = ("x", "y", "theta") if scene.motion.is_planar else ("x", "y", "z")
-    plain = ("pose", *names, *QUATERNION, "error", *(index.name for index in shown_in(Output.PAGE)), "multiplicity")
-    rows = tuple(_row(document, entry, view, scene) for entry, view in zip(document["poses"], scene.poses, strict=True))
-    return PoseRows(columns, rows, plain, ("pose", "claim", "multiplicity", "t_lo", "t_hi"))
+    plain = (
+        "pose",
+        "name",
+        *names,
+        *QUATERNION,
+        "error",
+        *(index.name for index in shown_in(Output.PAGE)),
+        "multiplicity",
+    )
+    boxes = [box_of(entry) for entry in document["poses"]]
+    signatures = [
+        pose_signature(box.position, box.rotation, view.det_sign, scene.motion)
+        for box, view in zip(boxes, scene.poses, strict=True)
+    ]
+    found = zip(document["poses"], boxes, scene.poses, told_apart(signatures), strict=True)
+    rows = tuple(_row(document, *parts, scene) for parts in found)
+    return PoseRows(columns, rows, plain, ("pose", "name", "claim", "multiplicity", "t_lo", "t_hi"))
 
 
 def _coordinate_columns(scene: Scene) -> list[Column]:
@@ -169,8 +184,9 @@ def _common_columns(scene: Scene) -> list[Column]:
     ]
 
 
-def _row(document: Mapping[str, Any], entry: Mapping[str, Any], view: PoseView, scene: Scene) -> Row:
-    box = box_of(entry)
+def _row(
+    document: Mapping[str, Any], entry: Mapping[str, Any], box: Box, view: PoseView, name: str, scene: Scene
+) -> Row:
     position, quaternion = (tuple(map(decimal, part)) for part in (box.position, box.quaternion))
     digits = short_digits(_size(scene))
     angle = _angle(box) if scene.motion.is_planar else None
@@ -192,14 +208,14 @@ def _row(document: Mapping[str, Any], entry: Mapping[str, Any], view: PoseView, 
     return Row(
         view.number,
         (*coordinates, *_common_cells(view, box)),
-        _lines(view, scene, box, place),
+        (("name", name), *_lines(view, scene, box, place)),
         f"{', '.join(f'{index.heading} is {index.in_words(view)}' for index in indices)}.",
         position,
         quaternion,
         tuple(tuple(map(decimal, row)) for row in box.rotation),
         box.bounds,
-        (str(view.number), *place, *quaternion, error, *(_plain(index, view) for index in indices), multiplicity),
-        (str(view.number), document["claim"], multiplicity, *parameter),
+        (str(view.number), name, *place, *quaternion, error, *(_plain(index, view) for index in indices), multiplicity),
+        (str(view.number), name, document["claim"], multiplicity, *parameter),
     )
 
 
