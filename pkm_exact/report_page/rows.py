@@ -208,7 +208,7 @@ def _row(
     return Row(
         view.number,
         (*coordinates, *_common_cells(view, box)),
-        (("name", name), *_lines(view, scene, box, place)),
+        (*_lines(view, scene, box, place), ("name", name)),
         f"{', '.join(f'{index.heading} is {index.in_words(view)}' for index in indices)}.",
         position,
         quaternion,
