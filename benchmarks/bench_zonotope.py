@@ -25,7 +25,7 @@ from pkm_exact.polytopes.zonotope import Zonotope
 
 SIZES = ((3, 6), (4, 7), (6, 8))
 """Dimensions and generators: planar machines with more cables than needed, and eight cables in space."""
-PART = 0.25
+PART = 0.1
 """Part of the others' time that eight cables may take: facets and vertices, and their comparable form."""
 Vector: TypeAlias = tuple[int, ...]
 Answer: TypeAlias = tuple[set[tuple[Vector, int]], set[Vector]]
@@ -100,7 +100,7 @@ def row_of(
 def by_us(generators: list[Vector]) -> Answer:
     """By shifting hyperplanes: sums of generators with coefficients from 0 to 1."""
     found = zonotope(generators)
-    return facets_of(found), {tuple(map(int, vertex)) for vertex in found.vertices}
+    return facets_of(found), set(found.vertices)
 
 
 def facets_alone(generators: list[Vector]) -> Answer:
@@ -117,7 +117,7 @@ def zonotope(generators: list[Vector]) -> Zonotope:
 
 def facets_of(found: Zonotope) -> set[tuple[Vector, int]]:
     """Its facets, comparable."""
-    return {primitive([*map(int, normal), int(offset)]) for normal, offset in found.facets}
+    return {primitive([*normal, offset]) for normal, offset in found.facets}
 
 
 def sums(generators: list[Vector]) -> list[Vector]:

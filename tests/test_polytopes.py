@@ -1,12 +1,14 @@
 """Polytopes in exact arithmetic, against definitions and against each other."""
 
 from fractions import Fraction
-from itertools import product
+from itertools import combinations, product
+from math import gcd
 from random import Random
 
 import numpy as np
 import pytest
 from budgets import budget
+from flint import fmpz_mat
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -14,6 +16,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.polytopes.combinations_of_polytopes import hull_of
 from pkm_exact.polytopes.polytope import Polytope
 from pkm_exact.polytopes.slabs import Slabs
+from pkm_exact.polytopes.spanned_hyperplanes import maximal_minors, spanned_hyperplanes
 from pkm_exact.polytopes.zonotope import Zonotope
 from pkm_exact.radicals import RootSum
 
@@ -58,6 +61,29 @@ def test_zonotopes_of_any_generators(generators: list[tuple[int, ...]]) -> None:
     assert max(float(np.dot(direction, [float(x) for x in v])) for v in found.vertices) == max(ends @ direction)
     counted = len(found.vertices) - len(found.polytope().facets)
     assert counted % 2 == 0
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 5, 6])
+def test_minors_and_normals_are_those_of_the_definitions(n: int) -> None:
+    """Of the kernel or of the vectors themselves, few or many of them, with dependent ones among them."""
+    random = Random(n)
+    for count in (n, n + 1, n + 2, 2 * n + 1):
+        vectors = [tuple(random.randint(-9, 9) for _ in range(n)) for _ in range(count)]
+        vectors[-1] = tuple(3 * x for x in vectors[0]) if count > n else vectors[-1]
+        minors = maximal_minors(vectors)
+        assert list(minors) == list(combinations(range(count), n))
+        for chosen, minor in minors.items():
+            assert minor == int(fmpz_mat([vectors[k] for k in chosen]).det())
+        found = spanned_hyperplanes(vectors, minors)
+        assert len({normal for normal, _ in found}) == len(found)
+        for normal, products in found:
+            assert gcd(*normal) == 1
+            assert next(x for x in normal if x) > 0
+            assert products == tuple(sum(a * b for a, b in zip(normal, g, strict=True)) for g in vectors)
+            flat = [g for g, value in zip(vectors, products, strict=True) if value == 0]
+            assert n == 1 or fmpz_mat(flat).rank() == n - 1
+        ranks = [fmpz_mat(chosen).rank() if n > 1 else 0 for chosen in combinations(vectors, n - 1)]
+        assert bool(found) == (n - 1 in ranks)
 
 
 def test_generators_in_general_position_have_the_known_counts() -> None:

@@ -12,8 +12,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from itertools import combinations
-from math import comb, gcd, lcm
+from math import comb, lcm
+from operator import add
 from typing import Any, Final
 
 from flint import fmpz_mat
@@ -22,6 +22,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.polytopes.enclosures import interval_of
 from pkm_exact.polytopes.polytope import Facet, Polytope
 from pkm_exact.polytopes.slabs import Slabs
+from pkm_exact.polytopes.spanned_hyperplanes import maximal_minors, spanned_hyperplanes
 from pkm_exact.radicals import RootSum
 from pkm_exact.roots.interval import Interval
 
@@ -88,35 +89,35 @@ class Zonotope:
             raise InputError(f"polytope: {count} generators in {n} dimensions are too many")
         if self._table.rank() < n:
             raise InputError("polytope: the generators do not span the space, so that it has no interior")
-        normals: dict[tuple[int, ...], None] = {}
-        for chosen in combinations(self.generators, n - 1):
-            normal = _normal(chosen, n)
-            if normal is not None:
-                normals[normal] = None
-        products = (fmpz_mat([list(normal) for normal in normals]) * self._table).tolist()
-        return tuple(
-            (normal, tuple(int(value) for value in row)) for normal, row in zip(normals, products, strict=True)
-        )
+        return spanned_hyperplanes(self.generators, self._minors)
+
+    @cached_property
+    def _minors(self) -> dict[tuple[int, ...], int]:
+        """The determinants of all n generators."""
+        return maximal_minors(self.generators)
 
     @cached_property
     def facets(self) -> tuple[tuple[tuple[int, ...], Any], ...]:
         """Outer normals and offsets: normal.x <= offset."""
         found = []
         for normal, products in self.hyperplanes:
-            found.append((normal, self._reach(products)))
-            found.append((tuple(-x for x in normal), self._reach([-x for x in products])))
+            low, high = self._reach(products)
+            found.append((normal, high))
+            found.append((tuple([-x for x in normal]), -1 * low))
         return tuple(found)
 
-    def _reach(self, products: Sequence[int]) -> Any:
-        """The greatest normal.x, from normal.g_k."""
-        if self._whole is not None:
-            ends, common = self._whole
-            return Fraction(sum(v * pair[v > 0] for v, pair in zip(products, ends, strict=True)), common)
-        total: Any = Fraction(0)
-        for value, pair in zip(products, self._lengths, strict=True):
-            if value:
-                total = total + value * pair[value > 0]
-        return total
+    def _reach(self, products: Sequence[int]) -> tuple[Any, Any]:
+        """The least and the greatest normal.x, from normal.g_k."""
+        whole = self._whole
+        ends, common = (self._lengths, 1) if whole is None else whole
+        least: Any = 0
+        greatest: Any = 0
+        for value, (low, high) in zip(products, ends, strict=True):
+            if value > 0:
+                least, greatest = least + value * low, greatest + value * high
+            elif value:
+                least, greatest = least + value * high, greatest + value * low
+        return (least, greatest) if common == 1 else (Fraction(least, common), Fraction(greatest, common))
 
     @cached_property
     def _lengths(self) -> tuple[tuple[Any, Any], ...]:
@@ -161,12 +162,16 @@ class Zonotope:
         if self._whole is None:
             return tuple(self._point(cell) for cell in self._cells)
         ends, common = self._whole
-        steps = [(bit, low, high) for bit, (low, high) in zip(_bits(len(ends)), ends, strict=True)]
-        rows = [[high if mask & bit else low for bit, low, high in steps] for mask in self._masks]
-        found = (fmpz_mat(rows) * self._table.transpose()).tolist()
+        both = zip(self.generators, ends, strict=True)
+        steps = [(tuple([low * x for x in g]), tuple([high * x for x in g])) for g, (low, high) in both]
+        half = len(steps) // 2
+        middle = len(steps) - half
+        first, last = _sums(steps[:middle], self.dimension), _sums(steps[middle:], self.dimension)
+        rest = (1 << half) - 1
+        found = [tuple(map(add, first[mask >> half], last[mask & rest])) for mask in self._masks]
         if common == 1:
-            return tuple([tuple([Fraction(int(value)) for value in row]) for row in found])
-        return tuple([tuple([Fraction(int(value), common) for value in row]) for row in found])
+            return tuple(found)
+        return tuple([tuple([Fraction(value, common) for value in row]) for row in found])
 
     def _point(self, cell: Sequence[int]) -> tuple[Any, ...]:
         chosen = [pair[s > 0] for s, pair in zip(cell, self._lengths, strict=True)]
@@ -179,10 +184,11 @@ class Zonotope:
     def exact_volume(self) -> RootSum:
         """In the coordinates x: the sum of the parallelepipeds of n generators."""
         total = RootSum()
-        for chosen in combinations(range(len(self.generators)), self.dimension):
-            size = abs(int(fmpz_mat([list(self.generators[index]) for index in chosen]).det()))
-            if size:
-                part = RootSum.of(size)
+        if self._table.rank() < self.dimension:
+            return total
+        for chosen, minor in self._minors.items():
+            if minor:
+                part = RootSum.of(abs(minor))
                 for index in chosen:
                     part = part * ((self.high[index] - self.low[index]) * self.weights[index])
                 total = total + part
@@ -208,7 +214,7 @@ class Zonotope:
         rows, low, high = [], [], []
         for normal, products in self.hyperplanes:
             shift = sum((normal[j] * RootSum.of(value) for j, value in fixed.items()), RootSum())
-            ends = -1 * self._reach([-x for x in products]) - shift, self._reach(products) - shift
+            ends = tuple(RootSum.of(end) - shift for end in self._reach(products))
             row = tuple(Fraction(normal[j]) for j in free)
             if any(row):
                 rows.append(row)
@@ -223,26 +229,20 @@ class Zonotope:
         masks, bits, facets = self._masks, _bits(len(self.generators)), []
         for normal, products in self.hyperplanes:
             decided = _mask(bits, (value != 0 for value in products))
-            for side in (1, -1):
+            low, high = self._reach(products)
+            for side, offset in ((1, high), (-1, -1 * low)):
                 wanted = _mask(bits, (side * value > 0 for value in products))
                 on = tuple(index for index, mask in enumerate(masks) if mask & decided == wanted)
-                outer = tuple(side * x for x in normal)
-                facets.append(Facet(outer, self._reach([side * v for v in products]), on))
+                facets.append(Facet(tuple(side * x for x in normal), offset, on))
         return Polytope(self.vertices, tuple(facets), self.squares)
 
 
-def _normal(rows: Sequence[Sequence[int]], n: int) -> tuple[int, ...] | None:
-    """The primitive normal of a hyperplane, its first entry that is not 0 positive; None if the rows are dependent."""
-    if n == 1:
-        return (1,)
-    space, rank = fmpz_mat([list(row) for row in rows]).nullspace()
-    if rank != 1:
-        return None
-    entries = [int(space[j, 0]) for j in range(n)]
-    divisor = gcd(*entries)
-    if next(x for x in entries if x) < 0:
-        divisor = -divisor
-    return tuple(x // divisor for x in entries)
+def _sums(steps: Sequence[tuple[tuple[int, ...], tuple[int, ...]]], n: int) -> list[tuple[int, ...]]:
+    """All sums of the first or the second vector of every pair, by masks as of ``_bits``."""
+    found = [(0,) * n]
+    for pair in steps:
+        found = [tuple(map(add, known, vector)) for known in found for vector in pair]
+    return found
 
 
 def _bits(count: int) -> list[int]:
