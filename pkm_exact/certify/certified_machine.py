@@ -26,7 +26,7 @@ def certified_machine(content: Mapping[str, Any]) -> Machine:
     if "constraints" not in robot:
         base, platform = (tuple(map(_vector, robot[side])) for side in ("base", "platform"))
         return Robot(robot["name"], robot["kind"], robot["unit"], robot["source"], base, platform, _metric(robot))
-    constraints = tuple(map(_constraint, robot["constraints"]))
+    constraints = tuple(map(certified_constraint, robot["constraints"]))
     legs = [found for found in constraints if isinstance(found, Distance) and not found.name]
     kind = _KINDS.get((robot["motion"], len(legs)))
     if kind is None or len(legs) < len(constraints):
@@ -49,7 +49,9 @@ def certified_problem(content: Mapping[str, Any]) -> ForwardProblem:
     """The problem that an accepted certificate answers; it may have legs that models may not have."""
     robot = content["robot"]
     if "constraints" in robot:
-        return ForwardProblem(tuple(map(_constraint, robot["constraints"])), _metric(robot), MOTIONS[robot["motion"]])
+        return ForwardProblem(
+            tuple(map(certified_constraint, robot["constraints"])), _metric(robot), MOTIONS[robot["motion"]]
+        )
     joints = zip(*(map(_vector, robot[side]) for side in ("base", "platform")), strict=True)
     squares = certified_squares(content)
     legs = tuple(Distance(a, b, square) for (a, b), square in zip(joints, squares, strict=True))
@@ -70,7 +72,8 @@ def certified_configuration(content: Mapping[str, Any]) -> str | None:
     return name
 
 
-def _constraint(entry: Mapping[str, Any]) -> Constraint:
+def certified_constraint(entry: Mapping[str, Any]) -> Constraint:
+    """A constraint as a certificate has it."""
     kind: Any = CONSTRAINTS[entry["type"]]
     data: dict[str, Any] = {
         field: Fraction(entry[field]) if role in _NUMBERS else tuple(map(Fraction, entry[field]))

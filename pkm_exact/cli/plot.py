@@ -126,7 +126,7 @@ def plot(
     try:
         with Progress(verbose=False) as progress:
             progress(f"checking {source.name}")
-            document = accepted_document(source)
+            document = accepted_document(source, about=("robot", "mechanism"))
     except RejectedError as error:
         click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
         return ExitCode.REJECTED
@@ -150,6 +150,7 @@ def _figure(
     size: tuple[float, float] | None,
 ) -> tuple[Figure, str]:
     """The figure, and what it shows in one line."""
+    from pkm_exact.certify import certified_links
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.pictures import captions
     from pkm_exact.pictures.camera import DEFAULT_VIEW, View
@@ -160,6 +161,8 @@ def _figure(
 
     if roots:
         return roots_figure(document, size=size), "the roots of the eliminant"
+    if model is not None and document["format"] == certified_links.FORMAT:
+        raise InputError("--model: a certificate of a mechanism with passive bodies has all of it; leave out the model")
     scene = scene_of(document, None if model is None else announced_model(model))
     seen = DEFAULT_VIEW if view is None else View(*view)
     if pose is not None:

@@ -6,11 +6,11 @@ from math import floor, log10
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.claim_wording import INCONSISTENT_NOTE, subject
-from pkm_exact.geometry.kind_names import CONSTRAINTS_KIND
+from pkm_exact.geometry.kind_names import CONSTRAINTS_KIND, LINKS_KIND
 from pkm_exact.geometry.machine import locked_at
 from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
-from pkm_exact.pictures.drawn_robot import PoseView, Scene
+from pkm_exact.pictures.drawn_robot import BODY, PoseView, Scene
 from pkm_exact.pictures.shapes import Shape
 from pkm_exact.wording import counted
 
@@ -54,7 +54,7 @@ def statement(scene: Scene) -> str:
     if scene.claim == "complete":
         return f"{poses} of {counted(scene.complex_solutions, 'complex solution')}; complete"
     if scene.claim == "inconsistent":
-        of = subject(of_legs=scene.kind != CONSTRAINTS_KIND)
+        of = subject(of_legs=scene.kind not in (CONSTRAINTS_KIND, LINKS_KIND))
         return f"proved: {of.says(INCONSISTENT_NOTE)}"
     if scene.claim.startswith("positive-dimensional"):
         proved = "proved" if scene.claim.endswith("proved") else "detected, not proved"
@@ -69,9 +69,10 @@ def title(pose: PoseView, *, of: int | None = None) -> str:
     Examples
     --------
     >>> from types import SimpleNamespace
-    >>> title(SimpleNamespace(number=3, multiplicity=1, det_sign=-1, condition=12345.6, limits=None))
+    >>> known = {"limits": None, "has_jacobian": True}
+    >>> title(SimpleNamespace(number=3, multiplicity=1, det_sign=-1, condition=12345.6, **known))
     '3: det J < 0, cond 12300'
-    >>> title(SimpleNamespace(number=1, multiplicity=2, det_sign=0, condition=None, limits="yes"))
+    >>> title(SimpleNamespace(number=1, multiplicity=2, det_sign=0, condition=None, limits="yes", has_jacobian=True))
     '1 (double): det J = 0, limits: yes'
     """
     number = str(pose.number) if of is None else f"pose {pose.number} of {of}"
@@ -79,7 +80,8 @@ def title(pose: PoseView, *, of: int | None = None) -> str:
     multiple = names.get(pose.multiplicity, f" ({pose.multiplicity}-fold)")
     condition = "" if pose.condition is None else f", cond {rounded(pose.condition)}"
     kept = "" if pose.limits is None else f", limits: {pose.limits}"
-    return f"{number}{multiple}: {_SIGNS[pose.det_sign]}{condition}{kept}"
+    sign = f": {_SIGNS[pose.det_sign]}" if pose.has_jacobian else ""
+    return f"{number}{multiple}{sign}{condition}{kept}"
 
 
 def rounded(value: float) -> str:
@@ -100,12 +102,12 @@ def axis_names(scene: Scene) -> tuple[str, ...]:
 
 def legend_rows(scene: Scene, width: float, *, key: bool = True) -> int:
     """How many rows the legend has, at most, on a figure of this width, with or without a key beside it."""
-    entries = len(scene.legs) + 3 + len(scene.sorts) + bool(scene.sorts) + len(scene.shapes)
+    entries = len(scene.legs) + 3 + len(scene.sorts) + bool(scene.sorts) + len(scene.shapes) + len(scene.parts)
     return -(-entries // _columns(scene, width, key))
 
 
 def _columns(scene: Scene, width: float, key: bool) -> int:
-    entry = LONG_ENTRY_WIDTH if scene.shapes else ENTRY_WIDTH
+    entry = LONG_ENTRY_WIDTH if scene.shapes or scene.parts else ENTRY_WIDTH
     return max(1, floor((width - KEY_WIDTH * key - 0.1) / entry))
 
 
@@ -124,6 +126,13 @@ def add_legend(figure: Figure, scene: Scene, *, ghosts: bool = False, key: bool 
             dashes: Any = style.SHAPE_DASHES[shape.kind]
             colour = style.leg_colour(shape.number)
             handles.append(Line2D([], [], color=colour, linestyle=dashes, label=_named(shape)))
+        for part in scene.parts:
+            colour, dashes = style.part_colour(part), style.SHAPE_DASHES[part.kind]
+            if part.kind == BODY:
+                label = style.drawable(part.name, 20)
+                handles.append(Patch(facecolor=colour, edgecolor=colour, alpha=0.5, label=label))
+            else:
+                handles.append(Line2D([], [], color=colour, linestyle=dashes, label=part.kind))
     for sort in scene.sorts:
         handles.append(Line2D([], [], color=style.INK, linewidth=3.2, linestyle=style.DASHES[sort], label=sort))
     if scene.sorts:
@@ -131,7 +140,11 @@ def add_legend(figure: Figure, scene: Scene, *, ghosts: bool = False, key: bool 
     handles.append(Patch(facecolor=style.BASE_FILL, edgecolor=style.BASE_INK, label="base"))
     if ghosts:
         used = [sign for sign in (1, -1, 0, None) if any(pose.det_sign == sign for pose in scene.poses)]
-        handles += [Patch(facecolor=style.SIGN_COLOURS[sign], alpha=0.6, label=_SIGNS[sign]) for sign in used]
+        handles += [
+            Patch(facecolor=style.SIGN_COLOURS[sign], alpha=0.6, label=_SIGNS[sign])
+            for sign in used
+            if scene.has_jacobians
+        ]
     else:
         handles.append(Patch(facecolor=style.PLATFORM_FILL, edgecolor=style.INK, label="platform"))
     width, height = figure.get_size_inches()

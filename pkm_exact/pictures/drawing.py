@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from pkm_exact.pictures import style
 from pkm_exact.pictures.camera import Camera
-from pkm_exact.pictures.drawn_robot import Point, PoseView, Scene
+from pkm_exact.pictures.drawn_robot import BAR, BODY, Point, PoseView, Scene
 from pkm_exact.pictures.hull import faces
 from pkm_exact.pictures.shapes import ARM, PLANE
 
@@ -50,6 +50,7 @@ def draw_robot(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen)
     draw_chains(axes, scene, pose, pen)
     draw_legs(axes, scene, pose, shot, pen)
     draw_shapes(axes, scene, pose, pen)
+    draw_parts(axes, scene, pose, shot, pen)
     draw_platform(axes, scene, pose, shot, pen, style.PLATFORM_FILL, style.INK, NEAR if above else FAR)
 
 
@@ -92,6 +93,20 @@ def draw_shapes(axes: Axes, scene: Scene, pose: PoseView, pen: Pen) -> None:
             _line(axes, scene, line, color=shade, gid=f"{shape.kind}-{shape.number}-{number}", **options)
             if shape.kind == PLANE and not scene.motion.is_planar:
                 _face(axes, scene, line[:-1], shade, 0.12 * pen.opacity, FAR)
+
+
+def draw_parts(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen) -> None:
+    """Passive bodies with their joints, bars between bodies, and the lines and planes along which joints slide."""
+    for part in pose.parts:
+        shade = style.part_colour(part)
+        if part.kind == BODY:
+            _body(axes, scene, part.points, shot, shade, shade, replace(pen, fill=0.4 * pen.fill), _CHAINS)
+            _dots(axes, scene, part.points, "o", shade, pen)
+            continue
+        width = (1.0 if part.kind == BAR else 0.8) * pen.width
+        dashes = style.SHAPE_DASHES[part.kind]
+        options = {"linewidth": width, "linestyle": dashes, "alpha": pen.opacity, "zorder": _LEGS}
+        _line(axes, scene, part.points, color=shade, gid=f"{part.kind}-{part.number}", **options)
 
 
 def middle(points: Sequence[Point]) -> Point:

@@ -16,6 +16,28 @@ if TYPE_CHECKING:
 
 Point: TypeAlias = tuple[float, float, float]
 
+BODY, BAR = "body", "bar"
+
+
+@dataclass(frozen=True)
+class Part:
+    """A passive body of a mechanism, a bar between two bodies, or the line or plane along which a joint slides.
+
+    Attributes
+    ----------
+    kind : {"body", "bar", "line", "axis", "plane"}
+    number : int
+        Of the body or the constraint, from 1.
+    name : str
+    points : tuple of points
+        Joints of a body, or the line that shows it, in the fixed frame.
+    """
+
+    kind: str
+    number: int
+    name: str
+    points: tuple[Point, ...]
+
 
 @dataclass(frozen=True)
 class PoseView:
@@ -30,8 +52,6 @@ class PoseView:
     position_half_width : float
         Greatest half width of the listed box in x, y and z.
     rotation : 3 x 3 tuple of float
-    quaternion : tuple of 4 float
-        Scalar first.
     platform : tuple of points
         The platform joints in the fixed frame, one per leg.
     det_sign : int or None
@@ -44,19 +64,29 @@ class PoseView:
         Where cranks or slides hold the lower ends of the rods, one per leg; empty if the legs themselves are actuated.
     limits : str or None
         Whether the pose keeps the limits of the model, in words; None if it has none or no model was given.
+    parts : tuple of Part
+        What else moves: of mechanisms with passive bodies.
+    has_jacobian : bool
+        Whether there is a leg Jacobian to speak of.
     """
 
     number: int
     position: Point
     position_half_width: float
     rotation: tuple[Point, Point, Point]
-    quaternion: tuple[float, float, float, float]
     platform: tuple[Point, ...]
     det_sign: int | None
     jacobian: LegJacobian | None
     multiplicity: int | None
     knees: tuple[Point, ...] = ()
     limits: str | None = None
+    parts: tuple[Part, ...] = ()
+    has_jacobian: bool = True
+
+    @property
+    def joints(self) -> tuple[Point, ...]:
+        """Of the platform, cranks, slides and passive bodies, in the fixed frame."""
+        return (*self.platform, *self.knees, *(point for part in self.parts for point in part.points))
 
     @property
     def condition(self) -> float | None:
@@ -116,8 +146,18 @@ class Scene:
     @property
     def size(self) -> float:
         """How large the robot is in all its poses."""
-        points = [*self.base, *(joint for pose in self.poses for joint in pose.platform)]
-        return max(max(values) - min(values) for values in zip(*points, strict=True)) or 1.0
+        return extent([*self.base, *(joint for pose in self.poses for joint in pose.joints)])
+
+    @property
+    def has_jacobians(self) -> bool:
+        """Whether poses have a leg Jacobian to speak of."""
+        return all(pose.has_jacobian for pose in self.poses)
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """What else is drawn, as in the first pose: all bodies, and one bar, line, plane if there are any."""
+        first = self.poses[0].parts if self.poses else ()
+        return tuple({part.name if part.kind == BODY else (part.kind,): part for part in first}.values())
 
     def feet(self, pose: PoseView) -> tuple[Point, ...]:
         """The lower ends of the legs or rods: knees, or base joints."""
@@ -136,13 +176,17 @@ def view_of(
         position=position,
         position_half_width=max(float(Fraction(hi) - Fraction(lo)) / 2 for lo, hi in listed["position"]),
         rotation=rotation,
-        quaternion=(x[12], x[13], x[14], x[15]),
         platform=tuple(moved(position, rotation, joint) for joint in platform),
         det_sign=place.det_sign,
         jacobian=place.jacobian,
         multiplicity=listed["multiplicity"],
         knees=knees,
     )
+
+
+def extent(points: Sequence[Point]) -> float:
+    """The greatest difference of a coordinate of points; 1 if there is none."""
+    return max(max(values) - min(values) for values in zip(*points, strict=True)) or 1.0
 
 
 def moved(position: Point, rotation: tuple[Point, Point, Point], joint: Point) -> Point:

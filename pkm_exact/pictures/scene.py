@@ -14,6 +14,7 @@ from math import sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from pkm_exact.certify import certified_links
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot, jointed
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Configuration
     from pkm_exact.solution import Solution
 
+_DRAWN: Final = ("pkm_exact certificate", certified_links.FORMAT)
 LARGEST: Final = 1e100
 """Coordinates beyond this, or robots all of whose coordinates are below its inverse, are not drawn."""
 _OUT_OF_RANGE: Final = "robot: its coordinates are too large or too small to be drawn; use another unit of length"
@@ -35,18 +37,18 @@ class RejectedError(InputError):
     """A certificate that the checker rejects: nothing in it is proved."""
 
 
-def accepted_document(path: Path) -> dict[str, Any]:
-    """The content of a certificate file that the checker accepts, of a pose certificate or one of tolerances.
+def accepted_document(path: Path, *, about: Sequence[str] = ("robot",)) -> dict[str, Any]:
+    """The content of a certificate file that the checker accepts, with one of these keys: those that speak of poses.
 
     Raises
     ------
     RejectedError, InputError
         As ``accepted_with_lines``.
     """
-    return accepted_with_lines(path)[0]
+    return accepted_with_lines(path, about=about)[0]
 
 
-def accepted_with_lines(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
+def accepted_with_lines(path: Path, *, about: Sequence[str] = ("robot",)) -> tuple[dict[str, Any], tuple[str, ...]]:
     """The content of an accepted certificate file, and what the checker said, line by line.
 
     Raises
@@ -64,7 +66,7 @@ def accepted_with_lines(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
     verdict = check_bytes(data)
     if verdict.status == Status.ACCEPTED:
         document = json.loads(data)
-        if "robot" not in document:
+        if not any(key in document for key in about):
             raise InputError(
                 f"{name}: is not a certificate about poses of a robot; give one, or ask check what this says"
             )
@@ -77,7 +79,7 @@ def accepted_with_lines(path: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
 
 
 def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene:
-    """The scene of an accepted pose certificate.
+    """The scene of an accepted certificate of poses, of a robot or of a mechanism with passive bodies.
 
     Parameters
     ----------
@@ -85,13 +87,14 @@ def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene
         From ``accepted_document``, or made by ``certify.build.certificate``.
     robot : Machine, optional
         Its model. A certificate knows legs only; the model adds the cranks or slides below the rods, and its limits.
+        A mechanism with passive bodies is whole without.
 
     Raises
     ------
     InputError
         If it is a certificate of tolerances, or not one of the given robot, or its numbers are too large for floats.
     """
-    if document.get("format") != "pkm_exact certificate":
+    if document.get("format") not in _DRAWN:
         raise InputError(
             f"format: {shown(document.get('format'))} has no poses to draw; give the certificate of the nominal poses, "
             "which certify-poses solve writes without --tolerance"
@@ -101,7 +104,7 @@ def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene
     except OverflowError:
         raise InputError(_OUT_OF_RANGE) from None
     points = [*scene.base, *scene.platform]
-    points += [joint for pose in scene.poses for joint in (*pose.platform, *pose.knees)]
+    points += [joint for pose in scene.poses for joint in pose.joints]
     if not 1 / LARGEST < max(abs(x) for point in points for x in point) < LARGEST:
         raise InputError(_OUT_OF_RANGE)
     return scene
@@ -112,6 +115,10 @@ def _scene(document: Mapping[str, Any], machine: Machine | None) -> Scene:
     from pkm_exact.pictures.coordinates import listed_poses, placed_poses
     from pkm_exact.pictures.mechanism_scene import mechanism_scene
 
+    if document["format"] == certified_links.FORMAT:
+        from pkm_exact.pictures.links_scene import links_scene
+
+        return links_scene(document)
     problem = certified_problem(document)
     if not is_of_legs(document):
         if isinstance(machine, Robot):

@@ -8,12 +8,23 @@ from functools import cache
 from typing import Any, Final
 
 from pkm_exact.errors import InputError
+from pkm_exact.pictures.drawn_robot import BAR, BODY, Part
 from pkm_exact.wording import printable
 
 LEG_COLOURS: Final = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """One per leg. M. Okabe, K. Ito, Color Universal Design (2008): told apart by colour-blind readers too."""
-SHAPE_DASHES: Final = {"plane": "-", "line": "--", "axis": "-.", "point": ":", "arm": "-", "arc": "-", "axes": "-."}
-"""Lines of constraints that are no legs, by what they are."""
+SHAPE_DASHES: Final[dict[str, Any]] = {
+    "body": "-",
+    "bar": "-",
+    "plane": "-",
+    "line": "--",
+    "axis": "-.",
+    "point": ":",
+    "arm": "-",
+    "arc": "-",
+    "axes": "-.",
+}
+"""Lines of constraints that are no legs, and of parts, by what they are."""
 PLATFORM_FILL: Final = "#F0E442"
 BASE_FILL: Final = "#B8B8B8"
 INK: Final = "#202020"
@@ -82,3 +93,8 @@ def leg_colour(number: int) -> str:
     True
     """
     return LEG_COLOURS[(number - 1) % len(LEG_COLOURS)]
+
+
+def part_colour(part: Part) -> str:
+    """The colour of a passive body, by its number; bars are dark, lines and planes pale."""
+    return leg_colour(part.number) if part.kind == BODY else INK if part.kind == BAR else GHOST_INK

@@ -20,6 +20,7 @@ from pkm_exact.pictures.drawing import (
     draw_base,
     draw_chains,
     draw_legs,
+    draw_parts,
     draw_platform,
     draw_robot,
     label,
@@ -147,7 +148,8 @@ def _large(
 
 
 def _ghost(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, colour: str, layer: float) -> None:
-    """A platform alone, pale, with its number."""
+    """A platform with its passive bodies, pale, with its number."""
+    draw_parts(axes, scene, pose, shot, Pen(width=0.8, opacity=0.3))
     draw_platform(axes, scene, pose, shot, Pen(width=1.1, opacity=0.7, fill=0.12), colour, colour, layer)
     label(axes, scene, middle(pose.platform), str(pose.number), colour, layer + 0.9)
 
@@ -187,4 +189,4 @@ def _points(scene: Scene, poses: Sequence[PoseView]) -> list[Point]:
         for line in shape.lines(pose.position, pose.rotation, scene.size)
         for point in line
     ]
-    return [*scene.base, *(joint for pose in poses for joint in (*pose.platform, *pose.knees)), *held]
+    return [*scene.base, *(joint for pose in poses for joint in pose.joints), *held]

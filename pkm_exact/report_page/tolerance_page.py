@@ -101,13 +101,11 @@ def _view(entry: Mapping[str, Any], platform: Sequence[Point]) -> PoseView:
     x, y, z = (float(interval.midpoint) for interval in box.position)
     first, second, third = (_point([float(interval.midpoint) for interval in row]) for row in box.rotation)
     rotation = (first, second, third)
-    q0, q1, q2, q3 = (float(interval.midpoint) for interval in box.quaternion)
     return PoseView(
         number=entry["pose"],
         position=(x, y, z),
         position_half_width=float(max(interval.width for interval in box.position) / 2),
         rotation=rotation,
-        quaternion=(q0, q1, q2, q3),
         platform=tuple(moved((x, y, z), rotation, joint) for joint in platform),
         det_sign=None,
         jacobian=None,
