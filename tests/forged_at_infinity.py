@@ -8,7 +8,7 @@ from functools import partial
 from random import Random
 
 from flint import fmpq_mat, fmpq_poly, fmpz_poly
-from forged_infinity import eliminant_of, infinity_of
+from forged_infinity import eliminant_of, infinity_of, isotropic_points
 from forged_margins import NO_POSE, REJECTED, Case
 from held_mechanisms import Content, mechanism
 from mechanism_certificates import mechanism_content
@@ -126,7 +126,21 @@ def _on_a_cylinder_too() -> Content:
     return content | {"robot": content["robot"] | {"constraints": [*content["robot"]["constraints"], beside]}}
 
 
+def _beside_a_surface(number: int) -> Content:
+    """Forms in u and R, which leave all C with C.C = 0 and any s at infinity: as many singular points as one likes."""
+    random = Random(3)
+    forms = []
+    for _ in range(number):
+        form = [random.randint(-9, 9) if 1 <= place <= 3 or place >= R else 0 for place in range(16)]
+        forms.append([*form, -(form[R] + form[R + 4] + form[R + 8])])  # C = 0 with R = 1 is a pose
+    return _no_pose(forms, isotropic_points())
+
+
 AT_INFINITY: dict[str, Case] = {
+    **{
+        f"points of a surface at infinity, {number} forms": (partial(_beside_a_surface, number), REJECTED)
+        for number in (7, 9, 12)
+    },
     "points at infinity of a mechanism with a cylinder": (_on_a_cylinder_too, REJECTED),
     **{f"points where {name} is not 0": (partial(_off_the_motions, name), REJECTED) for name in OFF_THE_MOTIONS},
     **{f"points that are not on the form {number}": (partial(_off_a_form, number), REJECTED) for number in (0, 3, 5)},

@@ -172,6 +172,13 @@ SECTIONS: dict[str, Case] = {
         lambda: _without_pose("translation", lambda at: _along_an_axis(at, 7)),
         ACCEPTED,
     ),
+    "a line beside the axis of a cylinder, at another distance, by ranks": (
+        lambda: (
+            _without_pose("translation", lambda at: _along_an_axis(at, 7))
+            | {"completeness_route": "modular-rank", "elimination": None}
+        ),
+        ACCEPTED,
+    ),
     "a line on a cylinder, said to have no pose there": (
         lambda: _without_pose("translation", lambda at: _along_an_axis(at, 0)),
         REJECTED,

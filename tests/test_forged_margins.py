@@ -5,6 +5,7 @@ from certificate_tools import both_resealed, last_line
 from forged_at_infinity import AT_INFINITY
 from forged_grids import GRIDS
 from forged_margins import MARGINS, huge
+from forged_ranks import RANKS
 from forged_sections import SECTIONS
 from forged_tolerances import TIGHT
 
@@ -12,9 +13,9 @@ from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 
 
-@pytest.mark.parametrize("name", [*MARGINS, *SECTIONS, *TIGHT, *AT_INFINITY, *GRIDS])
+@pytest.mark.parametrize("name", [*MARGINS, *SECTIONS, *TIGHT, *AT_INFINITY, *GRIDS, *RANKS])
 def test_a_margin(name: str) -> None:
-    make, status = (MARGINS | SECTIONS | TIGHT | AT_INFINITY | GRIDS)[name]
+    make, status = (MARGINS | SECTIONS | TIGHT | AT_INFINITY | GRIDS | RANKS)[name]
     answer = both_resealed(make())
     assert answer.status == status, last_line(answer)
 

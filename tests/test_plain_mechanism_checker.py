@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
+from random import Random
 
 import pytest
 from certificate_tools import both
@@ -22,6 +23,7 @@ from forged_infinity import (
     isotropic_points,
     points_at,
 )
+from held_mechanisms import Pose, listing
 from mechanism_certificates import MADE, mechanism_bytes, mechanism_content
 from mechanisms import random_vectors, vector
 
@@ -406,3 +408,24 @@ def test_poses_are_listed_beside_a_motion() -> None:
     content = mechanism_content("few legs")
     _refused(content | {"complex_solutions": 1, "distinct_solutions": 1}, "claim: beside positive dimension")
     _refused(content | {"completeness_route": "modular-rank"}, "claim: beside positive dimension")
+
+
+# What no certificate shows of itself
+
+
+def test_a_determinant_may_be_as_large_as_its_bound() -> None:
+    """The modulus is larger: this one is 0 modulo 2^127 - 1."""
+    at = Pose((1, 0, 0, 0), (0, 0, 0, 0))
+    normals = [(1, 0, 0), (0, 1, 0), (0, 0, (1 << 127) - 1)]
+    certificate = pure_mechanism.read(listing("translation", [at], [at.in_plane(n, (1, 1, 1)) for n in normals]))
+    slopes, shown = pure_mechanism.Slopes(certificate.robot), certificate.representation
+    assert shown is not None
+    (value,) = pure_mechanism.large_determinants(slopes, shown, [0, 1], None)
+    assert any(value)
+
+
+@pytest.mark.parametrize("dimension", sorted({kind.dimension for kind in pure_mechanism.MOTIONS.values()}))
+def test_random_rows_that_complete_nothing_are_independent(dimension: int) -> None:
+    draw = Random(0)
+    rows = [[draw.randrange(1, pure_mechanism.RANDOM) for _ in range(dimension)] for _ in range(dimension - 1)]
+    assert fmpq_mat(rows).rank() == dimension - 1

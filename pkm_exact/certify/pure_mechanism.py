@@ -680,16 +680,14 @@ def are_dependent(slopes: Slopes, representation: pure.Representation, a: pure.P
     """Whether the rank of the rows is less than m at all roots of a factor of h0, over Q.
 
     With m rows, if their determinant is 0. With more: for some r < m, r combinations of the rows are completed by
-    random rows to m - 1, whose minors are a vector k that they are orthogonal to. It is nowhere 0 modulo a prime; and
-    all rows are orthogonal to it.
+    random rows to m - 1, whose minors are a vector k that they are orthogonal to. It is nowhere 0 modulo a prime, or
+    r = 0: random rows alone are independent. And all rows are orthogonal to it.
     """
     if slopes.number == slopes.dimension:
         (value,) = large_determinants(slopes, representation, a, None)
         return not value
-    for rank in reversed(range(slopes.dimension)):
-        if has_nonzero_minors(slopes, representation, a, rank):
-            return not any(large_determinants(slopes, representation, a, rank))
-    return False
+    ranks = (r for r in reversed(range(1, slopes.dimension)) if has_nonzero_minors(slopes, representation, a, r))
+    return not any(large_determinants(slopes, representation, a, next(ranks, 0)))
 
 
 def bordered(slopes: Slopes, placed: pure.Motion, rank: int) -> list[list[Any]]:

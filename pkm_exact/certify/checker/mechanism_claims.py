@@ -105,7 +105,8 @@ def _listed(document: MechanismDocument) -> _Listed:
     number = int(representation.eliminant.degree())
     if are_regular(primitive_part(representation.eliminant), representation, document.mechanism):
         return _Listed(number, simple=True)
-    return _Listed(number, False, tuple(irregular_factors(representation, document.mechanism)))
+    irregular = tuple(irregular_factors(representation, document.mechanism))
+    return _Listed(number, not irregular, irregular)
 
 
 def _proved(document: MechanismDocument, listed: _Listed) -> Generator[str, None, _Proved]:

@@ -134,10 +134,7 @@ def are_regular(factor: fmpz_poly, representation: Representation, mechanism: Me
 
 
 def irregular_factors(representation: Representation, mechanism: Mechanism) -> list[fmpz_poly]:
-    """The irreducible factors of h at whose roots the rows have not full rank, exactly over Q.
-
-    Those at which they may have full rank, without a proof of it, are not among them.
-    """
+    """The irreducible factors of h at whose roots the rows have not full rank, exactly over Q; at others they have."""
     factors = irreducible_factors(primitive_part(representation.eliminant))
     if len(mechanism.linear) + len(mechanism.quadrics) < mechanism.group.dimension:
         return factors
