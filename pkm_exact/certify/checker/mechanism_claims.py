@@ -126,7 +126,7 @@ def _proved(document: MechanismDocument, listed: _Listed) -> Generator[str, None
                 f"{GREATEST_NUMBER}, the degree of the motions"
             )
         if not is_finite(mechanism):
-            raise rejected("infinity: not proved that the section is finite")
+            raise rejected("section: not proved finite")
         yield "section: finite, points at infinity included"
         return _Proved(complete, "counting-at-infinity", listed.weight, doubled)
     if document.elimination is not None:
