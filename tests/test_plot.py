@@ -180,6 +180,18 @@ def drawn_names() -> list[str]:
     return [f"leg {leg}" for leg in range(1, 7)]
 
 
+def test_cables_are_thin_and_called_so() -> None:
+    shown = replace(scene("mourrain-l"), cables=True)
+    figure = poses_figure(shown)
+    entries = {text.get_text() for text in figure.legends[0].get_texts()}
+    assert {f"cable {leg}" for leg in range(1, 7)} < entries
+    widths = [
+        [entry.get_linewidth() for axes in panels(one) for entry in axes.lines if entry.get_gid() == "leg-1"]
+        for one in (figure, standard("mourrain-l")[0])
+    ]
+    assert max(widths[0]) < 0.5 * min(widths[1])
+
+
 def test_an_overlay_numbers_all_poses() -> None:
     shown = scene("mourrain-l")
     texts = [text for text, _ in standard("mourrain-l", "overlay")[1].texts]

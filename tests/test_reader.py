@@ -1,5 +1,6 @@
 """Model files are read exactly; every defect gives one sentence with file, field, value and remedy."""
 
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -9,7 +10,8 @@ from hypothesis import strategies as st
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import distance_squared, rotation_of
-from pkm_exact.geometry.reader import read_robot, robot_from_toml
+from pkm_exact.geometry.model_writer import robot_text
+from pkm_exact.geometry.reader import any_from_toml, read_robot, robot_from_toml
 from pkm_exact.geometry.robot import Configuration, Robot
 
 MODEL = """
@@ -310,3 +312,20 @@ def test_positions_are_those_of_the_tool_point(name: str) -> None:
 def test_files_of_other_sorts_are_named(text: str, part: str) -> None:
     with pytest.raises(InputError, match=part):
         robot_from_toml(text)
+
+
+def test_legs_may_be_cables() -> None:
+    """They are written too; what has no legs of actuated length cannot have cables."""
+    slack, taut = robot_from_toml(MODEL), robot_from_toml(MODEL.replace("[base]", "cables = true\n\n[base]", 1))
+    assert (slack.cables, taut.cables) == (False, True)
+    assert replace(taut, cables=False) == slack
+    assert robot_from_toml(robot_text(taut)) == taut
+    with pytest.raises(InputError, match=r"^cables: 1 is neither true nor false"):
+        robot_from_toml(MODEL.replace("[base]", "cables = 1\n\n[base]", 1))
+
+
+@pytest.mark.parametrize("name", ["hexa", "links/watt", "chains/sarrus"])
+def test_what_has_no_legs_has_no_cables(name: str) -> None:
+    text = (Path(__file__).parent.parent / "models" / f"{name}.toml").read_text(encoding="utf-8")
+    with pytest.raises(InputError, match=r"has no legs that could be cables; take the line out"):
+        any_from_toml(text.replace("schema = 1", "schema = 1\ncables = true", 1))

@@ -46,7 +46,9 @@ def truth(table: dict[str, Any], key: str, where: str) -> bool:
     """A truth value; false if the key is left out."""
     value = table.get(key, False)
     if not isinstance(value, bool):
-        raise InputError(f"{where}.{key}: {shown(value)} is neither true nor false; write one of them")
+        raise InputError(
+            f"{where}{'.' if where else ''}{key}: {shown(value)} is neither true nor false; write one of them"
+        )
     return value
 
 

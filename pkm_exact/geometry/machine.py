@@ -53,6 +53,8 @@ class Machine(ABC):
         How far actuators, passive joints, legs and platform may go.
     nominal : NominalPose or None
         The pose in which it is meant to be.
+    cables : bool
+        Whether its legs are cables, which only pull.
     """
 
     name: str
@@ -63,6 +65,7 @@ class Machine(ABC):
     configurations: tuple[Any, ...]
     limits: Limits | None
     nominal: NominalPose | None
+    cables: bool
 
     @property
     @abstractmethod

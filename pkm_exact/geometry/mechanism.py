@@ -84,6 +84,8 @@ class Mechanism(Machine):
         Actuators that move parts of constraints: slides, cranks.
     stand_ins : tuple of StandIn
         Angles of the geometry that were given in degrees and are taken as others, by how much.
+    cables : bool
+        Whether its legs are cables, which only pull.
 
     Examples
     --------
@@ -113,6 +115,7 @@ class Mechanism(Machine):
     nominal: NominalPose | None = None
     drives: tuple[Drive, ...] = ()
     stand_ins: tuple[StandIn, ...] = ()
+    cables: bool = False
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.constraints) <= MOST_CONSTRAINTS:

@@ -55,6 +55,8 @@ def _head(robot: Robot) -> Iterator[str]:
         yield f"{key} = {json.dumps(getattr(robot, key), ensure_ascii=False)}"
     if robot.metric != UNIT_METRIC:
         yield f"metric = [{', '.join(map(str, robot.metric))}]"
+    if robot.cables:
+        yield "cables = true"
 
 
 def _table(name: str, entries: Sequence[tuple[str, str]]) -> Iterator[str]:

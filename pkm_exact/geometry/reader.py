@@ -14,10 +14,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chain_reader import CHAIN_TABLES, exact_cranks, read_chains, read_joints
 from pkm_exact.geometry.configurations import read_configuration
-from pkm_exact.geometry.fields import known_keys, label, required
+from pkm_exact.geometry.fields import known_keys, label, required, truth
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.kind_names import CHAINS_KIND, CONSTRAINTS_KIND, LINKS_KIND
@@ -224,14 +225,28 @@ def _entry(place: Any, name: str, key: str) -> Any:
 
 def _from_table(table: dict[str, Any]) -> Robot | Mechanism | Linkage | Links:
     nominal = table.pop("nominal", None)
+    cables = truth(table, "cables", "")
+    table.pop("cables", None)
     kind = table.get("kind")
     table, polar = with_polar_vectors(table, _metric(table), exact=kind in (CHAINS_KIND, LINKS_KIND))
     found = _noted(_described(table), polar)
+    if cables:
+        found = _on_cables(found)
     if nominal is None:
         return found
     if is_linkage(found) or is_links(found):
         raise InputError(f"nominal: a file of kind {found.kind} has no pose to choose; take the table out")
     return replace(found, nominal=read_nominal(nominal, found.motion, found.metric))
+
+
+def _on_cables(found: Robot | Mechanism | Linkage | Links) -> Robot | Mechanism:
+    """The same with cables for legs."""
+    if isinstance(found, Robot):
+        if not found.chains:
+            return replace(found, cables=True)
+    elif not (is_linkage(found) or is_links(found)) and any(isinstance(one, Distance) for one in found.constraints):
+        return replace(found, cables=True)
+    raise InputError(f"cables: a file of kind {found.kind} has no legs that could be cables; take the line out")
 
 
 def _metric(table: dict[str, Any]) -> Metric:

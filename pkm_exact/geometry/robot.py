@@ -93,6 +93,8 @@ class Robot(Machine):
         Of actuators, passive joints, legs and position, if there are any.
     nominal : NominalPose or None
         The pose in which it is meant to be.
+    cables : bool
+        Whether its legs are cables, which only pull.
     stand_ins : tuple of StandIn or str
         What stands in for numbers of the model file that are not exact: angles, or sentences.
     written_digit : Fraction or None
@@ -118,6 +120,7 @@ class Robot(Machine):
     tolerances: Tolerances | None = None
     limits: Limits | None = None
     nominal: NominalPose | None = None
+    cables: bool = False
     stand_ins: tuple[StandIn | str, ...] = field(default=(), repr=False, compare=False)
     written_digit: Fraction | None = field(default=None, repr=False, compare=False)
 

@@ -94,6 +94,11 @@ def rounded(value: float) -> str:
     return f"{short:.0f}" if 100 <= short < 1e6 else f"{short:.3g}"
 
 
+def leg_word(scene: Scene) -> str:
+    """What a leg is called."""
+    return "cable" if scene.cables else "leg"
+
+
 def axis_names(scene: Scene) -> tuple[str, ...]:
     """The coordinates with their unit."""
     unit = "" if scene.unit in ("", "1") else f" [{style.drawable(scene.unit, 12)}]"
@@ -118,8 +123,9 @@ def add_legend(figure: Figure, scene: Scene, *, ghosts: bool = False, key: bool 
 
     handles: list[Artist] = []
     if not ghosts:
+        width = 2.2 * (style.CABLE if scene.cables else 1)
         handles += [
-            Line2D([], [], color=style.leg_colour(leg + 1), linewidth=2.2, label=f"leg {leg + 1}")
+            Line2D([], [], color=style.leg_colour(leg + 1), linewidth=width, label=f"{leg_word(scene)} {leg + 1}")
             for leg in range(len(scene.legs))
         ]
         for shape in scene.shapes:

@@ -79,7 +79,8 @@ def draw_legs(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen, 
         shade, layer = colour or style.leg_colour(leg + 1), _LEGS + place / len(order)
         if pen.opacity == 1:
             _line(axes, scene, ends[leg], color="white", linewidth=2.2 * pen.width, zorder=layer)
-        options = {"linewidth": pen.width, "alpha": pen.opacity, "zorder": layer}
+        width = style.CABLE * pen.width if scene.cables else pen.width
+        options = {"linewidth": width, "alpha": pen.opacity, "zorder": layer}
         _line(axes, scene, ends[leg], color=shade, gid=f"leg-{leg + 1}", **options)
 
 

@@ -121,6 +121,8 @@ class Scene:
     poses : tuple of PoseView
     shapes : tuple of Shape
         What holds joints without being a leg: planes, lines, points, axes.
+    cables : bool
+        Whether the legs are cables.
     """
 
     name: str
@@ -137,6 +139,7 @@ class Scene:
     chains: tuple[str, ...]
     poses: tuple[PoseView, ...]
     shapes: tuple[Shape, ...] = ()
+    cables: bool = False
 
     @property
     def sorts(self) -> tuple[str, ...]:

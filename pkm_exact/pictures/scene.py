@@ -101,6 +101,7 @@ def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene
         )
     try:
         scene = _limited(_scene(document, robot), document, robot)
+        scene = replace(scene, cables=robot is not None and robot.cables)
     except OverflowError:
         raise InputError(_OUT_OF_RANGE) from None
     points = [*scene.base, *scene.platform]

@@ -34,6 +34,8 @@ SIGN_COLOURS: Final = {1: "#0072B2", -1: "#D55E00", 0: "#202020", None: "#808080
 GHOST_INK: Final = "#909090"
 DASHES: Final = {"crank": (0.0, (1.0, 0.0)), "slide": (0.0, (1.6, 0.8))}
 """Line styles of cranks and slides."""
+CABLE: Final = 0.45
+"""How wide a cable is, by the width of a leg."""
 LONGEST_NAME: Final = 48
 
 _DEFAULTS: Final[dict[Any, Any]] = {

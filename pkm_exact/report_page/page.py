@@ -23,6 +23,7 @@ from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.machine import locked_at
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.pictures.captions import leg_word
 from pkm_exact.pictures.scene import configuration_of, scene_of
 from pkm_exact.report_page.markup import Markup, element, embedded_json, joined
 from pkm_exact.report_page.numerals import exact, unit_words
@@ -196,7 +197,7 @@ def _explorer(scene: Scene, poses: PoseRows, *, tolerances: bool) -> Markup:
     words = {
         "view_keys": f"{turn}, wheel or pinch to zoom; by keyboard: {arrows}, 0 to reset.",
         "presets": joined(*buttons),
-        "legend": legend(len(scene.legs), scene.shapes),
+        "legend": legend(len(scene.legs), scene.shapes, leg_word(scene)),
         "precision": precision,
         "count": str(len(poses.rows)),
         "table": pose_table(poses),

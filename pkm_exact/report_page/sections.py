@@ -150,9 +150,9 @@ def _table_row(row: Row, *, first: bool) -> Markup:
     )
 
 
-def legend(legs: int, shapes: Sequence[Shape] = ()) -> Markup:
-    """Number and colour of each leg, and of what else holds the platform."""
-    entries = [(i, f"leg {i}") for i in range(1, legs + 1)]
+def legend(legs: int, shapes: Sequence[Shape] = (), word: str = "leg") -> Markup:
+    """Number and colour of each leg, and of what else holds the platform; ``word`` says what a leg is."""
+    entries = [(i, f"{word} {i}") for i in range(1, legs + 1)]
     entries += [(shape.number, f"{shape.name} ({shape.kind})") for shape in shapes]
     return element("ul", *(element("li", _swatch(i), text) for i, text in entries), cls="legend small")
 

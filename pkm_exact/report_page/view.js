@@ -211,7 +211,7 @@ class View {
       const [joint, foot, end] = [this.scene.base[a], feet[a], pose.platform[b]];
       const chain = this.scene.chains[i];
       if (pose.knees.length && chain && !isGhost) add(this.line(at, `leg ${chain}`, joint, foot), joint, foot);
-      add(this.line(at, `leg leg-${(i % 6) + 1}`, foot, end), foot, end);
+      add(this.line(at, `leg leg-${(i % 6) + 1}${this.scene.cables ? " cable" : ""}`, foot, end), foot, end);
     });
     if (!isGhost) {
       pose.shapes.forEach(({ number, kind, points }) => {
