@@ -26,6 +26,8 @@ from pkm_exact.certify.certified_machine import (
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.certify.mobility_build import FORMAT as MOBILITY_FORMAT
 from pkm_exact.certify.mobility_build import certified_linkage, mobility_certificate
+from pkm_exact.certify.platform_build import FORMAT as PLATFORM_FORMAT
+from pkm_exact.certify.platform_build import certified_mobility, platform_certificate
 from pkm_exact.certify.system_build import FORMAT as SYSTEM_FORMAT
 from pkm_exact.certify.system_build import system_certificate
 from pkm_exact.certify.tolerance_build import FORMAT as TOLERANCE_FORMAT
@@ -93,7 +95,8 @@ def recompute(
     Parameters
     ----------
     data : bytes
-        Content of a certificate of poses, of tolerances, of a mobility or of a polynomial system.
+        Content of a certificate of poses, of tolerances, of a mobility (of a mechanism or of a platform) or of a
+        polynomial system.
     robot : Machine, optional
         A robot or mechanism whose configuration of the same name is to be solved (its lengths, if the certificate's
         have no name); by default the one that is written in the certificate.
@@ -131,6 +134,8 @@ def recompute(
     content = json.loads(data)
     if content["format"] == SYSTEM_FORMAT:
         answers = _system_answers(content, robot, policy, progress)
+    elif content["format"] == PLATFORM_FORMAT:
+        answers = _platform_answers(content, robot)
     elif content["format"] == MOBILITY_FORMAT:
         answers = _mobility_answers(content, robot)
     else:
@@ -202,6 +207,14 @@ def _mobility_answers(content: dict[str, Any], robot: Machine | None) -> Iterato
     yield mobility_certificate(mobility_of(linkage, content["actuated"], among))
 
 
+def _platform_answers(content: dict[str, Any], robot: Machine | None) -> Iterator[dict[str, Any]]:
+    """The certificate of the platform's mobility, with the constraints that are written in one."""
+    if robot is not None:
+        raise InputError("certificate: is one of a mobility, with constraints of its own; recompute it without a model")
+    labels = (content["robot"]["name"], content["robot"]["unit"], content["robot"]["source"])
+    yield platform_certificate(certified_mobility(content), labels)
+
+
 def _tolerance_answers(
     content: dict[str, Any], asked: _Question, policy: Policy | None, progress: Progress
 ) -> Iterator[dict[str, Any]]:
@@ -226,6 +239,8 @@ def _summary(content: dict[str, Any]) -> str:
         total = proved + len(content["unproved"])
         claim = "complete within tolerance" if content["complete"] else "not proven complete within tolerance"
         return f"{claim}, {proved} of {total} poses proved"
+    if content["format"] == PLATFORM_FORMAT:
+        return "mobility of a platform"
     if content["format"] == MOBILITY_FORMAT:
         return f"mobility {content['mobility']['free']}, of the platform {content['mobility']['platform']}"
     if content["format"] == SYSTEM_FORMAT:

@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cache, partial
 from typing import Any
 
+import forged_platform
 import pytest
 from certificate_tools import boxed_certificate, golden, tolerant_certificate, without_proof
 from mechanism_certificates import mechanism_content
@@ -156,6 +157,9 @@ SUBJECTS = {
     "mobility, seven-link": Subject(partial(_mobility, "seven-link"), 20, complete=2000),
     "mobility, planar loops": Subject(partial(_mobility, "peaucellier"), 0, complete=2000),
     "mobility, nothing finite": Subject(_nothing_finite, 0, complete=1000),
+    "platform, five legs": Subject(lambda: forged_platform.FIVE, 15, complete=1500),
+    "platform, six legs": Subject(lambda: forged_platform.SIX_POSED, 0, complete=1000),
+    "platform, equal legs": Subject(lambda: forged_platform.SAME_POSED, 15, complete=1000),
     "mobility-2, seven-link": Subject(partial(_mobility, "seven-link-oblique"), 20, complete=2000),
     "unproved multiplicities": Subject(partial(_unproved, "3-rpr-triple")),
     "not proven complete": Subject(lambda: without_proof(golden("similar-planar-s")), complete=1500),

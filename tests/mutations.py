@@ -93,6 +93,21 @@ FREE_MOBILITY = (
 )
 """The same for certificates of mobility. Docs: ``docs/certificates-mobility.md``."""
 
+FREE_PLATFORM = (
+    Free("robot", "the question: the same is proved of the other robot", ("platform",)),
+    Free("pose.position", "the same is true of another pose", ("platform",)),
+    Free("pose.rotation", "the same is true of another pose", ("platform",)),
+    Free("*.rows", "another minor that is not 0", ("platform",)),
+    Free("*.columns", "another minor that is not 0", ("platform",)),
+    Free("everywhere.position", "another pose with this rank", ("platform",)),
+    Free("everywhere.rotation", "another pose with this rank", ("platform",)),
+    Free("everywhere.route", "none claims less", ("platform",)),
+    Free("everywhere.combinations", "others prove the same", ("platform",)),
+    Free("pose", "null claims less", ("platform",), below=False),
+    Free("everywhere", "null claims less", ("platform",), below=False),
+)
+"""The same for certificates of a platform's mobility. Docs: ``docs/certificates-platform.md``."""
+
 FREE_2 = (
     Free("configuration", "describes", ALL_2),
     Free("robot.constraints.*.name", "describes", ALL_2),
@@ -114,6 +129,7 @@ FREE_2 = (
 
 WORDS: dict[str, tuple[str, ...]] = {
     "format": ("pkm_exact certificate", "pkm_exact tolerance certificate", "pkm_exact mobility certificate"),
+    "route": ("full", "combination", "grid", "none"),
     "kind": ("6-UPS", "3-RPR", "3-RRR"),
     "argument": ("regular", "subgroups", "second-order", "rank", "cone", "definite", "indefinite"),
     "method": ("exact", "krawczyk", "newton"),
@@ -287,7 +303,7 @@ def _is_within_rounding(*verdicts: Any) -> bool:
 
 def _is_free(name: str, path: Path_) -> bool:
     names = {name, name.replace("-open", "")}
-    return any(free.includes(kind, path) for free in (*FREE, *FREE_2, *FREE_MOBILITY) for kind in names)
+    return any(free.includes(kind, path) for free in (*FREE, *FREE_2, *FREE_MOBILITY, *FREE_PLATFORM) for kind in names)
 
 
 def is_given_away(content: Content, mutation: Mutation) -> bool:

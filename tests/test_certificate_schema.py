@@ -19,6 +19,7 @@ from pkm_exact.certify import (
     links_build,
     mobility_build,
     mobility_second_build,
+    platform_build,
     pure,
     region_build,
     statics_build,
@@ -33,6 +34,7 @@ POSES, TOLERANCES = "certificate-1.schema.json", "tolerance-certificate-1.schema
 SECOND = "certificate-2.schema.json"
 MOBILITY = "mobility-certificate-1.schema.json"
 MOBILITY_2 = "mobility-certificate-2.schema.json"
+PLATFORM = "platform-certificate-1.schema.json"
 SYSTEMS = "system-certificate-1.schema.json"
 REGIONS = "region-certificate-1.schema.json"
 STATICS = "statics-certificate-1.schema.json"
@@ -49,12 +51,15 @@ def _schema(name: str) -> Any:
 def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     """The validator for a certificate of this kind."""
     by_format = {tolerance_build.FORMAT: TOLERANCES, mobility_build.FORMAT: MOBILITY}
+    by_format[platform_build.FORMAT] = PLATFORM
     name = by_format.get(content["format"], POSES)
     name = {POSES: SECOND, MOBILITY: MOBILITY_2}[name] if content["version"] == 2 else name
     return jsonschema.Draft202012Validator(_schema(name))
 
 
-@pytest.mark.parametrize("name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, REGIONS, STATICS, LINKS])
+@pytest.mark.parametrize(
+    "name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, PLATFORM, REGIONS, STATICS, LINKS]
+)
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
 
@@ -196,6 +201,14 @@ def test_the_page_of_mobility_defines_every_key_in_its_order() -> None:
     assert all(f'`"{word}"`' in page for word in words)
 
 
+def test_the_page_of_platforms_defines_every_key_in_its_order() -> None:
+    root = _schema(PLATFORM)
+    parts = [root, *(root["$defs"][key] for key in ("pose", "everywhere"))]
+    assert _tables("Format", "## Rows", "certificates-platform.md") == [_keys(part) for part in parts]
+    page = (CERTS.parent / "docs" / "certificates-platform.md").read_text()
+    assert all(f'"{word}"' in page for word in root["$defs"]["everywhere"]["properties"]["route"]["enum"])
+
+
 def test_the_page_of_regions_defines_every_key_in_its_order() -> None:
     root = _schema(REGIONS)
     assert _tables("Format", "## Robot and chart", "certificates-regions.md") == [_keys(root)]
@@ -233,7 +246,7 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
     writers = (build, build_constraints, tolerance_build, system_build, mobility_build, region_build, statics_build)
-    writers = (*writers, mobility_second_build, links_build)
+    writers = (*writers, mobility_second_build, platform_build, links_build)
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

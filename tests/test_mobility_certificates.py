@@ -286,9 +286,6 @@ def test_the_command_writes_a_certificate(tmp_path: Path, capsys: pytest.Capture
         capsys.readouterr()
         assert main([command, str(path), "-o", str(tmp_path / output)]) == 2
         assert "not a certificate about poses of a robot" in capsys.readouterr().err
-    assert main(["mobility", "models/mssm.toml", "-o", str(tmp_path / "no.json")]) == 2
-    assert not (tmp_path / "no.json").exists()
-    assert "there are certificates for mechanisms of bodies and joints only" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

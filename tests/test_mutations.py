@@ -8,7 +8,7 @@ import mutations
 import pytest
 from certificate_subjects import EACH, SUBJECTS, subject
 from certificate_tools import CERTS, Path_, at, both_resealed, golden, golden_bytes, last_line, with_entry
-from mutations import FREE, FREE_2, FREE_MOBILITY, Free, Mutation, outcome, quick_names, report
+from mutations import FREE, FREE_2, FREE_MOBILITY, FREE_PLATFORM, Free, Mutation, outcome, quick_names, report
 
 from pkm_exact import solve_system
 from pkm_exact.certify import pure
@@ -137,14 +137,33 @@ NEEDED_MOBILITY: dict[str, tuple[str, Path_, Any]] = {
 }
 """The same for ``FREE_MOBILITY``."""
 
+LEGS, SIX, EQUAL = "platform, five legs", "platform, six legs", "platform, equal legs"
+NEEDED_PLATFORM: dict[str, tuple[str, Path_, Any]] = {
+    "robot": (LEGS, ("robot", "source"), "elsewhere"),
+    "pose.position": (SIX, ("pose", "position", 0), "100"),
+    "pose.rotation": (SIX, ("pose", "rotation"), [["0", "-1", "0"], ["1", "0", "0"], ["0", "0", "1"]]),
+    "*.rows": (EQUAL, ("everywhere", "rows"), [1, 2]),
+    "*.columns": (LEGS, ("everywhere", "columns"), [0, 1, 2, 3, 5]),
+    "everywhere.position": (LEGS, ("everywhere", "position", 0), "100"),
+    "everywhere.rotation": (LEGS, ("everywhere", "rotation"), [["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]]),
+    "everywhere.route": (LEGS, ("everywhere", "route"), "none"),
+    "everywhere.combinations": (EQUAL, ("everywhere", "combinations", 0), ["2", "-2", "0"]),
+    "pose": (LEGS, ("pose",), None),
+    "everywhere": (LEGS, ("everywhere",), None),
+}
+"""The same for ``FREE_PLATFORM``."""
+
 
 def test_no_entry_of_the_tables_is_there_for_nothing() -> None:
     assert [free.path for free in FREE] == list(NEEDED)
     assert [free.path for free in FREE_2] == list(NEEDED_2)
     assert [free.path for free in FREE_MOBILITY] == list(NEEDED_MOBILITY)
+    assert [free.path for free in FREE_PLATFORM] == list(NEEDED_PLATFORM)
 
 
-@pytest.mark.parametrize(("path", "change"), [*NEEDED.items(), *NEEDED_2.items(), *NEEDED_MOBILITY.items()])
+@pytest.mark.parametrize(
+    ("path", "change"), [*NEEDED.items(), *NEEDED_2.items(), *NEEDED_MOBILITY.items(), *NEEDED_PLATFORM.items()]
+)
 def test_what_is_free_may_change(path: str, change: tuple[str, Path_, Any]) -> None:
     assert _replaced(*change) == "free", path
 
@@ -155,6 +174,7 @@ def test_what_is_free_may_change(path: str, change: tuple[str, Path_, Any]) -> N
         ("certificates.md", "### What the digest binds", FREE),
         ("certificates-2.md", "## What the digest binds", FREE_2),
         ("certificates-mobility.md", "## What the digest binds", FREE_MOBILITY),
+        ("certificates-platform.md", "## What the digest binds", FREE_PLATFORM),
     ],
 )
 def test_the_pages_list_what_is_free(page: str, heading: str, free: tuple[Free, ...]) -> None:
@@ -226,6 +246,7 @@ OF_A_KIND = {
     "poses, version 2": lambda: golden("h4"),
     "tolerance": lambda: subject(PLANAR),
     "mobility": lambda: subject("mobility, Sarrus"),
+    "platform": lambda: golden("mobility/3-rps"),
     "system": lambda: system_certificate(solve_system(["x*y - 2", "x + y - 3"])),
     "region": lambda: golden("regions/rolland-6-6"),
     "statics": lambda: golden("statics/3-rpr-merlet-p"),

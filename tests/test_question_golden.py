@@ -23,6 +23,7 @@ COMMANDS = {
         "1/3",
         *LIMITS,
     ],
+    "mobility/3-rps": ["mobility", "models/3-rps.toml", "--at", "0,0,1/2,1,0,0,0"],
     "mobility/seven-link-oblique": ["mobility", "models/chains/seven-link-oblique.toml"],
     "regions/rolland-6-6": ["region", "models/rolland-6-6.toml", "certs/regions/rolland-6-6.toml"],
 }

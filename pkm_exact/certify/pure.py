@@ -3601,6 +3601,7 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
 OTHER_KINDS: Final = {
     "pkm_exact system certificate": ("pure_system", "a system certificate"),
     "pkm_exact mobility certificate": ("pure_mobility", "a mobility certificate"),
+    "pkm_exact platform certificate": ("pure_platform", "a platform certificate"),
     "pkm_exact region certificate": ("pure_region", "a region certificate"),
     "pkm_exact statics certificate": ("pure_statics", "a statics certificate"),
     "pkm_exact links certificate": ("pure_links", "a links certificate"),

@@ -69,7 +69,7 @@ def mobility(
       certify-poses mobility models/chains/3-pprr.toml
       certify-poses mobility models/chains/3-pprr.toml --actuated A1,B1 --json
       certify-poses mobility models/chains/sarrus.toml -o sarrus-mobility.json
-      certify-poses mobility models/rolland-6-6.toml --at 0,0,650,9,1,0,-1
+      certify-poses mobility models/rolland-6-6.toml --at 0,0,650,9,1,0,-1 -o rolland-mobility.json
     """
     from pkm_exact.cli.model_reading import announced_any
     from pkm_exact.geometry.linkage import Linkage
@@ -89,12 +89,7 @@ def mobility(
         else:
             if among is not None:
                 raise InputError("--among: belongs to mechanisms of bodies and joints; leave it out")
-            if output is not None:
-                raise InputError(
-                    "-o: there are certificates for mechanisms of bodies and joints only, none of what is said here of "
-                    "legs and constraints; leave it out"
-                )
-            answer, known = _of_platform(found, pose, actuated, configuration, as_json=as_json)
+            answer, known = _of_platform(found, pose, actuated, configuration, output, as_json=as_json)
     except InputError as error:
         raise InputError(f"{model}: {error}") from None
     sys.stdout.write(answer if isinstance(answer, str) else json.dumps(answer, indent=1) + "\n")
@@ -127,6 +122,7 @@ def _of_platform(
     pose: str | None,
     actuated: tuple[str, ...] | None,
     configuration: str | None,
+    output: str | None,
     *,
     as_json: bool,
 ) -> tuple[dict[str, Any] | str, bool]:
@@ -136,6 +132,12 @@ def _of_platform(
 
     place = None if pose is None else _pose(robot, pose)
     found = platform_mobility(robot, place, actuated, configuration)
+    if output is not None:
+        from pkm_exact.certify.build import canonical_bytes
+        from pkm_exact.certify.platform_build import platform_certificate
+
+        content = platform_certificate(found, (robot.name, robot.unit, robot.source))
+        arguments.write_output(output, canonical_bytes(content))
     report = platform_mobility_report.as_object if as_json else platform_mobility_report.as_text
     return report(robot, found), found.everywhere is None or found.everywhere.route is not Route.NONE
 

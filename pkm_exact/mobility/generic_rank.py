@@ -55,15 +55,20 @@ class GenericRank:
     pose : tuple of 6 int
         Cayley coordinates and position of a pose with this rank.
     route : Route
-    combination : tuple of Fraction
-        Factors of a sum of the rows that is 0 at every pose, if there is one with constant factors.
+    combinations : tuple of rows
+        Independent factors of sums of the rows that are 0 at every pose, if constant ones prove the rank.
     """
 
     rank: int
     most: int
     pose: Pose
     route: Route
-    combination: Row = ()
+    combinations: tuple[Row, ...] = ()
+
+    @property
+    def combination(self) -> Row:
+        """Factors of one sum of the rows that is 0 at every pose, or nothing."""
+        return self.combinations[0] if self.combinations else ()
 
     @property
     def is_architecture_singularity(self) -> bool:
@@ -95,7 +100,7 @@ def generic_rank(forms: Sequence[Form], motion: Motion, metric: Metric) -> Gener
     slopes = _slopes(forms, motion)
     if len(forms) <= motion.dimension and rank(slopes, 16) == best:
         relation = null_space(list(zip(*slopes, strict=True)), len(forms))
-        return GenericRank(best, most, pose, Route.COMBINATION, relation[0])
+        return GenericRank(best, most, pose, Route.COMBINATION, relation)
     return _by_grid(matrix, pose, motion, metric, best, most)
 
 
@@ -165,11 +170,15 @@ def _simplex(count: int, degree: int) -> list[tuple[int, ...]]:
     return [(first, *rest) for first in range(degree + 1) for rest in _simplex(count - 1, degree - first)]
 
 
-def _rank_at(matrix: fmpz_mat, pose: Pose, motion: Motion, metric: Metric) -> int:
+def placed(pose: Pose, motion: Motion) -> tuple[list[int], list[int]]:
+    """The Cayley coordinates and the position of a pose, 0 where the motions have none."""
     turns, moves = _variables(motion)
     angles = [value if k in turns else 0 for k, value in enumerate(pose[:3])]
-    place = [value if k in moves else 0 for k, value in enumerate(pose[3:])]
-    return int((matrix * _wrenches(angles, place, motion, metric)).rank())
+    return angles, [value if k in moves else 0 for k, value in enumerate(pose[3:])]
+
+
+def _rank_at(matrix: fmpz_mat, pose: Pose, motion: Motion, metric: Metric) -> int:
+    return int((matrix * _wrenches(*placed(pose, motion), motion, metric)).rank())
 
 
 def _wrenches(angles: Sequence[int], position: Sequence[int], motion: Motion, metric: Metric) -> fmpz_mat:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -51,6 +51,10 @@ class PlatformMobility:
     ----------
     structural, actuated : tuple of str
         Names of the constraints that always hold, and of those that actuators lock.
+    constraints : tuple of Constraint
+        All of these in the order of the model; an actuated one has some value.
+    locks : tuple of int
+        Places of those that actuators lock.
     motion : Motion
         In which joints that are not declared one by one keep the platform.
     metric : tuple of 3 int
@@ -69,6 +73,8 @@ class PlatformMobility:
 
     structural: tuple[str, ...]
     actuated: tuple[str, ...]
+    constraints: tuple[Constraint, ...]
+    locks: tuple[int, ...]
     motion: Motion
     metric: Metric
     at: PoseMobility | None
@@ -90,7 +96,8 @@ def platform_mobility(
         Position and rotation matrix in the coordinates of the model; without it, only what holds at every pose is said.
     actuated : collection of str, optional
         Of a robot the legs that are locked, while the others hold nothing; of a mechanism the constraints that are
-        actuated, while the others always hold. Those of the model by default.
+        actuated, while the others always hold; a slide or crank of it stands for the constraints that it moves. Those
+        of the model by default.
     configuration : str, optional
         Of robots with cranks or slides, which stand as the configuration says.
 
@@ -111,21 +118,41 @@ def platform_mobility(
     """
     constraints, names = _constraints(robot, configuration)
     chosen = _chosen(robot, names, actuated)
-    by_name = dict(zip(names, constraints, strict=True))
-    always = {name: c for name, c in by_name.items() if isinstance(robot, Mechanism) and name not in chosen}
-    locked = {name: c for name, c in by_name.items() if name in chosen}
-    every = (*always.values(), *locked.values())
+    if not isinstance(robot, Mechanism):
+        kept = [k for k, name in enumerate(names) if name in chosen]
+        constraints, names = tuple(constraints[k] for k in kept), tuple(names[k] for k in kept)
+    if pose is not None:
+        _require_pose(robot, dict(zip(names, constraints, strict=True)), chosen, pose)
+    locks = tuple(k for k, name in enumerate(names) if name in chosen)
+    return mobility_of_constraints(constraints, names, locks, robot.motion, robot.metric, pose)
+
+
+def mobility_of_constraints(
+    constraints: Sequence[Constraint],
+    names: Sequence[str],
+    locks: Sequence[int],
+    motion: Motion,
+    metric: Metric,
+    pose: tuple[Vector, Matrix] | None = None,
+) -> PlatformMobility:
+    """The same of constraints, of which actuators lock those at some places, at a pose where the others hold."""
     everywhere = None
-    if every and not any(c.squares(robot.metric) for c in every):
-        forms = [form for c in every for form in c.forms(robot.metric)]
-        everywhere = generic_rank(forms, robot.motion, robot.metric)
-    at = None if pose is None else _at(robot, always, locked, pose)
-    return PlatformMobility(tuple(always), tuple(locked), robot.motion, robot.metric, at, everywhere)
+    if constraints and not any(c.squares(metric) for c in constraints):
+        forms = [form for c in constraints for form in c.forms(metric)]
+        everywhere = generic_rank(forms, motion, metric)
+    always = [c for k, c in enumerate(constraints) if k not in locks]
+    at = None if pose is None else _at(always, constraints, motion, metric, pose)
+    structural = tuple(name for k, name in enumerate(names) if k not in locks)
+    actuated = tuple(names[k] for k in locks)
+    return PlatformMobility(structural, actuated, tuple(constraints), tuple(locks), motion, metric, at, everywhere)
 
 
 def _constraints(robot: Robot | Mechanism, configuration: str | None) -> tuple[tuple[Constraint, ...], tuple[str, ...]]:
     if isinstance(robot, Mechanism):
-        return robot.constraints, tuple(constraint.name for constraint in robot.constraints)
+        locked = robot.constraints
+        if robot.drives:
+            locked = robot.locked(robot.configuration(configuration).values, "configuration")
+        return locked, tuple(constraint.name for constraint in locked)
     if configuration is not None or robot.configurations:
         found = robot.problem(robot.configuration(configuration))
     elif robot.chains:
@@ -136,24 +163,37 @@ def _constraints(robot: Robot | Mechanism, configuration: str | None) -> tuple[t
 
 
 def _chosen(robot: Robot | Mechanism, names: Collection[str], actuated: Collection[str] | None) -> list[str]:
-    wanted = robot.actuated if actuated is None else actuated
-    for name in wanted:
-        if name not in names:
-            raise InputError(f"actuated: {shown(name)} is not one of the model's; use some of: {', '.join(names)}")
-    return [name for name in names if name in wanted]
+    moved = _moved(robot)
+    known = [*(name for name in moved if name not in names), *names]
+    chosen: set[str] = set()
+    for name in robot.actuated if actuated is None else actuated:
+        if name not in known:
+            raise InputError(f"actuated: {shown(name)} is not one of the model's; use some of: {', '.join(known)}")
+        chosen |= moved.get(name, {name})
+    return [name for name in names if name in chosen]
+
+
+def _moved(robot: Robot | Mechanism) -> dict[str, set[str]]:
+    """The constraints that each slide or crank of a mechanism moves."""
+    if not isinstance(robot, Mechanism):
+        return {}
+    return {drive.name: {part.constraint for part in drive.parts if _is_not_0(part.axes)} for drive in robot.drives}
+
+
+def _is_not_0(axes: Sequence[Vector | Fraction]) -> bool:
+    return any(any(axis) if isinstance(axis, tuple) else axis for axis in axes)
 
 
 def _at(
-    robot: Robot | Mechanism,
-    always: Mapping[str, Constraint],
-    locked: Mapping[str, Constraint],
+    always: Sequence[Constraint],
+    constraints: Sequence[Constraint],
+    motion: Motion,
+    metric: Metric,
     pose: tuple[Vector, Matrix],
 ) -> PoseMobility:
     position, rotation = pose
-    metric, motion = robot.metric, robot.motion
-    _require_pose(robot, always, locked, pose)
-    fixed = [row for c in always.values() for row in wrench_rows(c, metric, position, rotation)]
-    every = fixed + [row for c in locked.values() for row in wrench_rows(c, metric, position, rotation)]
+    fixed = [row for c in always for row in wrench_rows(c, metric, position, rotation)]
+    every = [row for c in constraints for row in wrench_rows(c, metric, position, rotation)]
     width = len(motion.twist)
 
     def left(rows: list[Row]) -> FreeMotions:
@@ -165,19 +205,19 @@ def _at(
 
 def _require_pose(
     robot: Robot | Mechanism,
-    always: Mapping[str, Constraint],
-    locked: Mapping[str, Constraint],
+    constraints: Mapping[str, Constraint],
+    chosen: Collection[str],
     pose: tuple[Vector, Matrix],
 ) -> None:
     """Refuse a pose that does not fulfil what always holds: joints of a mechanism, rods of a length that is fixed."""
-    if isinstance(robot, Mechanism):
-        for name, constraint in always.items():
-            if not robot.holds(constraint, *pose):
-                raise InputError(f"--at: {shown(name)} does not hold at this pose; give a pose of the mechanism")
-    elif robot.chains:
-        for name, constraint in locked.items():
-            if any(value_at(form, *pose, robot.metric) for form in constraint.forms(robot.metric)):
-                raise InputError(
-                    f"--at: {shown(name)} has not its length at this pose with the cranks or slides of the "
-                    "configuration; give a pose of that configuration exactly, or another configuration"
-                )
+    driven = {name for names in _moved(robot).values() for name in names} - set(robot.actuated)
+    for name, constraint in constraints.items():
+        if isinstance(robot, Mechanism):
+            if (name not in chosen or name in driven) and not robot.holds(constraint, *pose):
+                where = " with the actuators of the configuration" if name in driven else ""
+                raise InputError(f"--at: {shown(name)} does not hold at this pose{where}; give a pose of the mechanism")
+        elif robot.chains and any(value_at(form, *pose, robot.metric) for form in constraint.forms(robot.metric)):
+            raise InputError(
+                f"--at: {shown(name)} has not its length at this pose with the cranks or slides of the "
+                "configuration; give a pose of that configuration exactly, or another configuration"
+            )

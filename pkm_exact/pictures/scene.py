@@ -60,13 +60,15 @@ def accepted_with_lines(path: Path, *, about: Sequence[str] = ("robot",)) -> tup
     """
     from pkm_exact.certify.certificate import content_of
     from pkm_exact.certify.check import Status, check_bytes
+    from pkm_exact.certify.mobility_build import FORMAT as MOBILITY
+    from pkm_exact.certify.platform_build import FORMAT as PLATFORM
 
     name = printable(str(path))
     data = content_of(path)
     verdict = check_bytes(data)
     if verdict.status == Status.ACCEPTED:
         document = json.loads(data)
-        if not any(key in document for key in about):
+        if document["format"] in (MOBILITY, PLATFORM) or not any(key in document for key in about):
             raise InputError(
                 f"{name}: is not a certificate about poses of a robot; give one, or ask check what this says"
             )

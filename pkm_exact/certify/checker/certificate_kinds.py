@@ -18,6 +18,9 @@ from pkm_exact.certify.checker.mechanism_document import MechanismDocument, read
 from pkm_exact.certify.checker.mechanism_solutions import check_solutions
 from pkm_exact.certify.checker.mobility_checks import check_mobility
 from pkm_exact.certify.checker.mobility_document import read_mobility
+from pkm_exact.certify.checker.platform_checks import check_platform
+from pkm_exact.certify.checker.platform_document import FORMAT as PLATFORM
+from pkm_exact.certify.checker.platform_document import read_platform
 from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
 from pkm_exact.certify.checker.region_document import read_region
 from pkm_exact.certify.checker.region_paving_check import check_region
@@ -101,6 +104,7 @@ KINDS: Final = (
     CertificateKind(TOLERANCES, 1, lambda body: check_tolerances(read_tolerances(body))),
     CertificateKind(SYSTEMS, 1, lambda body: check_system(read_system_document(body))),
     *(CertificateKind(MOBILITY, version, lambda body: check_mobility(read_mobility(body))) for version in (1, 2)),
+    CertificateKind(PLATFORM, 1, lambda body: check_platform(read_platform(body))),
     CertificateKind(REGIONS, 1, lambda body: check_region(read_region(body))),
     CertificateKind(LINKS, 1, lambda body: check_links(read_links(body))),
     CertificateKind(STATICS, 1, lambda body: check_statics(read_statics(body))),

@@ -142,7 +142,7 @@ def read_mechanism_document(body: dict[str, Any]) -> MechanismDocument:
     def given(key: str, read: Callable[[Any], Any]) -> Any:
         return None if values[key] is None else read(values[key])
 
-    mechanism = _robot(values["robot"])
+    mechanism = read_mechanism(values["robot"])
     return MechanismDocument(
         mechanism=mechanism,
         method=choice(values["method"], "method", METHODS),
@@ -161,7 +161,8 @@ def read_mechanism_document(body: dict[str, Any]) -> MechanismDocument:
     )
 
 
-def _robot(value: Any) -> Mechanism:
+def read_mechanism(value: Any) -> Mechanism:
+    """The entry ``robot``: a group of motions, a metric and constraints."""
     name, unit, source, motion, metric, constraints = entries(value, "robot", _ROBOT)
     check_labels(name, unit, source)
     group = GROUPS[choice(motion, "robot.motion", tuple(GROUPS))]

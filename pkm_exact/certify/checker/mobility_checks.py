@@ -7,26 +7,26 @@ from collections.abc import Callable, Iterator, Sequence
 from flint import fmpq
 
 from pkm_exact.certify.checker.mobility_bounds import check_second_order
-from pkm_exact.certify.checker.mobility_document import MobilityDocument, RankProof, Sets
+from pkm_exact.certify.checker.mobility_document import MobilityDocument, Sets
 from pkm_exact.certify.checker.mobility_groups import check_legs, group_dimensions
-from pkm_exact.certify.checker.mobility_machine import Machine, Rows, exact, rank_of, times
-from pkm_exact.certify.checker.verdict import malformed, rejected
+from pkm_exact.certify.checker.mobility_machine import Machine, Rows, proved, rank_of, times
+from pkm_exact.certify.checker.verdict import rejected
 
 
 def check_mobility(document: MobilityDocument) -> Iterator[str]:
     """One line per claim."""
     machine = Machine(document)
     size, freedoms = len(machine.matrix), document.freedoms
-    motions = _proved(document.proofs["loops"], machine.matrix, freedoms, "loops")
+    motions = proved(document.proofs["loops"], machine.matrix, freedoms, "loops")
     rank = freedoms - len(motions)
     yield f"loops: rank {rank} of {size} equations in {freedoms} freedoms, mobility {len(motions)}"
     twists = times(machine.platform, motions)
-    platform = len(motions) - len(_proved(document.proofs["platform"], twists, len(motions), "platform"))
+    platform = len(motions) - len(proved(document.proofs["platform"], twists, len(motions), "platform"))
     yield f"platform: {platform} freedoms"
     units = [[fmpq(int(k == place)) for k in range(freedoms)] for place in document.actuated]
-    left = _proved(document.proofs["locked_loops"], machine.matrix + units, freedoms, "locked_loops")
+    left = proved(document.proofs["locked_loops"], machine.matrix + units, freedoms, "locked_loops")
     held = times(machine.platform, left)
-    still = len(left) - len(_proved(document.proofs["locked_platform"], held, len(left), "locked_platform"))
+    still = len(left) - len(proved(document.proofs["locked_platform"], held, len(left), "locked_platform"))
     yield f"actuators: {len(document.actuated)} locked leave mobility {len(left)}, of the platform {still}"
     expected = {
         "free": len(motions),
@@ -45,25 +45,6 @@ def check_mobility(document: MobilityDocument) -> Iterator[str]:
     yield _check_sets("platform", document.sets["platform"], document.among, speeds, twists)
     yield _check_sets("mechanism", document.sets["mechanism"], document.among, speeds, every)
     yield _check_finite(document, machine, rank, motions)
-
-
-def _proved(proof: RankProof, rows: Rows, columns: int, where: str) -> Rows:
-    """The null space, if the proof shows that it is one: a matrix of so many columns, by rows."""
-    if any(place >= len(rows) for place in proof.rows) or any(place >= columns for place in proof.columns):
-        raise malformed(f"{where}: a place outside the matrix")
-    others = [place for place in range(columns) if place not in proof.columns]
-    if len(proof.null_space) != len(others) or any(len(x) != columns for x in proof.null_space):
-        raise malformed(f"{where}.null_space: not a vector for each other column")
-    for own, x in zip(others, proof.null_space, strict=True):
-        if any(x[place] != (place == own) for place in others):
-            raise rejected(f"{where}.null_space: not 1 at its own column and 0 at the others")
-    found = [[exact(value) for value in x] for x in proof.null_space]
-    if found and rows and any(any(row) for row in times(rows, found)):
-        raise rejected(f"{where}.null_space: not in the null space")
-    minor = [[rows[i][j] for j in proof.columns] for i in proof.rows]
-    if rank_of(minor) != len(minor):
-        raise rejected(f"{where}: the minor is 0")
-    return found
 
 
 def _check_sets(name: str, sets: Sets, among: Sequence[int], speeds: Rows, wanted: Rows) -> str:

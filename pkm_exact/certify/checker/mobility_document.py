@@ -161,7 +161,7 @@ def read_mobility(body: dict[str, Any]) -> MobilityDocument:
         *ends,
         read,
         _names(values["actuated"], "actuated", freedoms),
-        {key: _rank_proof(values[key], key) for key in keys},
+        {key: read_rank_proof(values[key], key) for key in keys},
         {key: integer(value, f"mobility.{key}") for key, value in zip(COUNTS, counts, strict=True)},
         among,
         sets,
@@ -252,7 +252,8 @@ def _names(value: Any, where: str, freedoms: dict[str, int]) -> tuple[int, ...]:
     return found
 
 
-def _rank_proof(value: Any, where: str) -> RankProof:
+def read_rank_proof(value: Any, where: str) -> RankProof:
+    """A minor and a null space."""
     rank, rows, columns, null_space = entries(value, where, ("rank", "rows", "columns", "null_space"))
     number = count(rank, f"{where}.rank")
     found = []

@@ -9,7 +9,8 @@ from typing import Final, TypeAlias
 from flint import fmpq, fmpq_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
-from pkm_exact.certify.checker.mobility_document import Joint, MobilityDocument
+from pkm_exact.certify.checker.mobility_document import Joint, MobilityDocument, RankProof
+from pkm_exact.certify.checker.verdict import malformed, rejected
 
 _UNITS: Final = tuple(tuple(fmpq(int(i == j)) for j in range(3)) for i in range(3))
 Rows: TypeAlias = list[list[fmpq]]
@@ -139,3 +140,22 @@ def times(rows: Rows, vectors: Sequence[Sequence[fmpq]]) -> Rows:
     charge(3000 + len(rows) * len(vectors) * len(vectors[0]) * (300 + words * words))
     product = matrix_of(rows, len(vectors[0])) * matrix_of(vectors, len(vectors[0])).transpose()
     return [list(row) for row in product.tolist()]
+
+
+def proved(proof: RankProof, rows: Rows, columns: int, where: str) -> Rows:
+    """The null space, if the proof shows that it is one: a matrix of so many columns, by rows."""
+    if any(place >= len(rows) for place in proof.rows) or any(place >= columns for place in proof.columns):
+        raise malformed(f"{where}: a place outside the matrix")
+    others = [place for place in range(columns) if place not in proof.columns]
+    if len(proof.null_space) != len(others) or any(len(x) != columns for x in proof.null_space):
+        raise malformed(f"{where}.null_space: not a vector for each other column")
+    for own, x in zip(others, proof.null_space, strict=True):
+        if any(x[place] != (place == own) for place in others):
+            raise rejected(f"{where}.null_space: not 1 at its own column and 0 at the others")
+    found = [[exact(value) for value in x] for x in proof.null_space]
+    if found and rows and any(any(row) for row in times(rows, found)):
+        raise rejected(f"{where}.null_space: not in the null space")
+    minor = [[rows[i][j] for j in proof.columns] for i in proof.rows]
+    if rank_of(minor) != len(minor):
+        raise rejected(f"{where}: the minor is 0")
+    return found
