@@ -210,3 +210,21 @@ name = "it"
 half_tangents = [0, "1/2", 1]
 link_half_tangents = [1, "1/3", 0]
 """
+
+
+def test_the_bars_of_an_h4_hold_its_rods() -> None:
+    """Slides stand where the model has them; rods of the model's lengths end on bars that do not turn."""
+    robot = read_robot("models/h4.toml")
+    shown = scene_of(golden("h4"), robot)
+    feet = [(-48, -48), (-48, 48), (6, 48), (48, -6)]
+    bars = [(0, -6, 0), (0, 6, 0), (0, 6, 0), (0, -6, 0)]
+    assert [point[:2] for point in shown.base] == feet
+    for pose in shown.poses:
+        heights = (13.02, -7.49, 9.68, 15.77)
+        assert all(knee == pytest.approx((*foot, q)) for knee, foot, q in zip(pose.knees, feet, heights, strict=True))
+        for (knee, end), joint, bar, square in zip(
+            shown.ends(pose), pose.platform, bars, (5292, 5292, 3528, 3528), strict=True
+        ):
+            assert dist(knee, end) ** 2 == pytest.approx(square)
+            assert [a - b for a, b in zip(end, joint, strict=True)] == pytest.approx(bar)
+    assert scene_of(golden("h4")).bars == ()

@@ -86,6 +86,8 @@ class Mechanism(Machine):
         Angles of the geometry that were given in degrees and are taken as others, by how much.
     cables : bool
         Whether its legs are cables, which only pull.
+    bars : tuple of Vector
+        For each leg, if there are any: a bar that does not turn, from the platform's joint to the leg's real end.
 
     Examples
     --------
@@ -116,6 +118,7 @@ class Mechanism(Machine):
     drives: tuple[Drive, ...] = ()
     stand_ins: tuple[StandIn, ...] = ()
     cables: bool = False
+    bars: tuple[Vector, ...] = ()
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.constraints) <= MOST_CONSTRAINTS:

@@ -47,8 +47,8 @@ def clear_view(scene: Scene, pose: PoseView) -> View:
 
 def clearness(scene: Scene, pose: PoseView, view: View) -> float:
     """Of the leg that shows least: which part of its length is seen on the paper, away from all other legs. 0 to 1."""
-    shot, feet = camera(scene, view), scene.feet(pose)
-    space = np.array([[feet[a], pose.platform[b]] for a, b in scene.legs], dtype=float)
+    shot = camera(scene, view)
+    space = np.array(scene.ends(pose), dtype=float)
     flat = space @ np.array([shot.right, shot.up]).T
     steps = np.linspace(0, 1, _SAMPLES)[None, :, None]
     points = flat[:, None, 0] + steps * (flat[:, None, 1] - flat[:, None, 0])

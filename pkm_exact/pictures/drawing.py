@@ -72,8 +72,7 @@ def draw_legs(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen, 
 
     Each is coloured by its number, unless a colour is given.
     """
-    feet = scene.feet(pose)
-    ends = [(feet[a], pose.platform[b]) for a, b in scene.legs]
+    ends = scene.ends(pose)
     order = sorted(range(len(ends)), key=lambda leg: shot.depth(middle(ends[leg])))
     for place, leg in enumerate(order):
         shade, layer = colour or style.leg_colour(leg + 1), _LEGS + place / len(order)
@@ -82,6 +81,9 @@ def draw_legs(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, pen: Pen, 
         width = style.CABLE * pen.width if scene.cables else pen.width
         options = {"linewidth": width, "alpha": pen.opacity, "zorder": layer}
         _line(axes, scene, ends[leg], color=shade, gid=f"leg-{leg + 1}", **options)
+        if scene.bars:
+            bar = pose.platform[scene.legs[leg][1]], ends[leg][1]
+            _line(axes, scene, bar, color=colour or style.INK, gid=f"bar-{leg + 1}", **options)
 
 
 def draw_shapes(axes: Axes, scene: Scene, pose: PoseView, pen: Pen) -> None:

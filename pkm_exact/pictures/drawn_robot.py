@@ -123,6 +123,8 @@ class Scene:
         What holds joints without being a leg: planes, lines, points, axes.
     cables : bool
         Whether the legs are cables.
+    bars : tuple of points
+        For each leg, if there are any: a bar that does not turn, from the platform's joint to the leg's end.
     """
 
     name: str
@@ -140,6 +142,7 @@ class Scene:
     poses: tuple[PoseView, ...]
     shapes: tuple[Shape, ...] = ()
     cables: bool = False
+    bars: tuple[Point, ...] = ()
 
     @property
     def sorts(self) -> tuple[str, ...]:
@@ -161,6 +164,14 @@ class Scene:
         """What else is drawn, as in the first pose: all bodies, and one bar, line, plane if there are any."""
         first = self.poses[0].parts if self.poses else ()
         return tuple({part.name if part.kind == BODY else (part.kind,): part for part in first}.values())
+
+    def ends(self, pose: PoseView) -> list[tuple[Point, Point]]:
+        """The lower and the upper end of each leg or rod."""
+        feet = self.feet(pose)
+        ends = [(feet[a], pose.platform[b]) for a, b in self.legs]
+        if not self.bars:
+            return ends
+        return [(foot, _plus(joint, bar)) for (foot, joint), bar in zip(ends, self.bars, strict=True)]
 
     def feet(self, pose: PoseView) -> tuple[Point, ...]:
         """The lower ends of the legs or rods: knees, or base joints."""
@@ -185,6 +196,10 @@ def view_of(
         multiplicity=listed["multiplicity"],
         knees=knees,
     )
+
+
+def _plus(point: Point, vector: Point) -> Point:
+    return point[0] + vector[0], point[1] + vector[1], point[2] + vector[2]
 
 
 def extent(points: Sequence[Point]) -> float:

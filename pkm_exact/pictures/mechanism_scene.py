@@ -45,11 +45,13 @@ def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem, mach
     )
     feet, chains = legs_on_chains(machine, legs)
     knees: tuple[Point, ...] = ()
+    bars = [_ordinary(bar, axes) for bar in machine.bars] if isinstance(machine, Mechanism) else []
     if any(chains):
-        knees = tuple(_ordinary(leg.base, axes) for leg in legs)
-        base, platform = (
-            tuple(_ordinary(point, axes) for point in points) for points in (feet, [leg.platform for leg in legs])
-        )
+        # What the constraint of a leg has without the bar stands beside the machine.
+        aside = bars or [_ORIGIN] * len(legs)
+        knees = tuple(_beside(leg.base, axes, bar) for leg, bar in zip(legs, aside, strict=True))
+        base = tuple(_beside(foot, axes, bar) for foot, bar in zip(feet, aside, strict=True))
+        platform = tuple(_ordinary(leg.platform, axes) for leg in legs)
         pairs = tuple((k, k) for k in range(len(legs)))
     on_sphere = not legs and mechanism.motion.name == SPHERICAL.name
     if on_sphere:
@@ -77,6 +79,7 @@ def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem, mach
             *_shapes(mechanism, axes, on_sphere=on_sphere),
             *arms,
         ),
+        bars=tuple(bars),
     )
 
 
@@ -198,6 +201,11 @@ def _in_plane(constraint: Constraint, normal: Vector, axes: _ROOTS, metric: tupl
     offset: Fraction = getattr(constraint, constraint.value_field or "")
     x, y, z = (offset * n / square for n in normal)
     return _ordinary((x, y, z), axes)
+
+
+def _beside(vector: Sequence[Fraction], axes: _ROOTS, bar: Point) -> Point:
+    x, y, z = (value + shift for value, shift in zip(_ordinary(vector, axes), bar, strict=True))
+    return x, y, z
 
 
 def _ordinary(vector: Sequence[Fraction], axes: _ROOTS) -> Point:

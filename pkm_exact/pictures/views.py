@@ -156,9 +156,8 @@ def _ghost(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, colour: str, 
 
 def _number_legs(axes: Axes, scene: Scene, pose: PoseView) -> None:
     """The numbers of the legs, near the middle of each, for those who do not tell the colours."""
-    feet = scene.feet(pose)
-    for leg, (a, b) in enumerate(scene.legs):
-        colour, foot, joint = style.leg_colour(leg + 1), feet[a], pose.platform[b]
+    for leg, (foot, joint) in enumerate(scene.ends(pose)):
+        colour = style.leg_colour(leg + 1)
         ends = (foot, foot, joint) if leg % 2 else (foot, joint, joint)  # neighbours at different heights
         label(axes, scene, middle(ends), str(leg + 1), colour, LABELS)
 
@@ -182,6 +181,7 @@ def _title(figure: Figure, text: str, cell: Rectangle, size: float) -> None:
 
 def _points(scene: Scene, poses: Sequence[PoseView]) -> list[Point]:
     """All joints that are drawn, and the corners of planes and ends of lines."""
+    ends = [end for pose in poses for leg in scene.ends(pose) for end in leg]
     held = [
         point
         for pose in poses
@@ -189,4 +189,4 @@ def _points(scene: Scene, poses: Sequence[PoseView]) -> list[Point]:
         for line in shape.lines(pose.position, pose.rotation, scene.size)
         for point in line
     ]
-    return [*scene.base, *(joint for pose in poses for joint in pose.joints), *held]
+    return [*scene.base, *(joint for pose in poses for joint in pose.joints), *ends, *held]

@@ -24,6 +24,7 @@ def payload(scene: Scene, poses: PoseRows) -> dict[str, Any]:
         "legs": [list(pair) for pair in scene.legs],
         "chains": list(scene.chains),
         "cables": scene.cables,
+        "bars": _points(scene.bars),
         "columns": poses.plain,
         "exact_first": poses.first,
         "poses": [_pose(row, view, scene) for row, view in zip(poses.rows, scene.poses, strict=True)],

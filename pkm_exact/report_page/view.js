@@ -208,7 +208,10 @@ class View {
     if (!isGhost) body("base", this.scene.base);
     body("platform", pose.platform);
     this.scene.legs.forEach(([a, b], i) => {
-      const [joint, foot, end] = [this.scene.base[a], feet[a], pose.platform[b]];
+      const bar = this.scene.bars[i] || [0, 0, 0];
+      const [joint, foot, held] = [this.scene.base[a], feet[a], pose.platform[b]];
+      const end = held.map((value, k) => value + bar[k]);
+      if (this.scene.bars.length && !isGhost) add(this.line(at, "leg bar", held, end), held, end);
       const chain = this.scene.chains[i];
       if (pose.knees.length && chain && !isGhost) add(this.line(at, `leg ${chain}`, joint, foot), joint, foot);
       add(this.line(at, `leg leg-${(i % 6) + 1}${this.scene.cables ? " cable" : ""}`, foot, end), foot, end);

@@ -27,7 +27,7 @@ def assemble(given: Dimensions, metric: Metric) -> Assembly:  # noqa: ARG001 - v
     for k, (foot, bar, joint, square) in enumerate(rows, 1):
         legs.append(Distance(along((1, foot), (-1, bar)), joint, square, f"rod {k}"))
         drives.append(Drive(f"slide {k}", (Part(f"rod {k}", "base", (UP,)),)))
-    return Assembly(tuple(legs), (Group(Joint.SLIDE, tuple(x.name for x in drives)),), tuple(drives))
+    return Assembly(tuple(legs), (Group(Joint.SLIDE, tuple(x.name for x in drives)),), tuple(drives), given["bars"])
 
 
 H4: Final = MachineKind(

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any, Final, TypeAlias
 
 from pkm_exact.constraints.constraint import Constraint
+from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.drives import Drive
 from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.motions.motion import Motion
@@ -68,11 +69,15 @@ class Assembly:
     groups : tuple of Group
         Names of constraints whose own values are given, or of drives.
     drives : tuple of Drive
+    bars : tuple of Vector
+        For each leg, where the machine has them: from the platform's joint along a bar that does not turn to the leg's
+        end. The leg's constraint has both ends without it. For pictures.
     """
 
     constraints: tuple[Constraint, ...]
     groups: tuple[Group, ...]
     drives: tuple[Drive, ...] = ()
+    bars: tuple[Vector, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,7 @@ def assembled(
         metric,
         kind=kind.name,
         drives=assembly.drives,
+        bars=assembly.bars,
     )
 
 
