@@ -173,9 +173,9 @@ SUBJECTS = {
 """Certificates of every kind, by name; the first word of the name is the kind that ``FREE`` speaks of."""
 
 EACH = [pytest.param(name, marks=() if entry.quick else pytest.mark.slow) for name, entry in SUBJECTS.items()]
-OF_POSES = [entry for entry in EACH if not str(entry.values[0]).startswith("mobility")]
-"""Those that are about poses, of which there are pictures and pages."""
 """The names as parameters of a test; the larger certificates are for the slow tests."""
+OF_POSES = [entry for entry in EACH if not str(entry.values[0]).startswith(("mobility", "platform"))]
+"""Those that are about poses, of which there are pictures and pages."""
 
 
 @cache

@@ -114,7 +114,7 @@ def plot(
     path, source = Path(output), Path(certificate)
     from pkm_exact.interactive.progress import Progress
     from pkm_exact.pictures.output import picture_format
-    from pkm_exact.pictures.scene import RejectedError, accepted_document
+    from pkm_exact.pictures.scene import DRAWN, OF_POSES, RejectedError, accepted_document
     from pkm_exact.pictures.style import require_matplotlib
 
     suffix = picture_format(path)
@@ -126,7 +126,7 @@ def plot(
     try:
         with Progress(verbose=False) as progress:
             progress(f"checking {source.name}")
-            document = accepted_document(source, about=("robot", "mechanism"))
+            document = accepted_document(source, formats={*OF_POSES, *DRAWN})
     except RejectedError as error:
         click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
         return ExitCode.REJECTED

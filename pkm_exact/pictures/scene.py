@@ -7,7 +7,7 @@ coordinates, sqrt(g_i) times the rational ones of the metric, so that angles and
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import sqrt
@@ -27,7 +27,11 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Configuration
     from pkm_exact.solution import Solution
 
-_DRAWN: Final = ("pkm_exact certificate", certified_links.FORMAT)
+_POSES: Final = "pkm_exact certificate"
+OF_POSES: Final = (_POSES, "pkm_exact tolerance certificate")
+"""Formats of certificates that list poses of a robot."""
+DRAWN: Final = (_POSES, certified_links.FORMAT)
+"""Those whose poses are drawn."""
 LARGEST: Final = 1e100
 """Coordinates beyond this, or robots all of whose coordinates are below its inverse, are not drawn."""
 _OUT_OF_RANGE: Final = "robot: its coordinates are too large or too small to be drawn; use another unit of length"
@@ -37,18 +41,18 @@ class RejectedError(InputError):
     """A certificate that the checker rejects: nothing in it is proved."""
 
 
-def accepted_document(path: Path, *, about: Sequence[str] = ("robot",)) -> dict[str, Any]:
-    """The content of a certificate file that the checker accepts, with one of these keys: those that speak of poses.
+def accepted_document(path: Path, *, formats: Collection[str] = OF_POSES) -> dict[str, Any]:
+    """The content of a certificate file that the checker accepts, of one of these formats.
 
     Raises
     ------
     RejectedError, InputError
         As ``accepted_with_lines``.
     """
-    return accepted_with_lines(path, about=about)[0]
+    return accepted_with_lines(path, formats=formats)[0]
 
 
-def accepted_with_lines(path: Path, *, about: Sequence[str] = ("robot",)) -> tuple[dict[str, Any], tuple[str, ...]]:
+def accepted_with_lines(path: Path, *, formats: Collection[str] = OF_POSES) -> tuple[dict[str, Any], tuple[str, ...]]:
     """The content of an accepted certificate file, and what the checker said, line by line.
 
     Raises
@@ -60,15 +64,13 @@ def accepted_with_lines(path: Path, *, about: Sequence[str] = ("robot",)) -> tup
     """
     from pkm_exact.certify.certificate import content_of
     from pkm_exact.certify.check import Status, check_bytes
-    from pkm_exact.certify.mobility_build import FORMAT as MOBILITY
-    from pkm_exact.certify.platform_build import FORMAT as PLATFORM
 
     name = printable(str(path))
     data = content_of(path)
     verdict = check_bytes(data)
     if verdict.status == Status.ACCEPTED:
         document = json.loads(data)
-        if document["format"] in (MOBILITY, PLATFORM) or not any(key in document for key in about):
+        if document["format"] not in formats:
             raise InputError(
                 f"{name}: is not a certificate about poses of a robot; give one, or ask check what this says"
             )
@@ -96,7 +98,7 @@ def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene
     InputError
         If it is a certificate of tolerances, or not one of the given robot, or its numbers are too large for floats.
     """
-    if document.get("format") not in _DRAWN:
+    if document.get("format") not in DRAWN:
         raise InputError(
             f"format: {shown(document.get('format'))} has no poses to draw; give the certificate of the nominal poses, "
             "which certify-poses solve writes without --tolerance"
