@@ -278,9 +278,9 @@ def test_infinitely_many_poses_are_not_compared(collinear_model: Path, capsys: C
 BAD_USAGE = [
     (["compare"], "missing argument 'MODEL'"),
     (["compare", "missing.toml"], "missing.toml: no such file"),
-    (["compare", GENERAL, "--starts", "0"], "'--starts': 0 is not in the range"),
-    (["compare", GENERAL, "--starts", "10001"], "'--starts': 10001 is not in the range"),
-    (["compare", GENERAL, "--starts", "ten"], "'--starts': 'ten' is not a valid integer"),
+    (["compare", GENERAL, "--starts", "0"], "--starts: 0 is out of range; give a whole number from 1 to"),
+    (["compare", GENERAL, "--starts", "10001"], "--starts: 10001 is out of range"),
+    (["compare", GENERAL, "--starts", "ten"], "--starts: 'ten' is not a whole number; give one from 1 to"),
     (["compare", GENERAL, "--configuration", "nowhere"], "'nowhere' is unknown; use one of: home"),
     (["compare", GENERAL, "--lengths", "1,1,1"], "3 values; give 6"),
     (["compare", GENERAL, "--lengths", "1,1,1,1,1,1", "--configuration", "home"], "exclude each other"),

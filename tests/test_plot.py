@@ -578,7 +578,7 @@ def _fails(words: list[str], part: str, capsys: Capture, code: int = 2) -> None:
 BAD_OPTIONS = [
     (["--pose", "0"], "there is no pose 0; give a number from 1 to 2"),
     (["--pose", "3"], "there is no pose 3"),
-    (["--pose", "one"], "'one' is not a valid integer"),
+    (["--pose", "one"], "--pose: 'one' is not a whole number"),
     (["--roots", "--pose", "1"], "--roots excludes"),
     (["--roots", "--overlay"], "--roots excludes"),
     (["--roots", "--view", "0,0"], "--roots excludes"),

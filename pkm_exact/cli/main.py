@@ -17,6 +17,7 @@ from pathlib import Path
 import click
 
 from pkm_exact.cli.program import COMPLETIONS, PROBLEM, PROGRAM, ROOTS, ExitCode
+from pkm_exact.cli.usage import usage_sentence
 from pkm_exact.errors import InputError, InternalError, PkmExactError
 from pkm_exact.wording import printable
 
@@ -92,7 +93,7 @@ def _run(words: list[str], program: str) -> int:
             click.echo(error.format_message(), err=True)
             return ExitCode.BAD_INPUT
         where = error.ctx.command_path if error.ctx else program
-        return complain(f"{_sentence(error.format_message())}; see {where} --help")
+        return complain(f"{_sentence(usage_sentence(error))}; see {where} --help")
     except click.ClickException as error:
         return complain(_sentence(error.format_message()))
     except InputError as error:
