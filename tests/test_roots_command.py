@@ -110,7 +110,10 @@ def test_bad_files_get_one_sentence(text: str, sentence: str, tmp_path: Path, ca
     [
         (["missing.ms"], "missing.ms: cannot be read"),
         (["{circle}", "--width", "0"], "--width: 0 is not positive"),
-        (["{circle}", "--oracle", "delphi"], "--oracle: 'delphi' is not one of 'internal', 'msolve'; see certify-roots"),
+        (
+            ["{circle}", "--oracle", "delphi"],
+            "--oracle: 'delphi' is not one of 'internal', 'msolve'; see certify-roots",
+        ),
         (["{circle}", "--memory", "300MB"], "--memory: '300MB' is not a whole number; give one from 64 to 1048576"),
         (["{circle}", "--memory", "63"], "--memory: 63 is out of range; give a whole number from 64 to 1048576"),
         (["{circle}", "-o", "{circle}"], "is the system's file itself"),

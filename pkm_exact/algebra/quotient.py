@@ -6,10 +6,9 @@ stands for.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from operator import mul
 
 from flint import nmod, nmod_mat
 
@@ -200,14 +199,8 @@ def quotient_algebra(basis: GroebnerBasis, limit: int) -> QuotientAlgebra:
     ring, prime = basis.ring, basis.prime
     normal = normal_set(basis, limit)
     border = _BorderReduction(basis, normal)
-    tables: list[list[list[int]]] = [[] for _ in range(ring.size)]
-    unknowns = [ring.unknown(index) for index in range(ring.size)]
-    border.reduce_all(sorted({monomial + unknown for monomial in normal for unknown in unknowns}))
-    for index, unknown in enumerate(unknowns):
-        tables[index] = [border.forms[monomial + unknown] for monomial in normal]
-    matrices = tuple(
-        nmod_mat(len(normal), len(normal), [value for row in table for value in row], prime) for table in tables
-    )
+    border.reduce_all(sorted({monomial + ring.unknown(index) for monomial in normal for index in range(ring.size)}))
+    matrices = tuple(border.multiplication(index) for index in range(ring.size))
     return QuotientAlgebra(prime, ring, normal, matrices)
 
 
@@ -222,7 +215,24 @@ class _BorderReduction:
         self.position = {monomial: index for index, monomial in enumerate(normal)}
         self.unknowns = [self.ring.unknown(index) for index in range(self.ring.size)]
         self.forms: dict[int, list[int]] = {}
-        self._rows: dict[int, nmod_mat] = {}
+        size = len(normal)
+        self._tables = [nmod_mat(size, size, self.prime) for _ in self.unknowns]
+        self._filled = [bytearray(size) for _ in self.unknowns]
+
+    def multiplication(self, index: int) -> nmod_mat:
+        """The matrix of an unknown: row b has its product with the b-th monomial of the normal set."""
+        return self._table(index, range(len(self.normal)))
+
+    def _table(self, index: int, rows: Iterable[int]) -> nmod_mat:
+        """The same, where these rows are wanted."""
+        table, filled, unknown = self._tables[index], self._filled[index], self.unknowns[index]
+        for row in rows:
+            if not filled[row]:
+                for column, value in enumerate(self._form(self.normal[row] + unknown)):
+                    if value:
+                        table[row, column] = value
+                filled[row] = True
+        return table
 
     def reduce_all(self, monomials: Sequence[int]) -> None:
         size = len(self.normal)
@@ -259,10 +269,6 @@ class _BorderReduction:
             smaller = monomial - self.unknowns[index] if exponent else 0
             if exponent and smaller not in self.position:
                 break
-        unknown = self.unknowns[index]
-        terms = [(value, factor) for value, factor in zip(self._form(smaller), self.normal, strict=True) if value]
-        if not terms:
-            return [0] * len(self.normal)
-        coefficients = [value for value, _ in terms]
-        images = [self._form(factor + unknown) for _, factor in terms]
-        return [sum(map(mul, coefficients, column)) % self.prime for column in zip(*images, strict=True)]
+        form = self._form(smaller)
+        table = self._table(index, (place for place, value in enumerate(form) if value))
+        return list(map(int, (nmod_mat(1, len(form), form, self.prime) * table).entries()))

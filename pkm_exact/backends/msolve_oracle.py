@@ -30,7 +30,8 @@ def msolve_proposal(
     names = tuple(f"v{number}" for number in range(len(system.unknowns)))
     ring = polynomial_ring(names)
     renamed = PolynomialSystem(names, tuple(ring.from_dict(f.to_dict()) for f in system.polynomials))
-    return parsed_proposal(msolve_output(renamed, seconds=seconds, program=program), names)
+    written = msolve_output(renamed, seconds=seconds, program=program, is_isolating=False)
+    return parsed_proposal(written, names)
 
 
 def parsed_proposal(text: str, names: tuple[str, ...]) -> UnivariateRepresentation | None:

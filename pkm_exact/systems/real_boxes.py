@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import cached_property
 
 from flint import arb, arb_poly, fmpq, fmpz, fmpz_poly
 
@@ -13,7 +14,7 @@ from pkm_exact.poses.boxes import disjoint_cells
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.counting import roots_in_gaps
 from pkm_exact.roots.interval import Interval
-from pkm_exact.roots.isolation import RealRoot, has_root, isolate_real_roots
+from pkm_exact.roots.isolation import RealRoot, has_root, isolated_and_enclosed
 from pkm_exact.systems.regularity import Weights
 from pkm_exact.systems.system_solution import RealSolution
 
@@ -35,10 +36,10 @@ def real_solutions(
         Greatest width of a box.
     """
     h = representation.primitive_polynomial
-    roots = isolate_real_roots(h)
-    intervals = [Interval(root.lo, root.hi) for root in roots]
-    require(True not in roots_in_gaps(h, intervals), "a second count finds further real roots", real=len(roots))
-    refined = [_Refined(h, root) for root in roots]
+    found = isolated_and_enclosed(h)
+    intervals = [Interval(root.lo, root.hi) for root, _ in found]
+    require(True not in roots_in_gaps(h, intervals), "a second count finds further real roots", real=len(found))
+    refined = [_Refined(h, root, enclosure) for root, enclosure in found]
 
     def enclose(precision: int, indices: Sequence[int]) -> Iterator[list[arb]]:
         for index in indices:
@@ -49,12 +50,12 @@ def real_solutions(
             yield values
 
     count = len(representation.numerators)
-    exponent, cells = disjoint_cells(enclose, len(roots), width, size=count, apart=count)
-    found = [
+    exponent, cells = disjoint_cells(enclose, len(found), width, size=count, apart=count)
+    listed = [
         RealSolution(interval, tuple(row), _multiplicity(interval, multiplicities))
         for interval, row in zip(intervals, cells, strict=True)
     ]
-    return exponent, tuple(sorted(found, key=lambda solution: [(value.lo, value.hi) for value in solution.values]))
+    return exponent, tuple(sorted(listed, key=lambda solution: [(value.lo, value.hi) for value in solution.values]))
 
 
 def _multiplicity(parameter: Interval, multiplicities: Weights | None) -> int | None:
@@ -68,10 +69,18 @@ def _multiplicity(parameter: Interval, multiplicities: Weights | None) -> int | 
 class _Refined:
     """A real root, enclosed as narrowly as asked for: by Newton's operator on intervals, or by halving."""
 
-    def __init__(self, h: fmpz_poly, root: RealRoot) -> None:
+    def __init__(self, h: fmpz_poly, root: RealRoot, enclosure: arb) -> None:
         self.h, self.slope = h, h.derivative()
-        self.low, self.high = (fmpq(end.numerator, end.denominator) for end in (root.lo, root.hi))
-        self.starts_positive = bool(h(self.low) > 0)
+        self.start, end = (fmpq(end.numerator, end.denominator) for end in (root.lo, root.hi))
+        self.low, self.high = self.start, end
+        if not root.is_exact:
+            low, high = _ends(enclosure)
+            self.low, self.high = max(self.start, low), min(end, high)
+
+    @cached_property
+    def starts_positive(self) -> bool:
+        """Whether h is positive left of the root."""
+        return bool(self.h(self.start) > 0)
 
     def ball(self, precision: int) -> arb:
         """The root to about so many bits after the point."""
