@@ -17,7 +17,6 @@ from pathlib import Path
 import click
 
 from pkm_exact.cli.program import COMPLETIONS, PROBLEM, PROGRAM, ROOTS, ExitCode
-from pkm_exact.cli.usage import usage_sentence
 from pkm_exact.errors import InputError, InternalError, PkmExactError
 from pkm_exact.wording import printable
 
@@ -92,6 +91,8 @@ def _run(words: list[str], program: str) -> int:
         if isinstance(error, click.exceptions.NoArgsIsHelpError):
             click.echo(error.format_message(), err=True)
             return ExitCode.BAD_INPUT
+        from pkm_exact.cli.usage import usage_sentence
+
         where = error.ctx.command_path if error.ctx else program
         return complain(f"{_sentence(usage_sentence(error))}; see {where} --help")
     except click.ClickException as error:
