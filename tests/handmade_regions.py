@@ -26,7 +26,9 @@ FREEDOMS = {
 
 
 def texts(values: Any) -> Any:
-    """Numbers as certificates spell them, in lists."""
+    """Numbers as certificates spell them, in lists; nothing as nothing."""
+    if values is None:
+        return None
     return [texts(value) for value in values] if isinstance(values, list | tuple) else _text(values)
 
 
@@ -115,6 +117,11 @@ class Placed:
         values = dict(zip(chart["variables"], point, strict=True))
         self.g = [int(x) for x in self.robot["metric"]]
         self.place = [float(values[x] if x in values else Fraction(x)) for x in chart["position"]]
+        if chart.get("path"):
+            w, *place = (
+                sum(float(x) * float(values["along"]) ** k for k, x in enumerate(exact(row))) for row in chart["path"]
+            )
+            self.place = [x / w for x in place]
         self.rotation = self._rotation(chart, values)
         self.reached = True
         self.arms, self.rods, self.values = [], [], []
@@ -145,6 +152,10 @@ class Placed:
         e = [c + x - y for c, x, y in zip(self.place, arm, a, strict=True)]
         actuator = entry["actuator"]
         self.arms.append(arm)
+        if entry.get("axis"):
+            axis = [float(Fraction(x)) for x in entry["axis"]]
+            share = self.dot(axis, e) / self.dot(axis, axis)
+            e = [x - share * y for x, y in zip(e, axis, strict=True)]
         if actuator["type"] == "length":
             self.rods.append(e)
             self.values.append(sqrt(self.dot(e, e)))
@@ -193,6 +204,33 @@ class Placed:
         for c, (low, high) in zip(self.place, self.robot["position"], strict=False):
             yield min(c - float(Fraction(low)), float(Fraction(high)) - c)
 
+    def distance(self, one: int, other: int) -> tuple[float, tuple[float, float], list[float]]:
+        """Of two legs: how far apart they are, how far down from their upper ends, and the way between, to the other.
+
+        In doubles, by going from each leg to the nearest point of the other again and again.
+        """
+        ends = [
+            (
+                [
+                    x * sqrt(g)
+                    for x, g in zip(map(sum, zip(self.place, self.arms[k], strict=True)), self.g, strict=True)
+                ],
+                [-x * sqrt(g) for x, g in zip(self.rods[k], self.g, strict=True)],
+            )
+            for k in (one, other)
+        ]
+        (p, u), (q, v) = ends
+        s = t = 0.5
+        for _ in range(20000):
+            there = [a + s * b for a, b in zip(p, u, strict=True)]
+            t_ = _foot(there, q, v)
+            s_ = _foot([a + t_ * b for a, b in zip(q, v, strict=True)], p, u)
+            if abs(s_ - s) + abs(t_ - t) < 1e-15:
+                break
+            s, t = s_, t_
+        way = [c + t * d - a - s * b for a, b, c, d in zip(p, u, q, v, strict=True)]
+        return sqrt(sum(x * x for x in way)), (s, t), [x * sqrt(g) for x, g in zip(way, self.g, strict=True)]
+
     def determinant(self) -> float:
         """Of unit rods and of the derivatives of forms, on the freedoms."""
         rows = [self._row(arm, rod) for arm, rod in zip(self.arms, self.rods, strict=True)]
@@ -228,6 +266,38 @@ class Placed:
                 ends.append(form_at(form, place, columns, self.g))
             found.append((ends[0] - ends[1]) / 2)
         return found
+
+
+def _foot(place: Sequence[float], start: Sequence[float], way: Sequence[float]) -> float:
+    """How far along a segment the point nearest to a place is."""
+    share = sum((a - b) * c for a, b, c in zip(place, start, way, strict=True)) / sum(c * c for c in way)
+    return min(1.0, max(0.0, share))
+
+
+def second(content: Content, **entries: Any) -> Content:
+    """A certificate of version 1 as one of version 2, the other entries changed; ``path`` and ``leg_distance`` too."""
+    chart, robot = dict(content["chart"]), deepcopy(content["robot"])
+    path, least = entries.pop("path", None), entries.pop("leg_distance", None)
+    axes = entries.pop("leg_axes", [None] * len(robot["legs"]))
+    for entry, axis in zip(robot["legs"], axes, strict=True):
+        entry["axis"] = texts(axis)
+    robot["leg_distance"] = None if least is None else _text(least)
+    found: Content = {}
+    for key, value in content.items():
+        if key == "counterexample":
+            found["member"] = []
+        found[key] = value
+        if key == "shape":
+            found |= {"tube": None, "joints": [], "directions": []}
+    ordered: Content = {}
+    for key, value in chart.items():
+        ordered[key] = value
+        if key == "position":
+            ordered["path"] = texts(path) if path is not None else None
+    found |= {"version": 2, "robot": robot, "chart": ordered}
+    if found["claim"] == "all":
+        found["member"] = texts([(Fraction(low) + Fraction(high)) / 2 for low, high in ordered["box"]])
+    return found | {key: texts(value) if key in ("joints", "member") else value for key, value in entries.items()}
 
 
 def form_at(form: Numbers, c: Numbers, columns: Sequence[Numbers], g: Sequence[int]) -> Any:

@@ -35,6 +35,7 @@ _CRANKS = """[limits]
 angles = [[-270, 90], [0, 270], [-180, 360]]
 platform_cones = { axes = [[-1, 0], [1, 0], [0, 1]], angle = 150 }
 """
+_APART = "[limits]\nleg_distance = {0}\n"
 _SQUARE = "position = [[0, 9], [0, 9]]\ndegrees = 0"
 MAP = "kind = 'map'\nsteps = 7"
 
@@ -109,6 +110,108 @@ QUESTIONS = {
 }
 """Model, its limits, region, conditions and answer."""
 
+SECOND = {
+    "legs apart": (
+        "rolland-6-6",
+        _APART.format(20),
+        "position = [[-50, 50], [-50, 50], [700, 800]]\nrpy_degrees = [0, 0, 0]",
+        "limits = true\nno_type_2 = true",
+        "",
+    ),
+    "legs near each other": (
+        "mssm",
+        _APART.format(700),
+        "position = [[-900, 900], 0, 600]\nrpy_degrees = [0, 0, [0, 60]]",
+        "limits = true",
+        "kind = 'map'\nsteps = 4",
+    ),
+    "legs too near": (
+        "mssm",
+        _APART.format(700),
+        "position = [[-900, 900], 0, 600]\nrpy_degrees = [0, 0, 0]",
+        "limits = true",
+        "",
+    ),
+    "arms and rods on slides apart": (
+        "p-fus-4",
+        _APART.format(50),
+        "position = [0, 0, [0, 16]]\nquaternion = [1, 0, 0, 0]",
+        "limits = true\nworking_modes = ['-', '-', '-', '+']",
+        "kind = 'map'\nsteps = 5",
+    ),
+    "bars apart": (
+        "h4",
+        _APART.format(12),
+        "position = [[-9, 9], 0, 40]\ndegrees = 0",
+        "limits = true\nworking_modes = ['-', '-', '-', '-']",
+        "kind = 'map'\nsteps = 6",
+    ),
+    "a tube": (
+        "3-rpr-merlet-p",
+        "",
+        "tube = { path = [[6, 3], [6, 6], [3, 6]], radius = 1 }\ndegrees = [-1, 1]",
+        "no_type_2 = true",
+        "",
+    ),
+    "a tube that is too wide": (
+        "3-rpr-merlet-p",
+        "",
+        "tube = { path = [[6, 3], [6, 6], [3, 6]], radius = '5/2' }\ndegrees = 0",
+        "no_type_2 = true",
+        "",
+    ),
+    "a map of a tube": (
+        "mssm",
+        "[limits]\nlengths = [900, 1500]\n",
+        "tube = { path = [[0, 0, 700], [300, 0, 900]], radius = 100 }\nrpy_degrees = [0, 0, 0]",
+        "limits = true",
+        "kind = 'map'\nsteps = 5",
+    ),
+    "a straight way": (
+        "3-rpr-merlet-p",
+        "",
+        "line = { from = [6, 3], to = [6, 6] }\ndegrees = [0, 5]",
+        "no_type_1 = true\nno_type_2 = true",
+        "",
+    ),
+    "a straight way through a singularity": (
+        "3-rpr-merlet-p",
+        "",
+        "line = { from = [1, 5], to = [5, 3] }\ndegrees = 0",
+        "no_type_2 = true",
+        "",
+    ),
+    "an arc": (
+        "3-prrr",
+        "",
+        "arc = { center = [0.425, 0.425, 0.3], radius = 0.175, degrees = [-90, 90] }",
+        "no_type_1 = true\nno_type_2 = true\nworking_modes = ['+', '+', '+']",
+        "",
+    ),
+    "joint values": (
+        "3-rpr-merlet-p",
+        "",
+        "position = [[1, 4], 5]\ndegrees = 0\njoints = [['11/2', 9], [0, 99], [0, 99]]",
+        "no_type_2 = true",
+        "",
+    ),
+    "joint values that do not suffice": (
+        "3-rpr-merlet-p",
+        "[limits]\nlengths = [2, 8]\n",
+        "position = [[0, 8], [0, 8]]\ndegrees = 0\njoints = [[5, 8], [3, 6], [0, 5]]",
+        "limits = true",
+        "",
+    ),
+    "a map of angles of cranks": (
+        "3-rrr",
+        "",
+        "position = [[-9, 9], [-9, 9]]\ndegrees = 0\njoints = [[-90, 90], [0, 270], [-180, 180]]",
+        "reachable = true\nworking_modes = ['+', '-', '-']",
+        "kind = 'map'\nsteps = 7",
+    ),
+}
+"""The same for certificates of version 2."""
+
 
 def machine_of(name: str, limits: str = "") -> Machine:
     """A shipped robot, with limits."""
@@ -120,7 +223,7 @@ def machine_of(name: str, limits: str = "") -> Machine:
 @cache
 def answer_of(name: str) -> RegionAnswer:
     """The answer to a question."""
-    robot, limits, region, conditions, answer = QUESTIONS[name]
+    robot, limits, region, conditions, answer = (QUESTIONS | SECOND)[name]
     answer = answer if "kind" in answer else f"kind = 'all'\n{answer}"
     machine = region_machine(machine_of(robot, limits))
     text = f"[region]\n{region}\n[conditions]\n{conditions}\n[answer]\n{answer}\n"

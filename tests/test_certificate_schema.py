@@ -22,6 +22,7 @@ from pkm_exact.certify import (
     platform_build,
     pure,
     region_build,
+    region_build_2,
     statics_build,
     system_build,
     tolerance_build,
@@ -37,6 +38,7 @@ MOBILITY_2 = "mobility-certificate-2.schema.json"
 PLATFORM = "platform-certificate-1.schema.json"
 SYSTEMS = "system-certificate-1.schema.json"
 REGIONS = "region-certificate-1.schema.json"
+REGIONS_2 = "region-certificate-2.schema.json"
 STATICS = "statics-certificate-1.schema.json"
 LINKS = "links-certificate-1.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
@@ -58,7 +60,7 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
 
 
 @pytest.mark.parametrize(
-    "name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, PLATFORM, REGIONS, STATICS, LINKS]
+    "name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, PLATFORM, REGIONS, REGIONS_2, STATICS, LINKS]
 )
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
@@ -217,6 +219,10 @@ def test_the_page_of_regions_defines_every_key_in_its_order() -> None:
     words += [key for part in ("leg", "slide", "crank", "cone") for key in root["$defs"][part]["properties"]]
     assert all(f"`{word}`" in page or word in page for word in words)
     assert all(f'"{word}"' in page for word in root["properties"]["claim"]["enum"])
+    root = _schema(REGIONS_2)
+    assert _tables("Version 2", "### Curves, tubes and joint values", "certificates-regions.md") == [_keys(root)]
+    words = ["leg_distance", "path", "axis", "corners", "radius", "along"]
+    assert all(f"`{word}`" in page and f'"{word}"' in json.dumps(root) for word in words)
 
 
 def test_the_page_of_statics_defines_every_key_in_its_order() -> None:
@@ -246,7 +252,7 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
     writers = (build, build_constraints, tolerance_build, system_build, mobility_build, region_build, statics_build)
-    writers = (*writers, mobility_second_build, platform_build, links_build)
+    writers = (*writers, mobility_second_build, platform_build, links_build, region_build_2)
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

@@ -249,6 +249,7 @@ OF_A_KIND = {
     "platform": lambda: golden("mobility/3-rps"),
     "system": lambda: system_certificate(solve_system(["x*y - 2", "x + y - 3"])),
     "region": lambda: golden("regions/rolland-6-6"),
+    "region, version 2": lambda: golden("regions/3-rpr-merlet-p"),
     "statics": lambda: golden("statics/3-rpr-merlet-p"),
     "links": lambda: golden("links/four-bar"),
 }

@@ -12,7 +12,7 @@ from typing import Any
 
 import jsonschema
 import pytest
-from region_certificates import QUESTIONS, answer_of, content_of, verdicts
+from region_certificates import QUESTIONS, SECOND, answer_of, content_of, verdicts
 from samples import MODELS
 
 from pkm_exact.certify.build import canonical_bytes, sealed
@@ -24,9 +24,12 @@ from pkm_exact.regions.region_workers import workers
 
 Capture = pytest.CaptureFixture[str]
 FILES = {path.stem: path for path in MODELS}
-SCHEMA = json.loads(
-    resources.files("pkm_exact.certify").joinpath("region-certificate-1.schema.json").read_text("utf-8")
-)
+SCHEMAS = {
+    version: json.loads(
+        resources.files("pkm_exact.certify").joinpath(f"region-certificate-{version}.schema.json").read_text("utf-8")
+    )
+    for version in (1, 2)
+}
 SQUARE = "[region]\nposition = [[0, 9], [0, 9]]\ndegrees = 0\n[conditions]\n"
 CLAIMS = {
     "all of a planar robot": "all",
@@ -36,6 +39,15 @@ CLAIMS = {
     "a ball": "all",
     "a prism of a Delta": "all",
     "turns with joints": "all",
+    "legs apart": "all",
+    "legs too near": "not-all",
+    "a tube": "all",
+    "a tube that is too wide": "not-all",
+    "a straight way": "all",
+    "a straight way through a singularity": "not-all",
+    "an arc": "all",
+    "joint values": "all",
+    "joint values that do not suffice": "undecided",
 }
 
 
@@ -46,14 +58,15 @@ def _marked(names: Iterable[str]) -> list[Any]:
     return [pytest.param(name, marks=pytest.mark.slow if name in SLOW else ()) for name in names]
 
 
-@pytest.mark.parametrize("name", _marked(QUESTIONS))
+@pytest.mark.parametrize("name", _marked([*QUESTIONS, *SECOND]))
 def test_both_checkers_accept_what_is_written(name: str) -> None:
     content = content_of(name)
+    assert content["version"] == (2 if name in SECOND else 1)
     assert content["claim"] == CLAIMS.get(name, "map")
     first, second = verdicts(content)
     assert first[0] == second[0] == "accepted"
     assert first[1] == second[1]
-    jsonschema.Draft202012Validator(SCHEMA).validate(sealed(content))
+    jsonschema.Draft202012Validator(SCHEMAS[content["version"]]).validate(sealed(content))
 
 
 def _both(content: dict[str, Any], status: str, line: str) -> None:

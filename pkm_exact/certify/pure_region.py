@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, partial
 from itertools import pairwise
 from itertools import product as combinations_of
 from math import comb, isqrt, lcm, prod
@@ -27,6 +27,11 @@ Numbers: TypeAlias = tuple[Fraction, ...]
 KEYS: Final = (
     "format version robot chart shape conditions modes claim axes paving inside undecided measure counterexample"
 )
+KEYS_2: Final = (
+    "format version robot chart shape tube joints directions conditions modes claim axes paving inside undecided "
+    "measure member counterexample"
+)
+ROBOT: Final = "name unit source motion metric legs forms base_cones platform_cones position"
 VARIABLES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
 ASKED: Final = ("reachable", "limits", "no_type_1", "no_type_2")
 FREEDOMS: Final = {
@@ -40,6 +45,8 @@ COSINES: Final = {30: "3/4", 45: "1/2", 60: "1/4", 90: "0", 120: "1/4", 135: "1/
 MAX_LEGS: Final = 12
 MAX_PARTS: Final = 64
 MAX_STEPS: Final = 120
+MAX_CORNERS: Final = 64
+MAX_POWERS: Final = 5
 MAX_COEFFICIENTS: Final = 1 << 20
 ROOT_BITS: Final = 80
 PRECISIONS: Final = (64, 256, 1024)
@@ -55,6 +62,7 @@ class Leg(NamedTuple):
     weight: int
     rod: Fraction
     reach: Numbers | None
+    axis: Numbers | None = None
 
 
 class Robot(NamedTuple):
@@ -66,6 +74,7 @@ class Robot(NamedTuple):
     forms: tuple[Numbers, ...]
     cones: tuple[tuple[tuple[Numbers, int], ...], ...]
     position: tuple[Numbers, ...]
+    least: Fraction | None = None
 
 
 class Chart(NamedTuple):
@@ -76,6 +85,7 @@ class Chart(NamedTuple):
     position: tuple[Any, ...]
     quaternion: Numbers | None
     turns: tuple[tuple[Any, ...], ...]
+    path: tuple[Numbers, ...] = ()
 
 
 class Region(NamedTuple):
@@ -93,6 +103,11 @@ class Region(NamedTuple):
     undecided: int
     measure: Numbers | None
     points: tuple[Numbers, ...]
+    corners: tuple[Numbers, ...] = ()
+    radius: Fraction = Fraction(0)
+    joints: tuple[Numbers, ...] = ()
+    directions: tuple[Numbers | None, ...] = ()
+    member: Numbers | None = None
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -102,11 +117,22 @@ class Region(NamedTuple):
 
 def read(body: dict[str, Any]) -> Region:
     """The content of a certificate."""
-    values = pure.an_object(body, "certificate", KEYS)
-    version, robot_, chart_, shape, asked, modes, claim, axes, paving, inside, undecided, measure, points = values[1:]
-    pure.well_formed(type(version) is int and version == 1, "format: not a pkm_exact region certificate, version 1")
-    robot = a_robot(robot_)
-    chart = a_chart(chart_)
+    version = body.get("version")
+    known = type(version) is int and version in (1, 2)
+    pure.well_formed(known, "format: not a pkm_exact region certificate, version 1 or 2")
+    second, keys = version == 2, KEYS_2 if version == 2 else KEYS
+    found = dict(zip(keys.split(), pure.an_object(body, "certificate", keys), strict=True))
+    region = first_part(found, second=second)
+    return second_part(region, found) if second else region
+
+
+def first_part(found: Mapping[str, Any], *, second: bool) -> Region:
+    """What both versions have."""
+    robot = a_robot(found["robot"], second=second)
+    chart = a_chart(found["chart"], second=second)
+    shape, asked, modes, claim, axes, paving, inside, undecided, measure, points = (
+        found[key] for key in KEYS.split()[4:]
+    )
     require_motion(robot.motion, chart)
     conditions = pure.a_list(pure.one_of(ASKED))(asked, "conditions")
     in_order = conditions and list(conditions) == [name for name in ASKED if name in conditions]
@@ -157,18 +183,16 @@ def a_shape(value: Any, where: str) -> tuple[Fraction, Numbers, Numbers]:
     return pure.a_rational(constant, f"{where}.constant"), a_vector(linear, f"{where}.linear"), found
 
 
-def a_robot(value: Any) -> Robot:
+def a_robot(value: Any, *, second: bool) -> Robot:
     """The robot."""
-    keys = "name unit source motion metric legs forms base_cones platform_cones position"
-    name, unit, source, motion, metric, legs, forms, base_cones, platform_cones, position = pure.an_object(
-        value, "robot", keys
-    )
+    entries = pure.an_object(value, "robot", f"{ROBOT} leg_distance" if second else ROBOT)
+    name, unit, source, motion, metric, legs, forms, base_cones, platform_cones, position, *least = entries
     for text, key in ((name, "name"), (unit, "unit"), (source, "source")):
         pure.a_text(text, f"robot.{key}")
     numbers = pure.a_list(pure.a_positive_rational, 3)(metric, "robot.metric")
     pure.well_formed(all(x.denominator == 1 for x in numbers), "robot.metric: not whole numbers")
     g = tuple(map(int, numbers))
-    found = pure.a_list(partial(a_leg, g))(legs, "robot.legs")
+    found = pure.a_list(partial(a_sliding_leg if second else a_leg, g))(legs, "robot.legs")
     pure.affordable(len(found) <= MAX_LEGS, f"robot.legs: more than {MAX_LEGS}")
     pure.well_formed(found, "robot.legs: none")
     linear = pure.a_list(pure.a_list(pure.a_rational, 17))(forms, "robot.forms")
@@ -180,7 +204,8 @@ def a_robot(value: Any) -> Robot:
     pure.well_formed(all(len(side) in (0, len(found)) for side in sides), "robot: cones are not as many as legs")
     pairs = pure.a_list(a_pair)(position, "robot.position")
     pure.well_formed(len(pairs) <= 3, "robot.position: more than 3")
-    return Robot(pure.one_of(tuple(FREEDOMS))(motion, "robot.motion"), g, found, linear, tuple(sides), pairs)
+    apart = None if least in ([], [None]) else pure.a_positive_rational(least[0], "robot.leg_distance")
+    return Robot(pure.one_of(tuple(FREEDOMS))(motion, "robot.motion"), g, found, linear, tuple(sides), pairs, apart)
 
 
 def a_leg(g: Sequence[int], value: Any, where: str) -> Leg:
@@ -216,6 +241,20 @@ def a_leg(g: Sequence[int], value: Any, where: str) -> Leg:
     return Leg(*joints, axes, int(weight), pure.a_positive_rational(rod, f"{inside}.rod_squared"), limits)
 
 
+def a_sliding_leg(g: Sequence[int], value: Any, where: str) -> Leg:
+    """A leg of version 2, which may be a rod that slides along an axis."""
+    keys = ("name", "base", "platform", "actuator", "reach", "axis")
+    entries = pure.an_object(value, where, " ".join(keys))
+    leg = a_leg(g, dict(zip(keys[:-1], entries, strict=False)), where)
+    if entries[-1] is None:
+        return leg
+    axis = a_vector(entries[-1], f"{where}.axis")
+    pure.well_formed(any(axis) and leg.axes, "robot.legs: an axis is 0, or that of a leg of its own length")
+    across = all(pure.scalar_product(g, axis, moved) == 0 for moved in leg.axes)  # type: ignore[arg-type]
+    pure.well_formed(across, "robot.legs: a slide or crank does not move across the axis of its rod")
+    return leg._replace(axis=axis)
+
+
 def a_cone(value: Any, where: str) -> tuple[Numbers, int]:
     """An axis and an angle."""
     axis, degrees = pure.an_object(value, where, "axis degrees")
@@ -226,11 +265,15 @@ def a_cone(value: Any, where: str) -> tuple[Numbers, int]:
     return vector, int(angle)
 
 
-def a_chart(value: Any) -> Chart:
+def a_chart(value: Any, *, second: bool) -> Chart:
     """The chart."""
-    names_, box, position, quaternion, turns = pure.an_object(value, "chart", "variables box position quaternion turns")
-    names = pure.a_list(pure.one_of(VARIABLES))(names_, "chart.variables")
-    in_order = names and list(names) == [name for name in VARIABLES if name in names]
+    names_, box, position, *curve, quaternion, turns = pure.an_object(
+        value, "chart", f"variables box position {'path ' if second else ''}quaternion turns"
+    )
+    path = () if curve in ([], [None]) else a_path(curve[0])
+    first = ("along",) if path else ()
+    names = pure.a_list(pure.one_of((*first, *VARIABLES)))(names_, "chart.variables")
+    in_order = names and list(names) == [name for name in (*first, *VARIABLES) if name in names]
     pure.well_formed(in_order, "chart.variables: none, or not in their order")
     pairs = pure.a_list(a_pair, len(names))(box, "chart.box")
     pure.well_formed(all(pair[0] < pair[1] for pair in pairs), "chart.box: an interval is a point")
@@ -248,7 +291,7 @@ def a_chart(value: Any) -> Chart:
     places = pure.a_list(a_place, 3)(position, "chart.position")
     fixed = None if quaternion is None else pure.a_list(pure.a_rational, 4)(quaternion, "chart.quaternion")
     angles = pure.a_list(a_turn, 0 if fixed is not None else 3)(turns, "chart.turns")
-    used = []
+    used = list(first)
     for name, entry in zip(VARIABLES, (*places, *angles), strict=False):
         variable = (
             entry if isinstance(entry, str) else entry[0] if isinstance(entry, tuple) and len(entry) == 1 else None
@@ -258,7 +301,111 @@ def a_chart(value: Any) -> Chart:
             used.append(variable)
     pure.well_formed(tuple(used) == names, "chart: the variables are not those of position and turns")
     pure.well_formed(fixed is None or any(fixed), "chart.quaternion: is 0")
-    return Chart(names, pairs, places, fixed, angles)
+    pure.well_formed(not path or not any(places), "chart.path: there is a position beside it")
+    return Chart(names, pairs, places, fixed, angles, path)
+
+
+def a_path(value: Any) -> tuple[Numbers, ...]:
+    """Four polynomials of one variable, the first of them positive everywhere."""
+    path: tuple[Numbers, ...] = pure.a_list(pure.a_list(pure.a_rational), 4)(value, "chart.path")
+    short = all(1 <= len(entry) <= MAX_POWERS for entry in path)
+    pure.well_formed(short, f"chart.path: not 1 to {MAX_POWERS} coefficients")
+    even = all(x >= 0 if power % 2 == 0 else x == 0 for power, x in enumerate(path[0]))
+    pure.well_formed(even and path[0][0] > 0, "chart.path: its denominator is not seen to be positive")
+    return path
+
+
+def second_part(region: Region, found: Mapping[str, Any]) -> Region:
+    """What version 2 says beside."""
+    corners: tuple[Numbers, ...] = ()
+    radius = ZERO
+    if found["tube"] is not None:
+        corners_, radius_ = pure.an_object(found["tube"], "tube", "corners radius")
+        corners = pure.a_list(a_vector)(corners_, "tube.corners")
+        pure.affordable(len(corners) <= MAX_CORNERS, f"tube.corners: more than {MAX_CORNERS}")
+        moves = len(corners) > 1 and all(a != b for a, b in pairwise(corners))
+        pure.well_formed(moves, "tube.corners: fewer than two, or neighbours are the same")
+        radius = pure.a_positive_rational(radius_, "tube.radius")
+    member = pure.a_list(pure.a_rational)(found["member"], "member")
+    expected = len(region.chart.names) if region.claim == "all" else 0
+    pure.well_formed(
+        len(member) == expected,
+        "member: not a value for each variable where the claim is all, or some where it is another",
+    )
+    region = region._replace(
+        corners=corners,
+        radius=radius,
+        joints=pure.a_list(a_pair)(found["joints"], "joints"),
+        directions=pure.a_list(a_direction)(found["directions"], "directions"),
+        member=member if expected else None,
+    )
+    require_positions(region)
+    require_joints(region)
+    require_directions(region)
+    return region
+
+
+def a_direction(value: Any, where: str) -> Numbers | None:
+    """A covector and a bound of its length, or nothing."""
+    if value is None:
+        return None
+    numbers: Numbers = pure.a_list(pure.a_rational, 4)(value, where)
+    pure.well_formed(numbers[3] > 0, f"{where}: the last number is not positive")
+    return numbers
+
+
+def require_positions(region: Region) -> None:
+    """Refuse more than one of shape, path and tube, and what the robot's motions or fixed coordinates forbid."""
+    path, motion, chart = region.chart.path, region.robot.motion, region.chart
+    alone = sum(map(bool, (path, region.corners, region.shape))) < 2
+    pure.well_formed(alone, "shape: there is one beside a path or a tube, or both of these")
+    moving = not path or motion != "spherical"
+    pure.well_formed(moving, "chart.path: there is a position beside it, or the robot does not move")
+    flat = not path or motion != "planar" or not any(path[3])
+    pure.well_formed(flat, "chart.path: leaves the plane")
+    for k, value in enumerate(chart.position):
+        there = isinstance(value, str) or all(corner[k] == value for corner in region.corners)
+        pure.well_formed(there, "tube.corners: one is not where a coordinate is fixed")
+
+
+def require_joints(region: Region) -> None:
+    """Refuse joint values that do not belong to the legs."""
+    pure.well_formed(len(region.joints) in (0, len(region.robot.legs)), "joints: not as many as legs")
+    for leg, (low, high), mode in zip(region.robot.legs, region.joints, region.modes, strict=False):
+        pure.well_formed(leg.axes or low >= 0, "joints: a length is negative")
+        pure.well_formed(mode or not leg.axes, "modes: a working mode is needed and not named")
+        right = leg.weight == 1 and low % 90 == 0 and high % 90 == 0
+        pure.well_formed(len(leg.axes) < 2 or right, "joints: limits of a crank that are no multiples of 90 degrees")
+
+
+def pairs_apart(region: Region) -> list[tuple[int, int]]:
+    """The numbers of the legs that must be apart."""
+    if region.robot.least is None or "limits" not in region.asked:
+        return []
+    found, legs = [], region.robot.legs
+    for j in range(len(legs)):
+        for i in range(j):
+            fixed = not legs[i].axes and not legs[j].axes
+            if legs[i].platform != legs[j].platform and not (fixed and legs[i].base == legs[j].base):
+                found.append((i, j))
+    return sorted(found)
+
+
+def require_directions(region: Region) -> None:
+    """Refuse directions that are not those of pairs of legs, or bounds of their lengths that are none."""
+    pairs = pairs_apart(region)
+    alone = not any(region.robot.cones) and not pairs
+    for leg in region.robot.legs:
+        free = leg.axis is None or alone
+        pure.well_formed(free, "robot.legs: a rod along an axis has neither cones nor a distance from others")
+    as_many = len(region.directions) == len(pairs)
+    pure.well_formed(as_many, "directions: not one for every two legs that must be apart")
+    named = not pairs or all(mode or not leg.axes for leg, mode in zip(region.robot.legs, region.modes, strict=True))
+    pure.well_formed(named, "modes: a working mode is needed and not named")
+    for way in region.directions:
+        if way is not None:
+            square = sum((c**2 / weight for c, weight in zip(way[:3], region.robot.g, strict=True)), ZERO)
+            pure.well_formed(way[3] ** 2 >= square, "directions: the last number is less than the length of the others")
 
 
 def require_motion(motion: str, chart: Chart) -> None:
@@ -323,6 +470,37 @@ class Test(NamedTuple):
     sign: str
 
 
+class Later:
+    """A condition that is made when it is asked for."""
+
+    def __init__(self, make: Callable[[], Any]) -> None:
+        self.make = make
+
+    def __getitem__(self, place: int) -> Any:
+        """ "and" or "or", and the parts."""
+        return self.made[place]
+
+    @cached_property
+    def made(self) -> Any:
+        """The condition."""
+        return self.make()
+
+
+class Conditions(NamedTuple):
+    """What is asked; that a pose is one of the region; the tests of the shape; the D of legs; the determinant."""
+
+    asked: Any
+    region: Any
+    shape: list[Test]
+    roots: list[Polynomial]
+    determinant: Polynomial | None
+
+
+def pairwise_of(corners: Sequence[Numbers], number: int) -> Iterator[tuple[Fraction, Fraction]]:
+    """The coordinates of a corner and of the next one."""
+    return zip(corners[number], corners[number + 1], strict=True)
+
+
 class Equations:
     """The conditions of a certificate as polynomials."""
 
@@ -333,6 +511,8 @@ class Equations:
         self.size = self.count + len(self.driven)
         self.norm, self.rotation = self.turned()
         self.center = [times(self.norm, self.entry(value)) for value in region.chart.position]
+        if region.chart.path:
+            self.follow(region.chart.path)
         self.square_norm = times(self.norm, self.norm)
 
     def number(self, value: Fraction | int) -> Polynomial:
@@ -382,12 +562,20 @@ class Equations:
             ]
         return norm, matrix
 
+    def follow(self, path: Sequence[Numbers]) -> None:
+        """Positions on the curve: everything has its denominator as a factor."""
+        rest = (0,) * (self.size - 1)
+        curve = [{(power, *rest): x for power, x in enumerate(entry) if x} for entry in path]
+        self.center = [times(self.norm, place) for place in curve[1:]]
+        self.norm = times(self.norm, curve[0])
+        self.rotation = [[times(entry, curve[0]) for entry in row] for row in self.rotation]
+
     def moved(self, vector: Sequence[Fraction]) -> list[Polynomial]:
         """N R v."""
         return [plus(*zip(vector, row, strict=True)) for row in self.rotation]
 
-    def all(self) -> tuple[Any, list[Test], list[Polynomial], Polynomial | None]:
-        """What is asked; the shape; the D of slides and cranks; the determinant."""
+    def all(self) -> Conditions:
+        """All of them, and the polynomials that checks need besides."""
         region = self.region
         for form in region.robot.forms:
             pure.require(
@@ -404,6 +592,8 @@ class Equations:
                 ]
             for c, (low, high) in zip(self.center, region.robot.position, strict=False):
                 parts += [Test(plus((1, c), (-low, self.norm)), "0+"), Test(plus((high, self.norm), (-1, c)), "0+")]
+            for (i, j), way in zip(pairs_apart(region), region.directions, strict=True):
+                parts.append(Pair(self, legs[i], legs[j]).condition(way))
         if "no_type_1" in region.asked:
             parts += [Test(leg.square if leg.root is None else leg.root, "+") for leg in legs]
         determinant = None
@@ -411,7 +601,31 @@ class Equations:
             determinant = self.determinant(legs)
             parts.append(Test(determinant, "/"))
         shape = [Test(self.shape(*part), "0+") for part in region.shape]
-        return ("and", parts), shape, [leg.root for leg in legs if leg.root is not None], determinant
+        inside: list[Any] = [*shape, *self.tube()]
+        for leg, pair in zip(legs, region.joints, strict=False):
+            inside += leg.within(pair)
+        roots = [leg.root for leg in legs if leg.root is not None]
+        return Conditions(("and", parts), ("and", inside), shape, roots, determinant)
+
+    def tube(self) -> list[Any]:
+        """That a position is near the path: one condition, if there is a path."""
+        region = self.region
+        parts: list[Any] = []
+        offsets = [
+            [plus((1, c), (-x, self.norm)) for c, x in zip(self.center, corner, strict=True)]
+            for corner in region.corners
+        ]
+        for number, o in enumerate(offsets):
+            ball = plus((region.radius**2, self.square_norm), (-1, self.inner(o, o)))
+            parts.append(Test(ball, "0+"))
+            if number + 1 < len(offsets):
+                way = [b - a for a, b in pairwise_of(region.corners, number)]
+                square = pure.scalar_product(self.g, way, way)  # type: ignore[arg-type]
+                along = plus(*((weight * x, p) for weight, x, p in zip(self.g, way, o, strict=True)))
+                rest = plus((square, ball), (1, times(along, along)))
+                sides = Test(along, "0+"), Test(plus((square, self.norm), (-1, along)), "0+"), Test(rest, "0+")
+                parts.append(("and", sides))
+        return [("or", parts)] if parts else []
 
     def shape(self, constant: Fraction, linear: Numbers, weights: Numbers) -> Polynomial:
         """N^2 times a part of the shape."""
@@ -478,10 +692,15 @@ class Placed:
         n, leg = equations.norm, self.leg
         self.arm = equations.moved(leg.platform)
         e = [plus((1, c), (1, b), (-a, n)) for c, b, a in zip(equations.center, self.arm, leg.base, strict=True)]
+        if leg.axis is not None:
+            size = pure.scalar_product(equations.g, leg.axis, leg.axis)  # type: ignore[arg-type]
+            along = equations.inner(equations.numbers(leg.axis), e)
+            e = [plus((1, x), (-axis / size, along)) for x, axis in zip(e, leg.axis, strict=True)]
         self.square = equations.inner(e, e)
         self.rod = e
         self.root: Polynomial | None = None
         self.value = self.square, equations.square_norm
+        self.crank: Polynomial | None = None
         self.place = -1
         if leg.axes:
             self.require_mode()
@@ -512,7 +731,7 @@ class Placed:
         size = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
         h = plus((1, self.square), (size - leg.rod, eq.square_norm))
         w = Fraction(1, leg.weight)
-        m = plus((1, times(a, a)), (w, times(p, p)))
+        m = self.crank = plus((1, times(a, a)), (w, times(p, p)))
         self.root = plus((w, m), (-w, times(h, h)))
         cosine = plus((1, times(a, h)), (-self.mode, times(p, y)))
         sine = plus((w, times(p, h)), (self.mode, times(a, y)))
@@ -522,9 +741,16 @@ class Placed:
 
     def limits(self) -> list[Any]:
         """Those of its length, slide or crank."""
-        if self.leg.reach is None:
-            return []
-        low, high = self.leg.reach
+        return [] if self.leg.reach is None else self.range(self.leg.reach)
+
+    def within(self, ends: Numbers) -> list[Any]:
+        """That it reaches, and that its length, position or angle is between two ends."""
+        reached = [] if self.root is None else [Test(self.root, "0+")]
+        return [*reached, *self.range(ends)]
+
+    def range(self, ends: Numbers) -> list[Any]:
+        """That its length, position or angle is between two ends."""
+        low, high = ends
         first, second = self.value
         if len(self.leg.axes) == 2:
             return [self.between(low, high)]
@@ -582,6 +808,89 @@ class Placed:
         return [*force, *moment]
 
 
+class Pair:
+    """Two legs that must be apart, in the letters of the specification: m, n, U, V, W, A, B."""
+
+    def __init__(self, equations: Equations, one: Placed, other: Placed) -> None:
+        self.eq, self.legs = equations, (one, other)
+        self.least = equations.region.robot.least or ZERO
+        self.m, self.n = (equations.number(1) if leg.crank is None else leg.crank for leg in self.legs)
+        self.u, self.v = map(self.lowered, self.legs)
+        way = [b - a for a, b in zip(one.leg.platform, other.leg.platform, strict=True)]
+        self.w = equations.moved(way)
+        self.a, self.b = (
+            plus((leg.leg.rod, equations.square_norm)) if leg.leg.axes else leg.square for leg in self.legs
+        )
+
+    def lowered(self, leg: Placed) -> list[Polynomial]:
+        """U: from the upper end to the lower one."""
+        factor = Fraction(-1)
+        if len(leg.leg.axes) == 1:
+            factor /= pure.scalar_product(self.eq.g, leg.leg.axes[0], leg.leg.axes[0])  # type: ignore[arg-type]
+        return [plus((factor, x)) for x in leg.rod]
+
+    def mul(self, *factors: Polynomial) -> Polynomial:
+        """A product with y^2 = D, where the factors are."""
+        total = self.reduced(factors[-1])
+        for factor in reversed(factors[:-1]):
+            total = self.reduced(times(factor, total))
+        return total
+
+    def reduced(self, polynomial: Polynomial) -> Polynomial:
+        """With y^2 = D for both legs."""
+        return self.legs[1].without_squares(self.legs[0].without_squares(polynomial))
+
+    def condition(self, direction: Numbers | None) -> Any:
+        """That they are apart."""
+        exact = Later(self.apart)
+        return exact if direction is None else ("or", (self.separated(direction), exact))
+
+    def turned(self) -> list[Test]:
+        """That cranks have an angle."""
+        return [Test(leg.crank, "+") for leg in self.legs if leg.crank is not None]
+
+    def separated(self, direction: Numbers) -> Any:
+        """All ends of the second are beyond those of the first."""
+        *c, e = direction
+        w, u, v = (plus(*zip(c, way, strict=True)) for way in (self.w, self.u, self.v))
+        h = plus((1, w), (-self.least * e, self.eq.norm))
+        high, low = plus((1, self.mul(self.m, h)), (-1, u)), plus((1, self.mul(self.n, h)), (1, v))
+        both = plus((1, self.mul(self.m, self.n, h)), (-1, self.mul(self.n, u)), (1, self.mul(self.m, v)))
+        return ("and", [*self.turned(), *(Test(x, "0+") for x in (h, high, low, both))])
+
+    def apart(self) -> Any:
+        """Ends, feet and lines."""
+        mul, inner, m, n, a, b = self.mul, self.eq.inner, self.m, self.n, self.a, self.b
+        c = inner(self.w, self.w)
+        x, y, z = (self.reduced(inner(*two)) for two in ((self.u, self.w), (self.v, self.w), (self.u, self.v)))
+        p = plus((1, c), (-(self.least**2), self.eq.square_norm))
+        q = plus((1, mul(m, plus((1, p), (1, a)))), (-2, x))
+        s = plus((1, mul(n, plus((1, p), (1, b)))), (2, y))
+        lower = plus((1, mul(m, n, plus((1, p), (1, a), (1, b)))), (2, mul(m, y)), (-2, mul(n, x)), (-2, z))
+        parts: list[Any] = [*self.turned(), *(Test(value, "0+") for value in (p, q, s, lower))]
+        feet = (
+            (plus((-1, y)), mul(n, b), mul(n, n, p, b)),
+            (plus((1, z), (-1, mul(m, y))), mul(m, n, b), mul(m, n, n, b, q)),
+            (x, mul(m, a), mul(m, m, p, a)),
+            (plus((1, z), (1, mul(n, x))), mul(m, n, a), mul(n, m, m, a, s)),
+        )
+        for along, whole, square in feet:
+            sides = plus((-1, along)), plus((1, along), (-1, whole)), plus((1, square), (-1, mul(along, along)))
+            parts.append(("or", [Test(side, "0+") for side in sides]))
+        gram = plus((1, mul(m, m, n, n, a, b)), (-1, mul(z, z)))
+        first = plus((1, mul(n, n, b, x)), (-1, mul(z, y)))
+        second = plus((1, mul(z, x)), (-1, mul(m, m, a, y)))
+        line = plus((1, mul(p, gram)), (-1, mul(first, x)), (1, mul(second, y)))
+        sides_ = (
+            plus((-1, first)),
+            plus((1, mul(m, first)), (-1, gram)),
+            plus((-1, second)),
+            plus((1, mul(n, second)), (-1, gram)),
+            line,
+        )
+        return ("and", [*parts, ("or", [Test(side, "0+") for side in sides_])])
+
+
 # ---------------------------------------------------------------------------------------------------------------------
 # Bernstein coefficients
 # ---------------------------------------------------------------------------------------------------------------------
@@ -595,6 +904,7 @@ class Table(NamedTuple):
     parts: dict[tuple[int, ...], list[int]]
     denominator: int
     exponent: int
+    bits: int
 
 
 def table_of(polynomial: Polynomial, box: Sequence[Numbers], roots: int) -> Table:
@@ -621,7 +931,7 @@ def table_of(polynomial: Polynomial, box: Sequence[Numbers], roots: int) -> Tabl
         parts[combination] = values
     denominator = lcm(1, *(number.denominator for values in parts.values() for number in values))
     whole = {key: [int(value * denominator) for value in values] for key, values in parts.items()}
-    return Table(used, degrees, whole, denominator, 0)
+    return Table(used, degrees, whole, denominator, 0, max(map(pure.most_bits, whole.values())))
 
 
 def along(values: list[Any], degrees: Sequence[int], k: int, change: Callable[[list[Any]], list[Any]]) -> list[Any]:
@@ -722,26 +1032,25 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
 
 def checks(region: Region) -> Iterator[str]:
     """One line per claim that is proved."""
-    asked, shape, roots, determinant = Equations(region).all()
+    require_held(region)
+    found = Equations(region).all()
     yield f"conditions: {', '.join(region.asked)}, as polynomials in {', '.join(region.chart.names)}"
     if region.claim == "not-all":
         nothing = not region.paving and not region.inside and not region.undecided and region.measure is None
         pure.well_formed(nothing, "paving: there is one, but a pose refutes the question")
-        yield refuted(region, asked, shape, roots, determinant)
+        yield refuted(region, found)
         return
     pure.well_formed(not region.points, "counterexample: there is one, but the claim is another")
-    beyond = [Test(plus((-1, part.polynomial)), "+") for part in shape]
-    condition = ("and", [*shape, asked]) if region.claim == "map" else ("or", [*beyond, asked])
-    shares = followed(region, condition, roots)
+    is_map = region.claim == "map"
+    condition = ("and", [found.region, found.asked]) if is_map else ("or", [opposite(found.region), found.asked])
+    shares = followed(region, condition, found.roots)
     outside, undecided = region.paving.count("o"), region.paving.count("u")
     agree = (region.paving.count("i"), undecided) == (region.inside, region.undecided)
     pure.require(agree, "inside, undecided: not as many parts as the paving has")
     yield f"paving: {region.inside} parts inside, {outside} outside, each proved; {undecided} undecided"
     if region.claim == "all":
         pure.require(not outside and not undecided, "claim: not all parts are inside")
-        center = tuple((low + high) / 2 for low, high in region.chart.box)
-        has_poses = all(value_at(part.polynomial, center, ()) >= 0 for part in shape)
-        pure.require(has_poses, "shape: the middle of the box is not in it, so nothing shows that the region has poses")
+        require_poses(region, found)
         yield "claim: all poses of the region are good"
     if region.claim == "undecided":
         pure.require(outside or undecided, "claim: all parts are inside, which is more than claimed")
@@ -757,91 +1066,157 @@ def checks(region: Region) -> Iterator[str]:
         pure.require(region.measure is None, "measure: claimed where there is none")
 
 
-def polynomials_in(condition: Any) -> Iterator[Test]:
-    """The tests of a condition."""
+def require_held(region: Region) -> None:
+    """Reject a box that does not hold the balls about all corners of a tube."""
+    for name, (low, high) in zip(region.chart.names, region.chart.box, strict=True):
+        if name in VARIABLES[:3]:
+            k = VARIABLES.index(name)
+            for corner in region.corners:
+                nearest = min(corner[k] - low, high - corner[k])
+                held = nearest >= 0 and nearest**2 * region.robot.g[k] >= region.radius**2
+                pure.require(held, "tube: the box does not hold it")
+
+
+def require_poses(region: Region, found: Conditions) -> None:
+    """Reject a region that is not shown to have a pose."""
+    if region.member is not None:
+        shown = is_in_region(region, found, region.member)
+        pure.require(shown, "member: is not proved to be in the region, so nothing shows that the region has poses")
+        return
+    center = tuple((low + high) / 2 for low, high in region.chart.box)
+    has_poses = all(value_at(part.polynomial, center, ()) >= 0 for part in found.shape)
+    pure.require(has_poses, "shape: the middle of the box is not in it, so nothing shows that the region has poses")
+
+
+def is_in_region(region: Region, found: Conditions, point: Numbers) -> bool:
+    """Whether a point is in the box, and proved to be in the region."""
+    boxed = all(low <= x <= high for x, (low, high) in zip(point, region.chart.box, strict=True))
+    return boxed and is_kept(found.region, point, found.roots)
+
+
+def opposite(condition: Any) -> Any:
+    """That a condition fails whose tests are all that something is not negative."""
     if isinstance(condition, Test):
-        yield condition
-    else:
-        for part in condition[1]:
-            yield from polynomials_in(part)
+        return Test(plus((-1, condition.polynomial)), "+")
+    return ("and" if condition[0] == "or" else "or", [opposite(part) for part in condition[1]])
+
+
+class Part:
+    """A part of the box: polynomials get their coefficients on it when they are asked for."""
+
+    def __init__(self, region: Region, roots: Sequence[Polynomial], above: Part | None = None, side: int = 0) -> None:
+        self.region, self.roots, self.above, self.side = region, roots, above, side
+        self.depth: int = 0 if above is None else above.depth + 1
+        self.tables: dict[int, Table] = {}
+        self.split: dict[int, tuple[Table, Table]] = {}
+        self.known: dict[int, tuple[Any, Any]] = {}
+
+    def table(self, polynomial: Polynomial) -> Table:
+        """The coefficients, from those of the part above."""
+        name = id(polynomial)
+        if name not in self.tables:
+            if self.above is None:
+                self.tables[name] = table_of(polynomial, self.region.chart.box, len(self.roots))
+            else:
+                if name not in self.above.split:
+                    whole = self.above.table(polynomial)
+                    pure.spend(cost_of(whole))
+                    self.above.split[name] = halves(whole, self.region.axes[self.above.depth])
+                self.tables[name] = self.above.split[name][self.side]
+        return self.tables[name]
+
+    def range(self, test: Test) -> tuple[Any, Any]:
+        """The least and the greatest coefficient."""
+        name = id(test.polynomial)
+        if name not in self.known:
+            table = self.table(test.polynomial)
+            pure.spend(cost_of(table))
+            self.known[name] = extremes(table, self.ends)
+        return self.known[name]
+
+    @cached_property
+    def ends(self) -> list[tuple[Fraction, Fraction]]:
+        """Bounds of the roots."""
+        tables = [self.table(root) for root in self.roots]
+        for table in tables:
+            pure.spend(cost_of(table))
+        return [root_ends(table) for table in tables]
+
+
+def cost_of(table: Table) -> int:
+    """Operations for halving a table, or for looking at it."""
+    degree = max(table.degrees, default=0)
+    words = (table.bits + table.exponent) // 64 + 1
+    coefficients = sum(len(values) for values in table.parts.values()) << len(table.roots)
+    return 5000 + 25 * coefficients * (2 + degree) * (4 + words)
 
 
 def followed(region: Region, condition: Any, roots: Sequence[Polynomial]) -> dict[str, Fraction]:
     """The shares of the letters of a paving, each of which is proved."""
-    box = region.chart.box
-    tests = list(polynomials_in(condition))
-    start = [table_of(root, box, len(roots)) for root in roots]
-    start += [table_of(test.polynomial, box, len(roots)) for test in tests]
-    coefficients = sum(len(values) << len(table.roots) for table in start for values in table.parts.values())
-    degree = max((d for table in start for d in table.degrees), default=0)
-    bits = max((pure.most_bits(values) for table in start for values in table.parts.values()), default=1)
-    words = (bits + (degree + 1) * len(region.axes)) // 64 + 1
-    cost = 50_000 + 25 * coefficients * (2 + degree) * (4 + words)
     shares = dict.fromkeys("iou", ZERO)
-    waiting = [(0, start)]
+    waiting = [Part(region, roots)]
     for number, letter in enumerate(region.paving, 1):
         pure.require(waiting, "paving: it goes on after its end")
-        depth, tables = waiting.pop()
-        pure.spend(cost)
+        part = waiting.pop()
+        pure.spend(50_000)
         if letter == "s":
-            deep = depth < len(region.axes)
+            deep = part.depth < len(region.axes)
             pure.require(deep, f"paving: letter {number} halves a part deeper than the axes say")
-            pairs = [halves(table, region.axes[depth]) for table in tables]
-            waiting.append((depth + 1, [second for _, second in pairs]))
-            waiting.append((depth + 1, [first for first, _ in pairs]))
+            waiting += [Part(region, roots, part, side) for side in (1, 0)]
             continue
         if letter != "u":
-            ends = [root_ends(table) for table in tables[: len(roots)]]
-            ranges = {
-                id(test): partial(extremes, table, ends)
-                for test, table in zip(tests, tables[len(roots) :], strict=True)
-            }
-            proved = holds(condition, ranges) if letter == "i" else fails(condition, ranges)
+            proved = holds(condition, part.range) if letter == "i" else fails(condition, part.range)
             name = "inside" if letter == "i" else "outside"
             pure.require(proved, f"paving: the part of letter {number} is not proved to be {name}")
-        shares[letter] += Fraction(1, 1 << depth)
+        shares[letter] += Fraction(1, 1 << part.depth)
     pure.require(not waiting, "paving: parts of the region are missing")
     return shares
 
 
-def holds(condition: Any, ranges: Mapping[int, Callable[[], tuple[Any, Any]]]) -> bool:
+def holds(condition: Any, ranges: Callable[[Test], tuple[Any, Any]]) -> bool:
     """Whether a condition holds all over a part."""
     if isinstance(condition, Test):
-        low, high = ranges[id(condition)]()
+        low, high = ranges(condition)
         return bool(low > 0 or (condition.sign == "0+" and low >= 0) or (condition.sign == "/" and high < 0))
     results = (holds(part, ranges) for part in condition[1])
     return all(results) if condition[0] == "and" else any(results)
 
 
-def fails(condition: Any, ranges: Mapping[int, Callable[[], tuple[Any, Any]]]) -> bool:
+def fails(condition: Any, ranges: Callable[[Test], tuple[Any, Any]]) -> bool:
     """Whether a condition holds nowhere in a part."""
     if isinstance(condition, Test):
         if condition.sign == "/":
             return False
-        _, high = ranges[id(condition)]()
+        _, high = ranges(condition)
         return bool(high < 0 or (condition.sign == "+" and high <= 0))
     results = (fails(part, ranges) for part in condition[1])
     return any(results) if condition[0] == "and" else all(results)
 
 
-def refuted(
-    region: Region, asked: Any, shape: Sequence[Test], roots: Sequence[Polynomial], determinant: Polynomial | None
-) -> str:
+def refuted(region: Region, found: Conditions) -> str:
     """One pose that is not good, or two with determinants of opposite signs, in the region."""
     for point in region.points:
-        inside = all(low <= x <= high for x, (low, high) in zip(point, region.chart.box, strict=True))
-        inside = inside and all(value_at(part.polynomial, point, ()) >= 0 for part in shape)
+        inside = is_in_region(region, found, point)
         pure.require(inside, "counterexample: a pose is not one of the region")
     if len(region.points) == 1:
-        found = is_broken(asked, region.points[0], roots)
-        pure.require(found, "counterexample: no condition is proved to fail there")
+        broken = is_broken(found.asked, region.points[0], found.roots)
+        pure.require(broken, "counterexample: no condition is proved to fail there")
         return "claim: not all poses of the region are good, as one shows"
-    pair = len(region.points) == 2 and determinant is not None
+    pair = len(region.points) == 2 and found.determinant is not None and not region.joints
     pure.well_formed(pair, "counterexample: neither one pose, nor two between which a determinant changes its sign")
-    signs = [sign_at(determinant or {}, point, roots) for point in region.points]
-    opposite = sorted(signs, key=repr) == [-1, 1]
-    pure.require(opposite, "counterexample: the determinants are not proved to have opposite signs")
-    return "claim: not all poses of the region are good, as the determinant has both signs in it, which is convex"
+    signs = [sign_at(found.determinant or {}, point, found.roots) for point in region.points]
+    apart = sorted(signs, key=repr) == [-1, 1]
+    pure.require(apart, "counterexample: the determinants are not proved to have opposite signs")
+    return "claim: not all poses of the region are good, as the determinant has both signs in it, which is connected"
+
+
+def is_kept(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bool:
+    """Whether a condition is proved to hold at a pose whose tests are all that something is not negative."""
+    if isinstance(condition, Test):
+        sign = sign_at(condition.polynomial, point, roots)
+        return sign is not None and sign >= 0
+    results = (is_kept(part, point, roots) for part in condition[1])
+    return all(results) if condition[0] == "and" else any(results)
 
 
 def is_broken(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bool:

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.certify.build import sealed
 from pkm_exact.certify.certificate_entries import texts
+from pkm_exact.certify.region_build_2 import needs_second, second_version
 from pkm_exact.errors import InputError
 from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, RegionLeg, RegionMachine
 
 if TYPE_CHECKING:
-    from pkm_exact.geometry.limits import Cones
+    from pkm_exact.geometry.limits import Cones, Pair
     from pkm_exact.regions.chart import Chart
     from pkm_exact.regions.region_question import RegionQuestion
     from pkm_exact.regions.region_solver import RegionAnswer
@@ -32,28 +33,31 @@ def region_certificate(answer: RegionAnswer) -> dict[str, Any]:
     """
     question, machine = answer.question, answer.machine
     require_words(machine, question)
-    found = answer.counterexample
-    return sealed(
-        {
-            "format": FORMAT,
-            "version": VERSION,
-            "robot": _robot(machine),
-            "chart": _chart(question.chart),
-            "shape": [
-                {"constant": str(part.constant), "linear": texts(part.linear), "weights": texts(part.weights)}
-                for part in question.shape
-            ],
-            "conditions": list(question.conditions.asked),
-            "modes": list(question.conditions.modes),
-            "claim": claim_of(answer),
-            "axes": list(answer.axes),
-            "paving": answer.word if found is None else "",
-            "inside": answer.counts["inside"] if found is None else 0,
-            "undecided": answer.counts["undecided"] if found is None else 0,
-            "measure": None if answer.measures is None else texts(answer.measures),
-            "counterexample": [] if found is None else [texts(point) for point in found.points],
-        }
-    )
+    return sealed(second_version(_content(answer), answer) if needs_second(machine, question) else _content(answer))
+
+
+def _content(answer: RegionAnswer) -> dict[str, Any]:
+    """The content of version 1."""
+    question, machine, found = answer.question, answer.machine, answer.counterexample
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "robot": _robot(machine),
+        "chart": _chart(question.chart),
+        "shape": [
+            {"constant": str(part.constant), "linear": texts(part.linear), "weights": texts(part.weights)}
+            for part in question.shape
+        ],
+        "conditions": list(question.conditions.asked),
+        "modes": list(question.conditions.modes),
+        "claim": claim_of(answer),
+        "axes": list(answer.axes),
+        "paving": answer.word if found is None else "",
+        "inside": answer.counts["inside"] if found is None else 0,
+        "undecided": answer.counts["undecided"] if found is None else 0,
+        "measure": None if answer.measures is None else texts(answer.measures),
+        "counterexample": [] if found is None else [texts(point) for point in found.points],
+    }
 
 
 def require_words(machine: RegionMachine, question: RegionQuestion) -> None:
@@ -67,14 +71,9 @@ def require_words(machine: RegionMachine, question: RegionQuestion) -> None:
     _require_rational(machine)
     if question.conditions.indices or question.conditions.load:
         raise InputError("-o: certificates have no word for bounds of indices and forces; leave -o out")
-    if "limits" in question.conditions.asked and machine.leg_distance is not None:
-        raise InputError("-o: certificates have no word for a least distance of legs; leave -o out")
-    if question.joints:
-        raise InputError("-o: certificates have no word for regions of joint values; leave -o out")
-    if question.tube is not None:
-        raise InputError("-o: certificates have no word for tubes; leave -o out")
-    if question.chart.arc is not None or question.chart.line is not None:
-        raise InputError("-o: certificates have no word for arcs and lines; leave -o out")
+    for leg, pair in zip(machine.legs, question.joints, strict=False):
+        if isinstance(leg.actuator, OnCrank):
+            _require_right_angles(leg, leg.actuator, pair)
 
 
 def claim_of(answer: RegionAnswer) -> str:
@@ -155,14 +154,17 @@ def _require_rational(machine: RegionMachine) -> None:
                     f"others; give one of {', '.join(map(str, CONE_ANGLES))}, or leave -o out"
                 )
     for leg in machine.legs:
-        if leg.axis is not None:
-            raise InputError(
-                f"-o: {leg.name}: certificates have no word for rods that slide along an axis; leave -o out"
-            )
+        if leg.axis is not None and (machine.base_cones or machine.platform_cones):
+            raise InputError(f"-o: {leg.name}: certificates have no word for cones beside rods along an axis")
         if isinstance(leg.actuator, OnHinge):
             raise InputError(f"-o: {leg.name}: certificates have no word for driven hinges; leave -o out")
-        if isinstance(leg.actuator, OnCrank) and leg.reach is not None and any(end % 90 for end in leg.reach):
-            raise InputError(
-                f"-o: {leg.name}: certificates have a word only for limits of cranks at multiples of 90 degrees; "
-                "give such, or leave -o out"
-            )
+        if isinstance(leg.actuator, OnCrank) and leg.reach is not None:
+            _require_right_angles(leg, leg.actuator, leg.reach)
+
+
+def _require_right_angles(leg: RegionLeg, crank: OnCrank, ends: Pair) -> None:
+    if crank.weight != 1 or any(end % 90 for end in ends):
+        raise InputError(
+            f"-o: {leg.name}: certificates have a word only for limits of cranks at multiples of 90 degrees, "
+            "with axes of one length; give such, or leave -o out"
+        )

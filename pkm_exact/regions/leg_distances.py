@@ -13,6 +13,13 @@ Two segments, from F to F + u and from E to E + v, w = E - F, are at least d apa
 (a convex function of the two shares is least inside or on an edge of the square). All are 0 where the legs are
 parallel. So what also suffices is asked: that all ends of one leg lie d beyond those of the other along a direction,
 which is the one between their nearest points in the middle of the chart.
+
+F and E are the upper ends, N times which has no root in it, u and v lead to the lower ones: U = m N u has rational
+polynomials of the roots, m that of a crank, and 1 for others. So the products are
+
+    A = N^2 |u|^2,  B = N^2 |v|^2,  C = N^2 |w|^2,  X = U.(N w) = m N^2 u.w,  Y = V.(N w),  Z = U.V
+
+with |u|^2 the square of the rod, where there is one. The crank turns freely where m is 0: m > 0 is asked for.
 """
 
 from __future__ import annotations
@@ -20,27 +27,60 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations, product
-from typing import Any, TypeAlias
+from itertools import combinations
+from typing import Any
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.poses.limit_checks import nearest_shares
 from pkm_exact.regions.chart import Pair, Polynomial, PosePolynomials, moved, rational
-from pkm_exact.regions.formula import All, Atom, Formula, Some
+from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some
 from pkm_exact.regions.joint_quotients import rational_root
-from pkm_exact.regions.placed_legs import PlacedLeg, exact_vector, without_squares
-from pkm_exact.regions.region_legs import OnSlide, OwnLength, RegionLeg, RegionMachine
+from pkm_exact.regions.placed_legs import PlacedLeg, without_squares
+from pkm_exact.regions.region_legs import OnCrank, OnSlide, OwnLength, RegionMachine
 from pkm_exact.regions.region_legs import product as dot
 
-Point: TypeAlias = list[Any]
 _GRID = 10**6
 
 
-def share_a_joint(leg: RegionLeg, other: RegionLeg) -> bool:
+@dataclass(frozen=True)
+class Direction:
+    """A covector, and a number that is not less than its length.
+
+    Attributes
+    ----------
+    covector : tuple of 3 Fraction
+    size : Fraction
+    """
+
+    covector: tuple[Fraction, ...]
+    size: Fraction
+
+
+def share_a_joint(leg: Any, other: Any) -> bool:
     """Whether two legs end at one joint, so that their distance is 0 and does not count."""
     fixed = all(isinstance(each.actuator, OwnLength) for each in (leg, other))
-    return leg.platform == other.platform or (fixed and leg.base == other.base)
+    return bool(leg.platform == other.platform or (fixed and leg.base == other.base))
+
+
+def compared_pairs(machine: RegionMachine, placed: Sequence[PlacedLeg]) -> list[tuple[int, int]]:
+    """The pairs of legs that must be apart: those that share no joint; none without that limit.
+
+    Raises
+    ------
+    InputError
+        If a rod slides along an axis, or a hinge is driven.
+    """
+    if machine.leg_distance is None:
+        return []
+    for leg in machine.legs:
+        if not isinstance(leg.actuator, OwnLength | OnSlide | OnCrank) or leg.axis is not None:
+            raise InputError(
+                f"limits.leg_distance: {leg.name}: regions know this limit of legs between two joints; remove it from "
+                "the model, or leave limits out"
+            )
+    pairs = combinations(range(len(placed)), 2)
+    return [(i, j) for i, j in pairs if not share_a_joint(placed[i].leg, placed[j].leg)]
 
 
 def legs_apart(
@@ -51,68 +91,69 @@ def legs_apart(
     Raises
     ------
     InputError
-        If they are neither legs of actuated length nor rods on slides.
+        As ``compared_pairs``.
     """
-    if machine.leg_distance is None:
-        return []
-    for leg in machine.legs:
-        if not isinstance(leg.actuator, OwnLength | OnSlide) or leg.axis is not None:
-            raise InputError(
-                f"limits.leg_distance: {leg.name}: regions know this limit of legs of actuated length and of rods on "
-                "slides; remove it from the model, or leave limits out"
-            )
-    ends = [_ends(leg, pose, machine.metric) for leg in placed]
-    middle = _Middle(pose, placed, box)
     found: list[Formula] = []
-    for i, j in combinations(range(len(placed)), 2):
-        if share_a_joint(machine.legs[i], machine.legs[j]):
-            continue
-        pair = _Two(machine, pose, (placed[i], placed[j]), (ends[i], ends[j]), machine.leg_distance)
-        direction = middle.direction(machine, ends[i], ends[j])
+    ways = directions(machine, pose, placed, box)
+    for (i, j), direction in zip(compared_pairs(machine, placed), ways, strict=True):
+        pair = _Two(machine, pose, placed[i], placed[j], machine.leg_distance or Fraction(0))
         exactly = pair.are_apart()
         found.append(exactly if direction is None else Some((exactly, pair.are_separated(direction))))
     return found
 
 
-def _ends(leg: PlacedLeg, pose: PosePolynomials, metric: Metric) -> tuple[Point, Point]:
-    """N times the lower and the upper end of a leg."""
-    foot = [pose.norm * rational(a) for a in leg.leg.base]
-    actuator = leg.leg.actuator
-    if isinstance(actuator, OnSlide):
-        along = leg.value[0] * rational(1 / dot(metric, actuator.direction, actuator.direction))  # N q
-        foot = [a + along * d for a, d in zip(foot, exact_vector(actuator.direction), strict=True)]
-    return foot, moved(pose, leg.leg.platform)
+def directions(
+    machine: RegionMachine, pose: PosePolynomials, placed: Sequence[PlacedLeg], box: Sequence[Pair]
+) -> list[Direction | None]:
+    """For each pair of ``compared_pairs`` a direction in which they are apart in the middle of a chart.
+
+    None if they meet there, or a rod does not reach.
+    """
+    pairs = compared_pairs(machine, placed)
+    middle = _Middle(machine.metric, pose, placed, box) if pairs else None
+    return [None if middle is None else middle.direction(placed[i], placed[j]) for i, j in pairs]
+
+
+def _way(leg: PlacedLeg, metric: Metric) -> list[Any]:
+    """U, from the upper end of a leg to the lower one."""
+    slide = leg.leg.actuator
+    size = dot(metric, slide.direction, slide.direction) if isinstance(slide, OnSlide) else 1
+    return [-x * rational(1 / Fraction(size)) for x in leg.rod]
 
 
 class _Middle:
     """The middle of a chart, in floating point: where legs are there."""
 
-    def __init__(self, pose: PosePolynomials, placed: Sequence[PlacedLeg], box: Sequence[Pair]) -> None:
+    def __init__(self, metric: Metric, pose: PosePolynomials, placed: Sequence[PlacedLeg], box: Sequence[Pair]) -> None:
         at = [rational((low + high) / 2) for low, high in box]
         roots = [leg.root for leg in placed if leg.root is not None]
         squares = [root(*at, *[rational(0)] * len(roots)) for root in roots]
+        self._metric, self._pose = metric, pose
         self._is_reached = all(square >= 0 for square in squares)
         exact = [Fraction(int(square.p), int(square.q)) for square in squares]
         self._at = [*at, *(rational(rational_root(max(value, Fraction(0)), 1)) for value in exact)]
-        self._norm = pose.norm(*self._at)
 
-    def _place(self, point: Point) -> list[Fraction]:
-        values = [entry(*self._at) / self._norm for entry in point]
-        return [Fraction(int(value.p), int(value.q)) for value in values]
+    def _value(self, polynomial: Polynomial) -> Fraction:
+        value = polynomial(*self._at)
+        return Fraction(int(value.p), int(value.q))
 
-    def direction(
-        self, machine: RegionMachine, one: tuple[Point, Point], other: tuple[Point, Point]
-    ) -> list[Fraction] | None:
-        """A covector from one leg to the other; None if they meet there, or a rod does not reach."""
-        if not self._is_reached:
+    def _ends(self, leg: PlacedLeg) -> tuple[list[float], list[float]] | None:
+        """The upper and the lower end in ordinary coordinates; None if a crank turns freely."""
+        norm = self._value(self._pose.norm)
+        scale = norm if leg.scale is None else norm * self._value(leg.scale)
+        if not scale:
             return None
-        roots = [float(g) ** 0.5 for g in machine.metric]
-        first, second = (
-            [[float(x) * root for x, root in zip(self._place(end), roots, strict=True)] for end in ends]
-            for ends in (one, other)
-        )
-        shares = nearest_shares((first[0], first[1]), (second[0], second[1]))
-        if shares is None:
+        tip = [self._value(x) / norm for x in moved(self._pose, leg.leg.platform)]
+        low = [a + self._value(x) / scale for a, x in zip(tip, _way(leg, self._metric), strict=True)]
+        roots = [float(g) ** 0.5 for g in self._metric]
+        first, second = ([float(x) * root for x, root in zip(end, roots, strict=True)] for end in (tip, low))
+        return first, second
+
+    def direction(self, one: PlacedLeg, other: PlacedLeg) -> Direction | None:
+        """A covector from one leg to the other; None if there is none."""
+        first, second = (self._ends(leg) if self._is_reached else None for leg in (one, other))
+        shares = None if first is None or second is None else nearest_shares(first, second)
+        if first is None or second is None or shares is None:
             return None
         near = [
             [a + share * (b - a) for a, b in zip(*ends, strict=True)]
@@ -122,79 +163,102 @@ class _Middle:
         size = max(map(abs, between))
         if not size > 0:
             return None
-        return [Fraction(round(_GRID * x * root / size), _GRID) for x, root in zip(between, roots, strict=True)]
+        roots = [float(g) ** 0.5 for g in self._metric]
+        found = tuple(Fraction(round(_GRID * x * root / size), _GRID) for x, root in zip(between, roots, strict=True))
+        square = sum((c * c / g for c, g in zip(found, self._metric, strict=True)), Fraction(0))
+        return Direction(found, rational_root(square, 1))
 
 
-@dataclass(frozen=True, eq=False)
 class _Two:
-    """Two legs: their ends times N, and how far apart they must be."""
+    """Two legs and how far apart they must be; names are those of the module's text."""
 
-    machine: RegionMachine
-    pose: PosePolynomials
-    placed: tuple[PlacedLeg, PlacedLeg]
-    ends: tuple[tuple[Point, Point], tuple[Point, Point]]
-    least: Fraction
+    def __init__(
+        self, machine: RegionMachine, pose: PosePolynomials, one: PlacedLeg, other: PlacedLeg, least: Fraction
+    ) -> None:
+        self._metric, self._pose, self._placed, self._least = machine.metric, pose, (one, other), least
+        self._name = f"{one.leg.name} apart from {other.leg.name}"
+        self._scales = [pose.constant(1) if leg.scale is None else leg.scale for leg in self._placed]
+        self._ways = [_way(leg, machine.metric) for leg in self._placed]
+        first, second = (moved(pose, leg.leg.platform) for leg in self._placed)
+        self._between = [q - p for p, q in zip(first, second, strict=True)]
 
-    @property
-    def _name(self) -> str:
-        return f"{self.placed[0].leg.name} apart from {self.placed[1].leg.name}"
+    def _plain(self, polynomial: Any) -> Polynomial:
+        found: Polynomial = polynomial
+        for leg in self._placed:
+            found = without_squares(found, leg, self._pose)
+        return found
 
-    def _plain(self, polynomial: Polynomial) -> Polynomial:
-        for leg in self.placed:
-            polynomial = without_squares(polynomial, leg, self.pose)
-        return polynomial
+    def _times(self, *factors: Polynomial) -> Polynomial:
+        found: Polynomial = factors[0]
+        for factor in factors[1:]:
+            found = self._plain(found * factor)
+        return found
 
-    def _dot(self, a: Point, b: Point) -> Polynomial:
-        return self._plain(dot(self.machine.metric, a, b))
+    def _dot(self, a: Sequence[Any], b: Sequence[Any]) -> Polynomial:
+        found: Polynomial = dot(self._metric, a, b)
+        return self._plain(found)
 
-    def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        return self._plain(a * b)
+    def _square(self, leg: PlacedLeg) -> Polynomial:
+        """A, or B."""
+        actuator, norm = leg.leg.actuator, self._pose.norm
+        if isinstance(actuator, OnSlide | OnCrank):
+            square: Polynomial = norm * norm * rational(actuator.rod_squared)
+            return square
+        found: Polynomial = leg.value[0]
+        return found
 
     def _atom(self, polynomial: Polynomial) -> Atom:
         return Atom(self._name, polynomial)
 
+    def _turned(self) -> list[Formula]:
+        """That no crank turns freely."""
+        return [
+            Atom(f"the crank of {leg.leg.name} has an angle", leg.scale, Sign.POSITIVE)
+            for leg in self._placed
+            if leg.scale is not None
+        ]
+
     def are_apart(self) -> Formula:
         """Whether they are, exactly."""
-        square = rational(self.least**2)
-        far = square * self.pose.norm * self.pose.norm
-        parts: list[Formula] = []
-        for p, q in product(*self.ends):
-            way = _minus(q, p)
-            parts.append(self._atom(self._dot(way, way) - far))
-        for one, other in (self.ends, self.ends[::-1]):
-            v = _minus(other[1], other[0])
-            vv = self._dot(v, v)
-            for end in one:
-                w = _minus(end, other[0])
-                along = self._dot(w, v)
-                rest = self._times(self._dot(w, w) - far, vv) - self._times(along, along)
-                parts.append(Some((self._atom(-along), self._atom(along - vv), self._atom(rest))))
-        return All((*parts, self._lines(far)))
-
-    def _lines(self, far: Polynomial) -> Formula:
-        (a, b), (c, d) = self.ends
-        u, v, w = _minus(b, a), _minus(d, c), _minus(c, a)
-        uu, uv, vv = self._dot(u, u), self._dot(u, v), self._dot(v, v)
-        uw, vw, ww = self._dot(u, w), self._dot(v, w), self._dot(w, w)
-        gram = self._times(uu, vv) - self._times(uv, uv)
-        s = self._times(uw, vv) - self._times(uv, vw)
-        t = self._times(uv, uw) - self._times(uu, vw)
+        (m, n), (u, v), w = self._scales, self._ways, self._between
+        a, b, c = (*(self._square(leg) for leg in self._placed), self._dot(w, w))
+        x, y, z = self._dot(u, w), self._dot(v, w), self._dot(u, v)
+        far = rational(self._least**2) * self._pose.norm * self._pose.norm
+        both = self._times(m, n)
+        low = self._times(m, c + a - far) - 2 * x  # of the lower end of the first and the upper of the second
+        high = self._times(n, c + b - far) + 2 * y
+        ends = (
+            c - far,
+            low,
+            high,
+            self._times(both, c + a + b - far) + 2 * (self._times(m, y) - self._times(n, x) - z),
+        )
+        feet = (
+            (-y, self._times(n, b), self._times(n, n, c - far, b)),
+            (z - self._times(m, y), self._times(both, b), self._times(m, n, n, b, low)),
+            (x, self._times(m, a), self._times(m, m, c - far, a)),
+            (z + self._times(n, x), self._times(both, a), self._times(n, m, m, a, high)),
+        )
+        parts: list[Formula] = [*self._turned(), *map(self._atom, ends)]
+        for along, whole, square in feet:
+            rest = square - self._times(along, along)
+            parts.append(Some((self._atom(-along), self._atom(along - whole), self._atom(rest))))
+        gram = self._times(m, m, a, n, n, b) - self._times(z, z)
+        s = self._times(n, n, b, x) - self._times(z, y)
+        t = self._times(z, x) - self._times(m, m, a, y)
         # The determinant of all products, by its last row: nearest points are s u and t v away.
-        whole = self._times(gram, ww) - self._times(s, uw) + self._times(t, vw)
-        line = whole - self._times(far, gram)
-        return Some(tuple(self._atom(part) for part in (-s, s - gram, -t, t - gram, line)))
+        line = self._times(gram, c - far) - self._times(s, x) + self._times(t, y)
+        inside = (-s, self._times(m, s) - gram, -t, self._times(n, t) - gram, line)
+        return All((*parts, Some(tuple(map(self._atom, inside)))))
 
-    def are_separated(self, covector: Sequence[Fraction]) -> Formula:
+    def are_separated(self, direction: Direction) -> Formula:
         """Whether all ends of one lie beyond those of the other: then they are apart; if not, this fails too."""
-        square = sum((c * c / g for c, g in zip(covector, self.machine.metric, strict=True)), Fraction(0))
-        room = rational(self.least * rational_root(square, 1)) * self.pose.norm
-        exact = exact_vector((covector[0], covector[1], covector[2]))
-        parts = []
-        for p, q in product(*self.ends):
-            way = sum((c * x for c, x in zip(exact, _minus(q, p), strict=True)), self.pose.constant(0))
-            parts.append(self._atom(way - room))
-        return All(tuple(parts))
-
-
-def _minus(a: Point, b: Point) -> Point:
-    return [x - y for x, y in zip(a, b, strict=True)]
+        (m, n), covector = self._scales, [rational(c) for c in direction.covector]
+        u, v, w = (
+            sum((c * x for c, x in zip(covector, way, strict=True)), self._pose.constant(0))
+            for way in (*self._ways, self._between)
+        )
+        gap = w - rational(self._least * direction.size) * self._pose.norm
+        both = self._times(m, n, gap) - self._times(n, u) + self._times(m, v)
+        parts = (gap, self._times(m, gap) - u, self._times(n, gap) + v, both)
+        return All((*self._turned(), *map(self._atom, parts)))

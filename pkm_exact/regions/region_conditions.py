@@ -193,7 +193,8 @@ def require_modes(machine: RegionMachine, conditions: Conditions, *, always: boo
     for k, leg in enumerate(machine.legs):
         if isinstance(leg.actuator, OwnLength | OnHinge) or conditions.modes[k]:
             continue
-        if always or conditions.needs_modes or ("limits" in conditions.asked and leg.reach is not None):
+        limited = leg.reach is not None or machine.base_cones or machine.platform_cones or machine.leg_distance
+        if always or conditions.needs_modes or ("limits" in conditions.asked and limited):
             raise InputError(
                 f"conditions.working_modes: {leg.name} has two working modes, and what is asked depends on them; give "
                 'one sign for each leg, such as ["+", "+", "-"]'

@@ -61,6 +61,8 @@ class RegionAnswer:
         of a map if all its poses lie in the region and are good.
     counterexample : Counterexample or None
         Then the answer is no.
+    member : point or None
+        A pose that the region has, if that had to be looked for.
     """
 
     question: RegionQuestion
@@ -68,6 +70,7 @@ class RegionAnswer:
     axes: tuple[int, ...]
     word: str
     counterexample: Counterexample | None = None
+    member: Point | None = None
 
     @property
     def is_proved(self) -> bool:
@@ -217,14 +220,13 @@ def answered(
     ready = prepared(machine, question)
     search = CounterexampleSearch(PointJudge(ready.asked, ready.region), is_connected=question.is_connected)
     is_map = question.answer.kind == "map"
-    if question.joints and not is_map:
-        _require_poses(ready)
+    member = _a_pose(ready) if question.joints and not is_map else None
     start = Part(0, (0,) * len(ready.box))
     last = min(HEAD_STEPS, len(ready.axes))
     head = pave(ready.compiled, ready.axes, start, last, most=question.answer.boxes, stop_outside=not is_map)
     if not is_map:
         _look(search, ready, head.word, start)
-    result = RegionAnswer(question, machine, ready.axes, head.word, search.found)
+    result = RegionAnswer(question, machine, ready.axes, head.word, search.found, member)
     if search.found is not None or not head.open_parts or last == len(ready.axes):
         return result
     parts = [part for letter, part in leaves(head.word, ready.axes, len(ready.box)) if letter == UNDECIDED]
@@ -242,15 +244,16 @@ def answered(
     return replace(result, word=spliced(head.word, words), counterexample=search.found)
 
 
-def _require_poses(ready: PreparedQuestion) -> None:
-    """Refuse joint values that no pose is shown to have: all poses of nothing are good."""
+def _a_pose(ready: PreparedQuestion) -> Point:
+    """A pose of the region; joint values that no pose is shown to have are refused: all poses of nothing are good."""
     atoms = {id(atom): atom for atom in atoms_of(ready.region)}
     region = compiled_formula(ready.region, list(atoms.values()), ready.asked.roots, ready.box)
     start = Part(0, (0,) * len(ready.box))
     for last in range(0, len(ready.axes) + 1, 4):
         word = pave(region, ready.axes, start, last, most=ready.question.answer.boxes).word
-        if INSIDE in word:
-            return
+        for letter, part in leaves(word, ready.axes, len(ready.box)):
+            if letter == INSIDE:
+                return points_of(ready.box, ready.axes, part)[0]
         if UNDECIDED not in word:
             break
     raise InputError(

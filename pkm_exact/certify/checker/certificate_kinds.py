@@ -23,6 +23,7 @@ from pkm_exact.certify.checker.platform_document import FORMAT as PLATFORM
 from pkm_exact.certify.checker.platform_document import read_platform
 from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
 from pkm_exact.certify.checker.region_document import read_region
+from pkm_exact.certify.checker.region_document_2 import read_region_2
 from pkm_exact.certify.checker.region_paving_check import check_region
 from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
 from pkm_exact.certify.checker.statics_checks import check_statics
@@ -106,6 +107,7 @@ KINDS: Final = (
     *(CertificateKind(MOBILITY, version, lambda body: check_mobility(read_mobility(body))) for version in (1, 2)),
     CertificateKind(PLATFORM, 1, lambda body: check_platform(read_platform(body))),
     CertificateKind(REGIONS, 1, lambda body: check_region(read_region(body))),
+    CertificateKind(REGIONS, 2, lambda body: check_region(read_region_2(body))),
     CertificateKind(LINKS, 1, lambda body: check_links(read_links(body))),
     CertificateKind(STATICS, 1, lambda body: check_statics(read_statics(body))),
 )

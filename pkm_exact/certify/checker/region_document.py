@@ -34,7 +34,7 @@ SQUARED_COSINES: Final = {
     150: Fraction(3, 4),
     180: Fraction(1),
 }
-_KEYS: Final = (
+KEYS: Final = (
     "format",
     "version",
     "robot",
@@ -50,7 +50,7 @@ _KEYS: Final = (
     "measure",
     "counterexample",
 )
-_ROBOT: Final = (
+ROBOT: Final = (
     "name",
     "unit",
     "source",
@@ -63,6 +63,9 @@ _ROBOT: Final = (
     "position",
 )
 
+LEG: Final = ("name", "base", "platform", "actuator", "reach")
+CHART: Final = ("variables", "box", "position", "quaternion", "turns")
+
 Vector = tuple[Fraction, ...]
 Pair = tuple[Fraction, Fraction]
 
@@ -71,7 +74,8 @@ Pair = tuple[Fraction, Fraction]
 class LegEntry:
     """A leg: its joints, what moves its lower end, and its limits.
 
-    ``axes`` are empty for a leg of own length; d of a slide; u and v of a crank.
+    ``axes`` are empty for a leg of own length; d of a slide; u and v of a crank. Of a rod that slides along an axis
+    what is perpendicular to it counts.
     """
 
     base: Vector
@@ -80,6 +84,7 @@ class LegEntry:
     weight: int
     rod_squared: Fraction
     reach: Pair | None
+    axis: Vector | None = None
 
 
 @dataclass(frozen=True)
@@ -100,8 +105,16 @@ class ShapePart:
 
 
 @dataclass(frozen=True)
+class Tube:
+    """All positions at most the radius from the path through the corners."""
+
+    corners: tuple[Vector, ...]
+    radius: Fraction
+
+
+@dataclass(frozen=True)
 class RegionDocument:
-    """What a region certificate says."""
+    """What a region certificate says; what version 1 has no word for is at the end."""
 
     twist: tuple[int, ...]
     metric: tuple[int, ...]
@@ -125,14 +138,27 @@ class RegionDocument:
     undecided: int
     measure: Pair | None
     points: tuple[Vector, ...]
+    leg_distance: Fraction | None = None
+    path: tuple[Vector, ...] | None = None
+    tube: Tube | None = None
+    joints: tuple[Pair, ...] = ()
+    directions: tuple[Vector | None, ...] = ()
+    member: Vector | None = None
 
 
-def read_region(body: dict[str, Any]) -> RegionDocument:
-    """The content of a region certificate, or a refusal if it has not the shape of one."""
-    values = entries(body, "certificate", _KEYS)
+def read_region(body: dict[str, Any], first: tuple[str, ...] = ()) -> RegionDocument:
+    """The content of a region certificate of version 1, or a refusal if it has not the shape of one.
+
+    Parameters
+    ----------
+    body : dict
+    first : tuple of str
+        Variables of version 2 that come before those of version 1.
+    """
+    values = entries(body, "certificate", KEYS)
     _, _, robot, chart, shape, conditions, modes, claim, axes, paving, inside, undecided, measure, points = values
     motion, metric, legs, forms, base_cones, platform_cones, position = _robot(robot)
-    variables, box, place, quaternion, turns = _chart(chart, motion)
+    variables, box, place, quaternion, turns = _chart(chart, motion, first)
     asked = items(conditions, "conditions", None, lambda value, where: choice(value, where, CONDITIONS))
     if list(asked) != [name for name in CONDITIONS if name in asked] or not asked:
         raise malformed("conditions: none, or not in their order")
@@ -167,7 +193,7 @@ def read_region(body: dict[str, Any]) -> RegionDocument:
         paving,
         count(inside, "inside"),
         count(undecided, "undecided"),
-        None if measure is None else _pair(measure, "measure"),
+        None if measure is None else read_pair(measure, "measure"),
         items(points, "counterexample", None, lambda value, where: items(value, where, len(variables), rational)),
     )
 
@@ -178,11 +204,11 @@ def _limited(found: tuple[Any, ...], where: str, most: int) -> Any:
     return found
 
 
-def _vector(value: object, where: str) -> Vector:
+def read_vector(value: object, where: str) -> Vector:
     return items(value, where, 3, rational)
 
 
-def _pair(value: object, where: str) -> Pair:
+def read_pair(value: object, where: str) -> Pair:
     low, high = items(value, where, 2, rational)
     if low > high:
         raise malformed(f"{where}: ends out of order")
@@ -191,7 +217,7 @@ def _pair(value: object, where: str) -> Pair:
 
 def _robot(value: object) -> tuple[Any, ...]:
     name, unit, source, motion, metric, legs, forms, base_cones, platform_cones, position = entries(
-        value, "robot", _ROBOT
+        value, "robot", ROBOT
     )
     for entry, key in ((name, "name"), (unit, "unit"), (source, "source")):
         text(entry, f"robot.{key}")
@@ -209,7 +235,7 @@ def _robot(value: object) -> tuple[Any, ...]:
     ]
     if any(len(entry) not in (0, len(found)) for entry in cones):
         raise malformed("robot: cones are not as many as legs")
-    pairs = items(position, "robot.position", None, _pair)
+    pairs = items(position, "robot.position", None, read_pair)
     if len(pairs) > 3:
         raise malformed("robot.position: more than 3")
     exact = tuple(map(int, numbers))
@@ -232,19 +258,19 @@ def _require_cranks(legs: Sequence[LegEntry], metric: Sequence[int]) -> None:
 
 
 def _leg(value: object, where: str) -> LegEntry:
-    name, base, platform, actuator, reach = entries(value, where, ("name", "base", "platform", "actuator", "reach"))
+    name, base, platform, actuator, reach = entries(value, where, LEG)
     text(name, f"{where}.name")
-    joints = _vector(base, f"{where}.base"), _vector(platform, f"{where}.platform")
-    limits = None if reach is None else _pair(reach, f"{where}.reach")
+    joints = read_vector(base, f"{where}.base"), read_vector(platform, f"{where}.platform")
+    limits = None if reach is None else read_pair(reach, f"{where}.reach")
     kind = actuator.get("type") if isinstance(actuator, dict) else None
     inside = f"{where}.actuator"
     if kind == "slide":
         _, direction, rod = entries(actuator, inside, ("type", "direction", "rod_squared"))
-        axes: tuple[Vector, ...] = (_vector(direction, f"{inside}.direction"),)
+        axes: tuple[Vector, ...] = (read_vector(direction, f"{inside}.direction"),)
         return LegEntry(*joints, axes, 1, positive(rod, f"{inside}.rod_squared"), limits)
     if kind == "crank":
         _, first, second, weight, rod = entries(actuator, inside, ("type", "at_0", "at_90", "weight", "rod_squared"))
-        axes = _vector(first, f"{inside}.at_0"), _vector(second, f"{inside}.at_90")
+        axes = read_vector(first, f"{inside}.at_0"), read_vector(second, f"{inside}.at_90")
         share = positive(weight, f"{inside}.weight")
         if share.denominator != 1 or (limits is not None and (share != 1 or any(end % 90 != 0 for end in limits))):
             raise malformed(
@@ -263,7 +289,7 @@ def _cone(value: object, where: str) -> Cone:
     angle = rational(degrees, f"{where}.degrees")
     if angle not in SQUARED_COSINES:
         raise malformed(f"{where}.degrees: its cosine has no rational square")
-    vector = _vector(axis, f"{where}.axis")
+    vector = read_vector(axis, f"{where}.axis")
     if not any(vector):
         raise malformed(f"{where}.axis: is 0")
     return Cone(vector, int(angle))
@@ -273,26 +299,26 @@ def _shape_part(value: object, where: str) -> ShapePart:
     constant, linear, weights = entries(value, where, ("constant", "linear", "weights"))
     return ShapePart(
         rational(constant, f"{where}.constant"),
-        _vector(linear, f"{where}.linear"),
-        _vector(weights, f"{where}.weights"),
+        read_vector(linear, f"{where}.linear"),
+        read_vector(weights, f"{where}.weights"),
     )
 
 
-def _chart(value: object, motion: str) -> tuple[Any, ...]:
-    names, box, position, quaternion, turns = entries(
-        value, "chart", ("variables", "box", "position", "quaternion", "turns")
-    )
-    variables = items(names, "chart.variables", None, lambda entry, where: choice(entry, where, NAMES))
-    if list(variables) != [name for name in NAMES if name in variables] or not variables:
+def _chart(value: object, motion: str, first: tuple[str, ...]) -> tuple[Any, ...]:
+    names, box, position, quaternion, turns = entries(value, "chart", CHART)
+    known = (*first, *NAMES)
+    variables = items(names, "chart.variables", None, lambda entry, where: choice(entry, where, known))
+    if list(variables) != [name for name in known if name in variables] or not variables:
         raise malformed("chart.variables: none, or not in their order")
-    pairs = items(box, "chart.box", len(variables), _pair)
+    pairs = items(box, "chart.box", len(variables), read_pair)
     if any(low == high for low, high in pairs):
         raise malformed("chart.box: an interval is a point")
     place = items(position, "chart.position", 3, lambda entry, where: _fixed(entry, where, variables))
     fixed = None if quaternion is None else items(quaternion, "chart.quaternion", 4, rational)
     angles = items(turns, "chart.turns", 3 if fixed is None else 0, lambda entry, where: _turn(entry, where, variables))
     used = [value for value in place if isinstance(value, str)] + [turn[0] for turn in angles if len(turn) == 1]
-    expected = [name for name, value in zip(NAMES, place, strict=False) if isinstance(value, str)]
+    used = [*first, *used]
+    expected = [*first, *(name for name, value in zip(NAMES, place, strict=False) if isinstance(value, str))]
     expected += [name for name, turn in zip(NAMES[3:], angles, strict=False) if len(turn) == 1]
     if used != expected or tuple(used) != variables:
         raise malformed("chart: the variables are not those of position and turns")

@@ -3,98 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from flint import Ordering, fmpq, fmpq_mpoly_ctx
-
-from pkm_exact.certify.checker.budget import charge, polynomials_cost
 from pkm_exact.certify.checker.region_document import SQUARED_COSINES, Cone, LegEntry, RegionDocument
+from pkm_exact.certify.checker.region_pairs import legs_apart
+from pkm_exact.certify.checker.region_ring import Condition, Conditions, PlacedLeg, RegionRing, Test
 from pkm_exact.certify.checker.verdict import malformed, rejected
-
-
-@dataclass(frozen=True, eq=False)
-class Test:
-    """A polynomial and what its sign must be: "+" positive, "0+" not negative, "/" not 0."""
-
-    polynomial: Any
-    sign: str
-
-
-Condition = Any
-"""A ``Test``, or ("and", conditions) or ("or", conditions)."""
-
-
-@dataclass(frozen=True, eq=False)
-class Conditions:
-    """What is asked; the parts of the shape, not negative in the region; the D_i; the determinant."""
-
-    asked: Condition
-    shape: tuple[Test, ...]
-    roots: tuple[Any, ...]
-    determinant: Any
-
-
-def number_words(*numbers: Fraction | int) -> int:
-    """The words of 64 bits of the longest numerator or denominator.
-
-    >>> number_words(Fraction(1, 3)), number_words(1, Fraction(1, 1 << 64))
-    (1, 2)
-    """
-    sizes = (max(x.numerator.bit_length(), x.denominator.bit_length()) for x in numbers)
-    return max(sizes, default=0) // 64 + 1
-
-
-def polynomial_words(polynomial: Any) -> int:
-    """The same of the coefficients of a polynomial."""
-    sizes = (max(int(c.p).bit_length(), int(c.q).bit_length()) for c in polynomial.coeffs())
-    return max(sizes, default=0) // 64 + 1
-
-
-def size_factor(left: int, right: int) -> int:
-    """By how much more numbers of so many words cost than short ones: products and common divisors, word by word.
-
-    >>> size_factor(2, 3), size_factor(64, 64)
-    (1, 256)
-    """
-    return max(1, left * right // 16)
-
-
-class _Algebra:
-    """Polynomials of the variables of a chart and of y_1, y_2, ..: products are charged before they are made."""
-
-    def __init__(self, document: RegionDocument) -> None:
-        names = [*document.variables, *(f"y{k}" for k, leg in enumerate(document.legs) if leg.axes)]
-        self.ring = fmpq_mpoly_ctx.get(tuple(names), Ordering.lex)
-        self.named = dict(zip(names, self.ring.gens(), strict=True))
-        self.g = document.metric
-
-    def number(self, value: Fraction | int) -> Any:
-        exact = Fraction(value)
-        return self.ring.constant(fmpq(exact.numerator, exact.denominator))
-
-    def entry(self, value: Fraction | str) -> Any:
-        return self.named[value] if isinstance(value, str) else self.number(value)
-
-    def times(self, left: Any, right: Any) -> Any:
-        cost = polynomials_cost(max(len(left), len(right), 1), 8 * min(len(left), len(right), 64) + 1)
-        charge(cost * size_factor(polynomial_words(left), polynomial_words(right)))
-        return left * right
-
-    def dot(self, left: Sequence[Any], right: Sequence[Any]) -> Any:
-        terms = [g * self.times(a, b) for g, a, b in zip(self.g, left, right, strict=True)]
-        return terms[0] + terms[1] + terms[2]
 
 
 class RegionEquations:
     """The polynomials of a certificate."""
 
     def __init__(self, document: RegionDocument) -> None:
-        self._document, self._ring = document, _Algebra(document)
-        self.norm, self._rotation = self._pose()
+        self._document, self._ring = document, RegionRing(document)
+        self.norm, self.rotation = self._pose()
         ring = self._ring
-        self._center = [ring.times(self.norm, ring.entry(value)) for value in document.place]
+        self.center = [ring.times(self.norm, ring.entry(value)) for value in document.place]
+        if document.path is not None:
+            self._move_along(document.path)
 
     def conditions(self) -> Conditions:
         """All of them.
@@ -114,11 +42,12 @@ class RegionEquations:
                 parts += self._reach(entry, leg)
             for cones, side in ((document.base_cones, "base"), (document.platform_cones, "platform")):
                 parts += [self._cone(cone, leg, side) for cone, leg in zip(cones, legs, strict=False)]
-            for c, (low, high) in zip(self._center, document.position, strict=False):
+            for c, (low, high) in zip(self.center, document.position, strict=False):
                 parts += [
                     Test(c - ring.number(low) * self.norm, "0+"),
                     Test(ring.number(high) * self.norm - c, "0+"),
                 ]
+            parts += legs_apart(document, ring, self.norm, self.rotation, legs)
         if "no_type_1" in document.conditions:
             parts += [Test(leg.value[0] if leg.root is None else leg.root, "+") for leg in legs]
         determinant = None
@@ -126,7 +55,38 @@ class RegionEquations:
             determinant = self._determinant(legs)
             parts.append(Test(determinant, "/"))
         shape = tuple(Test(self._shape(part), "0+") for part in document.shape)
-        return Conditions(("and", parts), shape, tuple(x.root for x in legs if x.root is not None), determinant)
+        region: list[Condition] = [*shape, *self._tube()]
+        for entry, leg, pair in zip(document.legs, legs, document.joints, strict=False):
+            region += [] if leg.root is None else [Test(leg.root, "0+")]
+            region += self._reach(replace(entry, reach=pair), leg)
+        roots = tuple(x.root for x in legs if x.root is not None)
+        return Conditions(("and", parts), ("and", region), shape, roots, determinant)
+
+    def _move_along(self, path: Sequence[Sequence[Fraction]]) -> None:
+        """Positions on a curve: all times its denominator."""
+        ring = self._ring
+        weight, *places = (ring.powers("along", coefficients) for coefficients in path)
+        self.center = [ring.times(self.norm, place) for place in places]
+        self.norm = ring.times(self.norm, weight)
+        self.rotation = [[ring.times(weight, entry) for entry in row] for row in self.rotation]
+
+    def _tube(self) -> list[Condition]:
+        """That the position is near a corner, or near the piece between two."""
+        tube, ring, n = self._document.tube, self._ring, self.norm
+        if tube is None:
+            return []
+        offsets = [
+            [c - n * ring.number(x) for c, x in zip(self.center, corner, strict=True)] for corner in tube.corners
+        ]
+        near = [ring.number(tube.radius**2) * ring.times(n, n) - ring.dot(o, o) for o in offsets]
+        found: list[Condition] = [Test(ball, "0+") for ball in near]
+        for a, b, o, ball in zip(tube.corners, tube.corners[1:], offsets, near, strict=False):
+            way = [y - x for x, y in zip(a, b, strict=True)]
+            length = ring.number(sum(g * x * x for g, x in zip(self._document.metric, way, strict=True)))
+            along = ring.dot([ring.number(x) for x in way], o)
+            inside = (along, length * n - along, ball * length + ring.times(along, along))
+            found.append(("and", [Test(part, "0+") for part in inside]))
+        return [("or", found)]
 
     def _pose(self) -> tuple[Any, list[list[Any]]]:
         document, ring = self._document, self._ring
@@ -156,15 +116,20 @@ class RegionEquations:
 
     def _turned(self, vector: Sequence[Fraction]) -> list[Any]:
         exact, zero = [self._ring.number(b) for b in vector], self._ring.number(0)
-        return [sum((entry * b for entry, b in zip(row, exact, strict=True)), zero) for row in self._rotation]
+        return [sum((entry * b for entry, b in zip(row, exact, strict=True)), zero) for row in self.rotation]
 
-    def _leg(self, leg: LegEntry, k: int) -> _Leg:
+    def _leg(self, leg: LegEntry, k: int) -> PlacedLeg:
         ring, n = self._ring, self.norm
         arm = self._turned(leg.platform)
-        e = [c + b - n * ring.number(a) for c, b, a in zip(self._center, arm, leg.base, strict=True)]
+        e = [c + b - n * ring.number(a) for c, b, a in zip(self.center, arm, leg.base, strict=True)]
+        if leg.axis is not None:
+            axis = [ring.number(x) for x in leg.axis]
+            along = sum((g * x * x for g, x in zip(self._document.metric, leg.axis, strict=True)), Fraction(0))
+            share = ring.times(ring.number(1 / along), ring.dot(axis, e))
+            e = [x - ring.times(a, share) for a, x in zip(axis, e, strict=True)]
         square = ring.dot(e, e)
         if not leg.axes:
-            return _Leg(arm, e, (square, ring.times(n, n)), None, "")
+            return PlacedLeg(arm, e, (square, ring.times(n, n)), None, "")
         mode, y = self._document.modes[k], ring.named[f"y{k}"]
         self._require_mode(leg, mode)
         rod_squared = ring.number(leg.rod_squared) * ring.times(n, n)
@@ -174,7 +139,7 @@ class RegionEquations:
             way = p + mode * y
             rod = [ring.times(a, x) - ring.times(way, d) for x, d in zip(e, axes[0], strict=True)]
             root = ring.times(p, p) - ring.times(a, square - rod_squared)
-            return _Leg(arm, rod, (way, ring.times(a, n)), root, f"y{k}")
+            return PlacedLeg(arm, rod, (way, ring.times(a, n)), root, f"y{k}")
         share = ring.number(Fraction(1, leg.weight))
         a, p = (2 * ring.times(n, ring.dot(axis, e)) for axis in axes)
         h = square + ring.times(ring.dot(axes[0], axes[0]), ring.times(n, n)) - rod_squared
@@ -185,7 +150,7 @@ class RegionEquations:
             ring.times(m, x) - ring.times(n, ring.times(cosine, u) + ring.times(sine, v))
             for x, u, v in zip(e, *axes, strict=True)
         ]
-        return _Leg(arm, rod, (cosine, sine), share * (m - ring.times(h, h)), f"y{k}")
+        return PlacedLeg(arm, rod, (cosine, sine), share * (m - ring.times(h, h)), f"y{k}", m)
 
     def _require_mode(self, leg: LegEntry, mode: int) -> None:
         asked = self._document.conditions
@@ -193,7 +158,7 @@ class RegionEquations:
         if not mode and ("no_type_2" in asked or ("limits" in asked and (leg.reach is not None or cones))):
             raise malformed("modes: a working mode is needed and not named")
 
-    def _reach(self, entry: LegEntry, leg: _Leg) -> list[Condition]:
+    def _reach(self, entry: LegEntry, leg: PlacedLeg) -> list[Condition]:
         if entry.reach is None:
             return []
         low, high = entry.reach
@@ -207,7 +172,7 @@ class RegionEquations:
             Test(self._ring.number(high) * unit - value, "0+"),
         ]
 
-    def _crank_range(self, leg: _Leg, low: Fraction, high: Fraction) -> Condition:
+    def _crank_range(self, leg: PlacedLeg, low: Fraction, high: Fraction) -> Condition:
         if high - low >= 360:
             return ("and", [])
         cosine, sine = leg.value
@@ -217,39 +182,21 @@ class RegionEquations:
             parts.append(Test(c1 * cosine + s1 * sine, "0+"))
         return ("or" if high - low > 180 else "and", parts)
 
-    def _cone(self, cone: Cone, leg: _Leg, side: str) -> Condition:
+    def _cone(self, cone: Cone, leg: PlacedLeg, side: str) -> Condition:
         ring = self._ring
         axis = [ring.number(x) for x in cone.axis] if side == "base" else self._turned(cone.axis)
         along = ring.dot(axis, leg.rod) if side == "base" else -ring.dot(axis, leg.rod)
-        size = ring.times(ring.dot(axis, axis), self._reduced(ring.dot(leg.rod, leg.rod), leg))
+        size = ring.times(ring.dot(axis, axis), ring.reduced(ring.dot(leg.rod, leg.rod), leg))
         if size.is_zero():
             raise rejected("cones: a leg has no direction all over the chart")
-        difference = self._reduced(ring.times(along, along), leg) - ring.number(SQUARED_COSINES[cone.degrees]) * size
+        difference = ring.reduced(ring.times(along, along), leg) - ring.number(SQUARED_COSINES[cone.degrees]) * size
         if cone.degrees <= 90:
             return ("and", [Test(along, "0+"), Test(difference, "0+")])
         return ("or", [Test(along, "0+"), Test(-difference, "0+")])
 
-    def _reduced(self, polynomial: Any, leg: _Leg) -> Any:
-        """With y^2 replaced by D."""
-        if leg.root is None:
-            return polynomial
-        place = list(self._ring.named).index(leg.name)
-        parts: dict[int, dict[tuple[int, ...], Any]] = {}
-        for exponents, coefficient in polynomial.to_dict().items():
-            power, odd = divmod(int(exponents[place]), 2)
-            left = tuple(odd if k == place else int(e) for k, e in enumerate(exponents))
-            parts.setdefault(power, {})[left] = coefficient
-        total = self._ring.number(0)
-        for power, terms in parts.items():
-            part = self._ring.ring.from_dict(terms)
-            for _ in range(power):
-                part = self._ring.times(part, leg.root)
-            total += part
-        return total
-
     def _form_value(self, form: Sequence[Fraction]) -> Any:
         """N^2 times the value of a form."""
-        ring, n, c, r = self._ring, self.norm, self._center, self._rotation
+        ring, n, c, r = self._ring, self.norm, self.center, self.rotation
         total = ring.number(form[0]) * ring.dot(c, c) + ring.number(form[16]) * ring.times(n, n)
         for i in range(3):
             weighted = (Fraction(g, self._document.metric[i]) for g in self._document.metric)
@@ -261,7 +208,7 @@ class RegionEquations:
 
     def _wrench(self, form: Sequence[Fraction]) -> list[Any]:
         """N^2 times the wrench of a form in rational coordinates."""
-        ring, n, c, r, g = self._ring, self.norm, self._center, self._rotation, self._document.metric
+        ring, n, c, r, g = self._ring, self.norm, self.center, self.rotation, self._document.metric
         moved = [
             sum((r[i][j] * ring.number(g[i] * form[1 + j] / g[j]) for j in range(3)), ring.number(0)) for i in range(3)
         ]
@@ -279,7 +226,7 @@ class RegionEquations:
             moment.append(total)
         return [*force, *moment]
 
-    def _determinant(self, legs: Sequence[_Leg]) -> Any:
+    def _determinant(self, legs: Sequence[PlacedLeg]) -> Any:
         ring, g, twist = self._ring, self._document.metric, self._document.twist
         rows = []
         for leg in legs:
@@ -317,18 +264,9 @@ class RegionEquations:
     def _shape(self, part: Any) -> Any:
         ring, n = self._ring, self.norm
         total = ring.number(part.constant) * ring.times(n, n)
-        for c, slope, weight in zip(self._center, part.linear, part.weights, strict=True):
+        for c, slope, weight in zip(self.center, part.linear, part.weights, strict=True):
             total += ring.number(slope) * ring.times(n, c) - ring.number(weight) * ring.times(c, c)
         return total
-
-
-@dataclass(frozen=True, eq=False)
-class _Leg:
-    arm: list[Any]
-    rod: list[Any]
-    value: tuple[Any, Any]
-    root: Any
-    name: str
 
 
 def _subsets(size: int, count: int) -> list[tuple[int, ...]]:
@@ -341,7 +279,7 @@ def _right_angle(degrees: Fraction) -> tuple[int, int]:
     return ((1, 0), (0, 1), (-1, 0), (0, -1))[int(degrees // 90) % 4]
 
 
-def _rotation_of(e: Sequence[Fraction], g: Sequence[int], ring: _Algebra) -> list[list[Any]]:
+def _rotation_of(e: Sequence[Fraction], g: Sequence[int], ring: RegionRing) -> list[list[Any]]:
     """The rotation matrix of a quaternion in the metric."""
     head = g[0] * g[1] * g[2] * e[0] ** 2
     squares = [g[k] * e[1 + k] ** 2 for k in range(3)]
