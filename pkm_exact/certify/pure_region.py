@@ -463,7 +463,7 @@ def times(a: Polynomial, b: Polynomial) -> Polynomial:
     return {key: value for key, value in total.items() if value}
 
 
-class Test(NamedTuple):
+class Signed(NamedTuple):
     """A polynomial and its sign: positive "+", not negative "0+", not zero "/"."""
 
     polynomial: Polynomial
@@ -491,7 +491,7 @@ class Conditions(NamedTuple):
 
     asked: Any
     region: Any
-    shape: list[Test]
+    shape: list[Signed]
     roots: list[Polynomial]
     determinant: Polynomial | None
 
@@ -582,7 +582,7 @@ class Equations:
                 not self.value_of(form), "chart: its poses are not all among those that the joints of the robot allow"
             )
         legs = [Placed(self, k) for k in range(len(region.robot.legs))]
-        parts: list[Any] = [Test(leg.root, "0+") for leg in legs if leg.root is not None]
+        parts: list[Any] = [Signed(leg.root, "0+") for leg in legs if leg.root is not None]
         if "limits" in region.asked:
             for leg in legs:
                 parts += leg.limits()
@@ -591,16 +591,16 @@ class Equations:
                     leg.cone(axis, angle, platform=bool(side)) for leg, (axis, angle) in zip(legs, cones, strict=False)
                 ]
             for c, (low, high) in zip(self.center, region.robot.position, strict=False):
-                parts += [Test(plus((1, c), (-low, self.norm)), "0+"), Test(plus((high, self.norm), (-1, c)), "0+")]
+                parts += [Signed(plus((1, c), (-low, self.norm)), "0+"), Signed(plus((high, self.norm), (-1, c)), "0+")]
             for (i, j), way in zip(pairs_apart(region), region.directions, strict=True):
                 parts.append(Pair(self, legs[i], legs[j]).condition(way))
         if "no_type_1" in region.asked:
-            parts += [Test(leg.square if leg.root is None else leg.root, "+") for leg in legs]
+            parts += [Signed(leg.square if leg.root is None else leg.root, "+") for leg in legs]
         determinant = None
         if "no_type_2" in region.asked:
             determinant = self.determinant(legs)
-            parts.append(Test(determinant, "/"))
-        shape = [Test(self.shape(*part), "0+") for part in region.shape]
+            parts.append(Signed(determinant, "/"))
+        shape = [Signed(self.shape(*part), "0+") for part in region.shape]
         inside: list[Any] = [*shape, *self.tube()]
         for leg, pair in zip(legs, region.joints, strict=False):
             inside += leg.within(pair)
@@ -617,13 +617,13 @@ class Equations:
         ]
         for number, o in enumerate(offsets):
             ball = plus((region.radius**2, self.square_norm), (-1, self.inner(o, o)))
-            parts.append(Test(ball, "0+"))
+            parts.append(Signed(ball, "0+"))
             if number + 1 < len(offsets):
                 way = [b - a for a, b in pairwise_of(region.corners, number)]
                 square = pure.scalar_product(self.g, way, way)  # type: ignore[arg-type]
                 along = plus(*((weight * x, p) for weight, x, p in zip(self.g, way, o, strict=True)))
                 rest = plus((square, ball), (1, times(along, along)))
-                sides = Test(along, "0+"), Test(plus((square, self.norm), (-1, along)), "0+"), Test(rest, "0+")
+                sides = Signed(along, "0+"), Signed(plus((square, self.norm), (-1, along)), "0+"), Signed(rest, "0+")
                 parts.append(("and", sides))
         return [("or", parts)] if parts else []
 
@@ -745,7 +745,7 @@ class Placed:
 
     def within(self, ends: Numbers) -> list[Any]:
         """That it reaches, and that its length, position or angle is between two ends."""
-        reached = [] if self.root is None else [Test(self.root, "0+")]
+        reached = [] if self.root is None else [Signed(self.root, "0+")]
         return [*reached, *self.range(ends)]
 
     def range(self, ends: Numbers) -> list[Any]:
@@ -756,15 +756,15 @@ class Placed:
             return [self.between(low, high)]
         if not self.leg.axes:
             low, high = low * low, high * high
-        return [Test(plus((1, first), (-low, second)), "0+"), Test(plus((high, second), (-1, first)), "0+")]
+        return [Signed(plus((1, first), (-low, second)), "0+"), Signed(plus((high, second), (-1, first)), "0+")]
 
     def between(self, low: Fraction, high: Fraction) -> Any:
         """Whether the crank's angle is in a range of right angles."""
         cosine, sine = self.value
         (c1, s1), (c2, s2) = ([(1, 0), (0, 1), (-1, 0), (0, -1)][int(angle / 90) % 4] for angle in (low, high))
-        parts = [Test(plus((c1, sine), (-s1, cosine)), "0+"), Test(plus((s2, cosine), (-c2, sine)), "0+")]
+        parts = [Signed(plus((c1, sine), (-s1, cosine)), "0+"), Signed(plus((s2, cosine), (-c2, sine)), "0+")]
         if low == high:
-            parts.append(Test(plus((c1, cosine), (s1, sine)), "0+"))
+            parts.append(Signed(plus((c1, cosine), (s1, sine)), "0+"))
         if high - low >= 360:
             return ("and", [])
         return ("or", parts) if high - low > 180 else ("and", parts)
@@ -780,8 +780,8 @@ class Placed:
         sizes = times(eq.inner(direction, direction), squared)
         rest = plus((1, squares), (-Fraction(COSINES[angle]), sizes))
         if angle > 90:
-            return ("or", [Test(along, "0+"), Test(plus((-1, rest)), "0+")])
-        return ("and", [Test(along, "0+"), Test(rest, "0+")])
+            return ("or", [Signed(along, "0+"), Signed(plus((-1, rest)), "0+")])
+        return ("and", [Signed(along, "0+"), Signed(rest, "0+")])
 
     def without_squares(self, polynomial: Polynomial) -> Polynomial:
         """With y^2 = D."""
@@ -845,9 +845,9 @@ class Pair:
         exact = Later(self.apart)
         return exact if direction is None else ("or", (self.separated(direction), exact))
 
-    def turned(self) -> list[Test]:
+    def turned(self) -> list[Signed]:
         """That cranks have an angle."""
-        return [Test(leg.crank, "+") for leg in self.legs if leg.crank is not None]
+        return [Signed(leg.crank, "+") for leg in self.legs if leg.crank is not None]
 
     def separated(self, direction: Numbers) -> Any:
         """All ends of the second are beyond those of the first."""
@@ -856,7 +856,7 @@ class Pair:
         h = plus((1, w), (-self.least * e, self.eq.norm))
         high, low = plus((1, self.mul(self.m, h)), (-1, u)), plus((1, self.mul(self.n, h)), (1, v))
         both = plus((1, self.mul(self.m, self.n, h)), (-1, self.mul(self.n, u)), (1, self.mul(self.m, v)))
-        return ("and", [*self.turned(), *(Test(x, "0+") for x in (h, high, low, both))])
+        return ("and", [*self.turned(), *(Signed(x, "0+") for x in (h, high, low, both))])
 
     def apart(self) -> Any:
         """Ends, feet and lines."""
@@ -867,7 +867,7 @@ class Pair:
         q = plus((1, mul(m, plus((1, p), (1, a)))), (-2, x))
         s = plus((1, mul(n, plus((1, p), (1, b)))), (2, y))
         lower = plus((1, mul(m, n, plus((1, p), (1, a), (1, b)))), (2, mul(m, y)), (-2, mul(n, x)), (-2, z))
-        parts: list[Any] = [*self.turned(), *(Test(value, "0+") for value in (p, q, s, lower))]
+        parts: list[Any] = [*self.turned(), *(Signed(value, "0+") for value in (p, q, s, lower))]
         feet = (
             (plus((-1, y)), mul(n, b), mul(n, n, p, b)),
             (plus((1, z), (-1, mul(m, y))), mul(m, n, b), mul(m, n, n, b, q)),
@@ -876,7 +876,7 @@ class Pair:
         )
         for along, whole, square in feet:
             sides = plus((-1, along)), plus((1, along), (-1, whole)), plus((1, square), (-1, mul(along, along)))
-            parts.append(("or", [Test(side, "0+") for side in sides]))
+            parts.append(("or", [Signed(side, "0+") for side in sides]))
         gram = plus((1, mul(m, m, n, n, a, b)), (-1, mul(z, z)))
         first = plus((1, mul(n, n, b, x)), (-1, mul(z, y)))
         second = plus((1, mul(z, x)), (-1, mul(m, m, a, y)))
@@ -888,7 +888,7 @@ class Pair:
             plus((1, mul(n, second)), (-1, gram)),
             line,
         )
-        return ("and", [*parts, ("or", [Test(side, "0+") for side in sides_])])
+        return ("and", [*parts, ("or", [Signed(side, "0+") for side in sides_])])
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -1096,8 +1096,8 @@ def is_in_region(region: Region, found: Conditions, point: Numbers) -> bool:
 
 def opposite(condition: Any) -> Any:
     """That a condition fails whose tests are all that something is not negative."""
-    if isinstance(condition, Test):
-        return Test(plus((-1, condition.polynomial)), "+")
+    if isinstance(condition, Signed):
+        return Signed(plus((-1, condition.polynomial)), "+")
     return ("and" if condition[0] == "or" else "or", [opposite(part) for part in condition[1]])
 
 
@@ -1125,7 +1125,7 @@ class Part:
                 self.tables[name] = self.above.split[name][self.side]
         return self.tables[name]
 
-    def range(self, test: Test) -> tuple[Any, Any]:
+    def range(self, test: Signed) -> tuple[Any, Any]:
         """The least and the greatest coefficient."""
         name = id(test.polynomial)
         if name not in self.known:
@@ -1173,18 +1173,18 @@ def followed(region: Region, condition: Any, roots: Sequence[Polynomial]) -> dic
     return shares
 
 
-def holds(condition: Any, ranges: Callable[[Test], tuple[Any, Any]]) -> bool:
+def holds(condition: Any, ranges: Callable[[Signed], tuple[Any, Any]]) -> bool:
     """Whether a condition holds all over a part."""
-    if isinstance(condition, Test):
+    if isinstance(condition, Signed):
         low, high = ranges(condition)
         return bool(low > 0 or (condition.sign == "0+" and low >= 0) or (condition.sign == "/" and high < 0))
     results = (holds(part, ranges) for part in condition[1])
     return all(results) if condition[0] == "and" else any(results)
 
 
-def fails(condition: Any, ranges: Callable[[Test], tuple[Any, Any]]) -> bool:
+def fails(condition: Any, ranges: Callable[[Signed], tuple[Any, Any]]) -> bool:
     """Whether a condition holds nowhere in a part."""
-    if isinstance(condition, Test):
+    if isinstance(condition, Signed):
         if condition.sign == "/":
             return False
         _, high = ranges(condition)
@@ -1212,7 +1212,7 @@ def refuted(region: Region, found: Conditions) -> str:
 
 def is_kept(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bool:
     """Whether a condition is proved to hold at a pose whose tests are all that something is not negative."""
-    if isinstance(condition, Test):
+    if isinstance(condition, Signed):
         sign = sign_at(condition.polynomial, point, roots)
         return sign is not None and sign >= 0
     results = (is_kept(part, point, roots) for part in condition[1])
@@ -1221,7 +1221,7 @@ def is_kept(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bool
 
 def is_broken(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bool:
     """Whether a condition is proved to fail at a pose."""
-    if isinstance(condition, Test):
+    if isinstance(condition, Signed):
         sign = sign_at(condition.polynomial, point, roots)
         if sign is None:
             return False

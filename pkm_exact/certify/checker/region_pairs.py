@@ -8,7 +8,7 @@ from typing import Any
 
 from pkm_exact.certify.checker.region_document import LegEntry, RegionDocument
 from pkm_exact.certify.checker.region_document_2 import compared_pairs
-from pkm_exact.certify.checker.region_ring import Condition, Deferred, PlacedLeg, RegionRing, Test
+from pkm_exact.certify.checker.region_ring import Condition, Deferred, PlacedLeg, RegionRing, Signed
 
 
 def legs_apart(
@@ -70,7 +70,7 @@ class _Pair:
 
     def _turned(self) -> list[Condition]:
         """That no crank turns freely."""
-        return [Test(x.scale, "+") for x in (self._one, self._other) if x.leg.scale is not None]
+        return [Signed(x.scale, "+") for x in (self._one, self._other) if x.leg.scale is not None]
 
     def beyond_each_other(self, direction: Sequence[Fraction]) -> Condition:
         """All ends of one leg are beyond those of the other along a direction."""
@@ -83,7 +83,7 @@ class _Pair:
         h = w - ring.number(self._least * direction[3]) * self._norm
         last = self._times(m, n, h) - self._times(n, u) + self._times(m, v)
         parts = (h, self._times(m, h) - u, self._times(n, h) + v, last)
-        return ("and", [*self._turned(), *(Test(part, "0+") for part in parts)])
+        return ("and", [*self._turned(), *(Signed(part, "0+") for part in parts)])
 
     def apart(self) -> Condition:
         """Ends from ends, ends from what is between, and lines from each other."""
@@ -95,8 +95,8 @@ class _Pair:
         p = c - f
         q, s = times(m, p + a) - 2 * x, times(n, p + b) + 2 * y
         mn = times(m, n)
-        parts: list[Condition] = [Test(part, "0+") for part in (p, q, s)]
-        parts.append(Test(times(mn, p + a + b) + 2 * (times(m, y) - times(n, x) - z), "0+"))
+        parts: list[Condition] = [Signed(part, "0+") for part in (p, q, s)]
+        parts.append(Signed(times(mn, p + a + b) + 2 * (times(m, y) - times(n, x) - z), "0+"))
         for along, whole, square in (
             (-y, times(n, b), times(n, n, p, b)),
             (z - times(m, y), times(mn, b), times(m, n, n, b, q)),
@@ -104,10 +104,10 @@ class _Pair:
             (z + times(n, x), times(mn, a), times(n, m, m, a, s)),
         ):
             either = (-along, along - whole, square - times(along, along))
-            parts.append(("or", [Test(part, "0+") for part in either]))
+            parts.append(("or", [Signed(part, "0+") for part in either]))
         gram = times(m, m, n, n, a, b) - times(z, z)
         first, second = times(n, n, b, x) - times(z, y), times(z, x) - times(m, m, a, y)
         line = times(p, gram) - times(first, x) + times(second, y)
         nearest = (-first, times(m, first) - gram, -second, times(n, second) - gram, line)
-        parts.append(("or", [Test(part, "0+") for part in nearest]))
+        parts.append(("or", [Signed(part, "0+") for part in nearest]))
         return ("and", [*self._turned(), *parts])

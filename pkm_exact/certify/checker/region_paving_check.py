@@ -16,7 +16,7 @@ from pkm_exact.certify.checker.region_ring import (
     Condition,
     Conditions,
     Deferred,
-    Test,
+    Signed,
     beyond,
     number_words,
     polynomial_words,
@@ -133,7 +133,7 @@ class _Walk:
         ranges: dict[int, tuple[int, int]] = {}
         box = self._document.box
 
-        def range_of(test: Test) -> tuple[int, int]:
+        def range_of(test: Signed) -> tuple[int, int]:
             key = id(test.polynomial)
             if key not in ranges:
                 if not ends:
@@ -146,7 +146,7 @@ class _Walk:
 
 def _is(condition: Condition, range_of: Any, *, wanted: bool) -> bool:
     """Whether a condition is proved to hold all over a part, or if not ``wanted`` to hold nowhere in it."""
-    if isinstance(condition, Test):
+    if isinstance(condition, Signed):
         low, high = range_of(condition)
         if condition.sign == "/":
             return wanted and (low > 0 or high < 0)
@@ -180,7 +180,7 @@ def _refuted(document: RegionDocument, conditions: Conditions) -> str:
 
 def _holds(condition: Condition, point: Sequence[Fraction], roots: Sequence[Any]) -> bool:
     """Whether a condition is proved to hold at a point whose tests are all that something is not negative."""
-    if isinstance(condition, Test):
+    if isinstance(condition, Signed):
         sign = _sign(condition.polynomial, point, roots)
         return sign is not None and sign >= 0
     word, parts = condition
@@ -189,7 +189,7 @@ def _holds(condition: Condition, point: Sequence[Fraction], roots: Sequence[Any]
 
 
 def _fails(condition: Condition, point: Sequence[Fraction], roots: Sequence[Any]) -> bool:
-    if isinstance(condition, Test):
+    if isinstance(condition, Signed):
         sign = _sign(condition.polynomial, point, roots)
         if sign is None:
             return False

@@ -9,7 +9,7 @@ from typing import Any
 
 from pkm_exact.certify.checker.region_document import SQUARED_COSINES, Cone, LegEntry, RegionDocument
 from pkm_exact.certify.checker.region_pairs import legs_apart
-from pkm_exact.certify.checker.region_ring import Condition, Conditions, PlacedLeg, RegionRing, Test
+from pkm_exact.certify.checker.region_ring import Condition, Conditions, PlacedLeg, RegionRing, Signed
 from pkm_exact.certify.checker.verdict import malformed, rejected
 
 
@@ -36,7 +36,7 @@ class RegionEquations:
         if any(not self._form_value(form).is_zero() for form in document.forms):
             raise rejected("chart: its poses are not all among those that the joints of the robot allow")
         legs = [self._leg(leg, k) for k, leg in enumerate(document.legs)]
-        parts: list[Condition] = [Test(leg.root, "0+") for leg in legs if leg.root is not None]
+        parts: list[Condition] = [Signed(leg.root, "0+") for leg in legs if leg.root is not None]
         if "limits" in document.conditions:
             for entry, leg in zip(document.legs, legs, strict=True):
                 parts += self._reach(entry, leg)
@@ -44,20 +44,20 @@ class RegionEquations:
                 parts += [self._cone(cone, leg, side) for cone, leg in zip(cones, legs, strict=False)]
             for c, (low, high) in zip(self.center, document.position, strict=False):
                 parts += [
-                    Test(c - ring.number(low) * self.norm, "0+"),
-                    Test(ring.number(high) * self.norm - c, "0+"),
+                    Signed(c - ring.number(low) * self.norm, "0+"),
+                    Signed(ring.number(high) * self.norm - c, "0+"),
                 ]
             parts += legs_apart(document, ring, self.norm, self.rotation, legs)
         if "no_type_1" in document.conditions:
-            parts += [Test(leg.value[0] if leg.root is None else leg.root, "+") for leg in legs]
+            parts += [Signed(leg.value[0] if leg.root is None else leg.root, "+") for leg in legs]
         determinant = None
         if "no_type_2" in document.conditions:
             determinant = self._determinant(legs)
-            parts.append(Test(determinant, "/"))
-        shape = tuple(Test(self._shape(part), "0+") for part in document.shape)
+            parts.append(Signed(determinant, "/"))
+        shape = tuple(Signed(self._shape(part), "0+") for part in document.shape)
         region: list[Condition] = [*shape, *self._tube()]
         for entry, leg, pair in zip(document.legs, legs, document.joints, strict=False):
-            region += [] if leg.root is None else [Test(leg.root, "0+")]
+            region += [] if leg.root is None else [Signed(leg.root, "0+")]
             region += self._reach(replace(entry, reach=pair), leg)
         roots = tuple(x.root for x in legs if x.root is not None)
         return Conditions(("and", parts), ("and", region), shape, roots, determinant)
@@ -79,13 +79,13 @@ class RegionEquations:
             [c - n * ring.number(x) for c, x in zip(self.center, corner, strict=True)] for corner in tube.corners
         ]
         near = [ring.number(tube.radius**2) * ring.times(n, n) - ring.dot(o, o) for o in offsets]
-        found: list[Condition] = [Test(ball, "0+") for ball in near]
+        found: list[Condition] = [Signed(ball, "0+") for ball in near]
         for a, b, o, ball in zip(tube.corners, tube.corners[1:], offsets, near, strict=False):
             way = [y - x for x, y in zip(a, b, strict=True)]
             length = ring.number(sum(g * x * x for g, x in zip(self._document.metric, way, strict=True)))
             along = ring.dot([ring.number(x) for x in way], o)
             inside = (along, length * n - along, ball * length + ring.times(along, along))
-            found.append(("and", [Test(part, "0+") for part in inside]))
+            found.append(("and", [Signed(part, "0+") for part in inside]))
         return [("or", found)]
 
     def _pose(self) -> tuple[Any, list[list[Any]]]:
@@ -168,8 +168,8 @@ class RegionEquations:
             low, high = low * low, high * high
         value, unit = leg.value
         return [
-            Test(value - self._ring.number(low) * unit, "0+"),
-            Test(self._ring.number(high) * unit - value, "0+"),
+            Signed(value - self._ring.number(low) * unit, "0+"),
+            Signed(self._ring.number(high) * unit - value, "0+"),
         ]
 
     def _crank_range(self, leg: PlacedLeg, low: Fraction, high: Fraction) -> Condition:
@@ -177,9 +177,9 @@ class RegionEquations:
             return ("and", [])
         cosine, sine = leg.value
         (c1, s1), (c2, s2) = _right_angle(low), _right_angle(high)
-        parts = [Test(c1 * sine - s1 * cosine, "0+"), Test(s2 * cosine - c2 * sine, "0+")]
+        parts = [Signed(c1 * sine - s1 * cosine, "0+"), Signed(s2 * cosine - c2 * sine, "0+")]
         if low == high:
-            parts.append(Test(c1 * cosine + s1 * sine, "0+"))
+            parts.append(Signed(c1 * cosine + s1 * sine, "0+"))
         return ("or" if high - low > 180 else "and", parts)
 
     def _cone(self, cone: Cone, leg: PlacedLeg, side: str) -> Condition:
@@ -191,8 +191,8 @@ class RegionEquations:
             raise rejected("cones: a leg has no direction all over the chart")
         difference = ring.reduced(ring.times(along, along), leg) - ring.number(SQUARED_COSINES[cone.degrees]) * size
         if cone.degrees <= 90:
-            return ("and", [Test(along, "0+"), Test(difference, "0+")])
-        return ("or", [Test(along, "0+"), Test(-difference, "0+")])
+            return ("and", [Signed(along, "0+"), Signed(difference, "0+")])
+        return ("or", [Signed(along, "0+"), Signed(-difference, "0+")])
 
     def _form_value(self, form: Sequence[Fraction]) -> Any:
         """N^2 times the value of a form."""

@@ -15,7 +15,7 @@ from pkm_exact.certify.checker.region_document import RegionDocument
 
 
 @dataclass(frozen=True, eq=False)
-class Test:
+class Signed:
     """A polynomial and what its sign must be: "+" positive, "0+" not negative, "/" not 0."""
 
     polynomial: Any
@@ -35,13 +35,13 @@ class Deferred:
 
 
 Condition = Any
-"""A ``Test``, a ``Deferred``, or ("and", conditions) or ("or", conditions)."""
+"""A ``Signed``, a ``Deferred``, or ("and", conditions) or ("or", conditions)."""
 
 
 def beyond(condition: Condition) -> Condition:
     """That a condition does not hold whose tests are all that something is not negative."""
-    if isinstance(condition, Test):
-        return Test(-condition.polynomial, "+")
+    if isinstance(condition, Signed):
+        return Signed(-condition.polynomial, "+")
     word, parts = condition
     return ("or" if word == "and" else "and", [beyond(part) for part in parts])
 
@@ -52,7 +52,7 @@ class Conditions:
 
     asked: Condition
     region: Condition
-    shape: tuple[Test, ...]
+    shape: tuple[Signed, ...]
     roots: tuple[Any, ...]
     determinant: Any
 
