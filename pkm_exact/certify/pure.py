@@ -1292,13 +1292,6 @@ class Interval:
         spend(6000 + division_cost(bits, bits))
         return Interval(isqrt(self.low << self.p), isqrt((self.high << self.p) - 1) + 1, self.p)
 
-    def square(self) -> Interval:
-        """The squares."""
-        ends = sorted((abs(self.low), abs(self.high)))
-        spend(500 + 2 * product_cost(ends[1].bit_length(), ends[1].bit_length()))
-        least = 0 if self.contains_zero() else ends[0]
-        return Interval(least * least >> self.p, -(-ends[1] * ends[1] >> self.p), self.p)
-
     def bits(self) -> int:
         """The length of the longer end."""
         return max(self.low.bit_length(), self.high.bit_length())
@@ -1399,7 +1392,7 @@ def coordinates(representation: Representation, g: Metric, root: Root, p: int) -
 def ordinary(x: Sequence[Interval], g: Metric, p: int) -> list[Interval] | None:
     """Position, rotation and quaternion in ordinary coordinates at (e, f); None if N(e) is not enclosed well enough."""
     placed = motion(x[:4], x[4:], g)
-    if placed.norm.low <= 0:
+    if placed.norm.contains_zero():
         return None
     axes = [Interval(value << p, value << p, p).root() for value in g]
     length = placed.norm.root()
@@ -1475,9 +1468,7 @@ def is_factor(a: Polynomial, b: Polynomial) -> bool:
     spend(len(a) * len(b) * (300 + product_cost(max(map(abs, a)).bit_length(), 2 * max(map(abs, b)).bit_length())))
     rest = list(b)
     for place in reversed(range(len(b) - len(a) + 1)):
-        factor, remainder = divmod(rest[place + len(a) - 1], a[-1])
-        if remainder:
-            return False
+        factor = rest[place + len(a) - 1] // a[-1]
         for power, coefficient in enumerate(a, place):
             rest[power] -= factor * coefficient
     return not any(rest)
@@ -1774,7 +1765,7 @@ def echelon_form(rows: Sequence[Mapping[Monomial, int]]) -> list[Terms]:
             lifted = lifted_rows(solved, larger, denominator) if solved is not None else None
             if (
                 lifted is not None
-                and all(min(row) == pivot for pivot, row in lifted.items())
+                and list(map(min, lifted.values())) == list(lifted)
                 and all(is_combination(row, lifted) for row in matrix)
             ):
                 return [{columns[c]: lifted[pivot][c] for c in sorted(lifted[pivot])} for pivot in sorted(lifted)]
@@ -2148,16 +2139,14 @@ def quotient_algebra(elimination: Elimination, basis: list[Monomial]) -> Algebra
     reduction = Reduction(elimination, basis)
     shallow = all(sum(m) <= MAX_MONOMIAL_DEGREE for element in elimination.elements for m in element)
     affordable(shallow, f"elimination: a monomial of degree above {MAX_MONOMIAL_DEGREE}")
-    border = {times(m, axis) for m in basis for axis in range(len(elimination.places))}
-    for m in sorted(border.union(*elimination.elements), key=order):  # smaller ones first, so that recursion is shallow
-        reduction.monomial(m)
-    unknowns = [[reduction.monomial(times(m, axis)) for m in basis] for axis in range(len(elimination.places))]
-    algebra = Algebra(basis, unknowns)
-    for one, other in combinations(range(len(unknowns)), 2):
-        for left, right in zip(unknowns[one], unknowns[other], strict=True):
-            if algebra.times_unknown(left, other) != algebra.times_unknown(right, one):
-                return None
-    return algebra if algebra.vanish(elimination.elements) else None
+    axes = range(len(elimination.places))
+    border = {times(m, axis) for m in basis for axis in axes}
+    # Smaller ones first, so that recursion is shallow.
+    found = {m: reduction.monomial(m) for m in sorted(border.union(*elimination.elements), key=order)}
+    algebra = Algebra(basis, [[found[times(m, axis)] for m in basis] for axis in axes])
+    twice = [[[algebra.times_unknown(row, axis) for row in rows] for axis in axes] for rows in algebra.unknowns]
+    commute = twice == [list(column) for column in zip(*twice, strict=True)]
+    return algebra if commute and algebra.vanish(elimination.elements) else None
 
 
 Powers: TypeAlias = Callable[[Sequence[int], int], list[list[int]] | None]
@@ -2197,7 +2186,7 @@ def multiplicity_polynomial(
             set(range(len(h0) - 1)),
             n,
         )
-        if solved is not None and len(solved) == len(h0) - 1:
+        if solved is not None:
             s = [solved[j].get(len(h0) - 1, 0) for j in range(len(h0) - 1)]
             v = [sum(x * y for x, y in zip(h0[i:], s, strict=False)) % p for i in range(1, len(h0))]
             return [x - p if 2 * x > p else x for x in v]
@@ -2214,17 +2203,22 @@ def inner(vector: Vector, values: Sequence[int], scale: int) -> Fraction:
 def powers_modulo(
     representation: Representation, g: Metric, places: Sequence[int], weights: Sequence[int], p: int
 ) -> list[list[int]] | None:
-    """1, u, .., u^(D - 1) as polynomials in T modulo p and h0; None if p is not suitable."""
-    h0 = primitive_part(representation.h)
-    if not h0[-1] % p:
-        return None
-    placed = motion_modulo(representation, g, h0, p)
+    """1, u, .., u^(D - 1) as polynomials in T modulo p and h0; None if p is not suitable.
+
+    It is above the leading coefficient of h0.
+    """
+    placed = motion_modulo(representation, g, primitive_part(representation.h), p)
     ordered = [*placed.turned, *placed.position, placed.square, *placed.by_rows()]
-    inverse = inverse_modulo(placed.norm.polynomial(), h0, p)
+    return powers_of_quotient(combination(weights, [ordered[place] for place in places]), placed.norm)
+
+
+def powers_of_quotient(numerator: Residue, denominator: Residue) -> list[list[int]] | None:
+    """1, u, .., u^(D - 1) for a quotient u of residues; None if the denominator is no unit."""
+    ring = numerator.ring
+    inverse = inverse_modulo(denominator.polynomial(), ring.g, ring.m)
     if inverse is None:
         return None
-    ring: Residues = placed.norm.ring
-    u = combination(weights, [ordered[place] for place in places]) * ring.element(inverse)
+    u = numerator * ring.element(inverse)
     powers = [ring.element([1])]
     for _ in range(ring.degree - 1):
         powers.append(powers[-1] * u)
@@ -2257,14 +2251,15 @@ def power_sums(
     bits, each = p.bit_length(), max(most_bits([v.denominator, *v.numerators]) for v in vectors)
     cost = 300 + product_cost(bits, max(bits, each)) + division_cost(max(bits, each), bits)
     spend((len(vectors) + number + 1) * (len(traces) * cost + bits * bits // 8))
-    if any(x % p == 0 for x in [*(v.denominator for v in vectors), *(trace.denominator for trace in traces)]):
+    matrix = [[0] * len(traces) for _ in traces]
+    try:
+        tau = [trace.numerator * pow(trace.denominator, -1, p) % p for trace in traces]
+        for weight, rows in zip(weights, algebra.unknowns, strict=True):
+            for target, row in zip(matrix, rows, strict=True):
+                factor = weight * pow(row.denominator, -1, p)
+                target[:] = [(x + factor * y) % p for x, y in zip(target, row.numerators, strict=True)]
+    except ValueError:  # there is no such inverse
         return None
-    tau = [trace.numerator * pow(trace.denominator, -1, p) % p for trace in traces]
-    matrix = [[0] * len(tau) for _ in tau]
-    for weight, rows in zip(weights, algebra.unknowns, strict=True):
-        for target, row in zip(matrix, rows, strict=True):
-            factor = weight * pow(row.denominator, -1, p)
-            target[:] = [(x + factor * y) % p for x, y in zip(target, row.numerators, strict=True)]
     vector = [1] + [0] * (len(tau) - 1)
     sums = []
     for _ in range(number):
@@ -2334,8 +2329,7 @@ def check_parts(certificate: Certificate) -> None:
 
 def nothing_listed(certificate: Certificate) -> Iterator[str]:
     """Without a representation, an elimination may prove that there is nothing; else nothing is proved."""
-    nothing = not any(certificate.counts) and not certificate.poses
-    require(nothing, "representation: missing, but solutions are claimed")
+    require(not any(certificate.counts), "representation: missing, but solutions are claimed")
     claim = certificate.claim, certificate.route
     if certificate.elimination is None and claim == ("not-proven-complete", None):
         yield "not proven complete: no solution is listed, and none is excluded"
@@ -2422,7 +2416,7 @@ _NOT_REAL = "that one of them is real, and the robot moves, is not proved"
 
 def check_self_motion(certificate: Certificate, representation: Representation) -> Iterator[str]:
     """The witnesses, poses by checks 1 to 5, lie on a set of poses of positive dimension: three arguments."""
-    nothing = certificate.boxes is not None or not (any(certificate.counts) or certificate.poses)
+    nothing = certificate.boxes is not None or not any(certificate.counts)
     require(nothing, "claim: beside positive dimension, isolated solutions are claimed without boxes")
     alone = certificate.route is None and certificate.elimination is None
     require(alone, "claim: beside positive dimension, completeness is claimed")
@@ -2472,14 +2466,9 @@ def legs_are_one_vector(certificate: Certificate, representation: Representation
     first, *others = certificate.legs
     forms = []
     for leg in others:
-        shift = cleared(
-            [
-                Fraction(1),
-                *map(Fraction.__sub__, leg.platform, first.platform),
-                *map(Fraction.__sub__, leg.base, first.base),
-            ]
-        )
-        forms.append((shift[1:4], shift[4:]))
+        sides = (leg.platform, first.platform), (leg.base, first.base)
+        shift = cleared([x - y for one, other in sides for x, y in zip(one, other, strict=True)])
+        forms.append((shift[:3], shift[3:]))
     scale = max(size([*platform, *base]) for platform, base in forms)
     multiples, placed = evaluated(representation, certificate.metric, scale)
     return all(
@@ -2496,7 +2485,10 @@ def legs_are_one_vector(certificate: Certificate, representation: Representation
 
 @dataclass(frozen=True)
 class System:
-    """n equations in n Study coordinates: x^T Q x = 0, where ``forms`` are the matrices 2 Q, and chart.x = 1."""
+    """n equations in n Study coordinates: x^T Q x = 0, where ``forms`` are the matrices 2 Q, and chart.x = 1.
+
+    ``norm`` has the coefficients of 2 N(e), a sum of squares.
+    """
 
     places: tuple[int, ...]
     forms: list[list[list[int]]]
@@ -2566,7 +2558,7 @@ def study_system(
         rows.append(matrix(lambda placed: placed.study))
     norm = matrix(lambda placed: placed.norm)
     weights = [chart[place] if place < 4 else 0 for place in places]
-    return System(places, rows, weights, [row[i] // 2 for i, row in enumerate(norm)])
+    return System(places, rows, weights, [row[i] for i, row in enumerate(norm)])
 
 
 def matrices(places: tuple[int, ...], g: Metric) -> Callable[[Callable[[Motion], int]], list[list[int]]]:
@@ -2767,11 +2759,12 @@ def at_solution(system: System, g: Metric, box: Box, p: int) -> list[Interval] |
     finer = narrowed(system, box, p)
     if finer is None:
         return None
-    x = [Interval(0, 0, p)] * 8
+    x: dict[int, Interval] = {}
     for place, m, r in zip(system.places, finer.centre, finer.radius, strict=True):
         low, high = (m.re - r) * (1 << p), (m.re + r) * (1 << p)
         x[place] = Interval(low.__floor__(), high.__ceil__(), p)
-    return ordinary(x, g, p)
+    nothing = 0 * x[system.places[0]]
+    return ordinary([x.get(place, nothing) for place in range(8)], g, p)
 
 
 def boxes_listed(certificate: Certificate, boxes: Boxes) -> Iterator[str]:
@@ -2865,8 +2858,7 @@ class ToleranceCertificate:
 def read_tolerances(body: dict[str, Any]) -> ToleranceCertificate:
     """The content of a tolerance certificate."""
     version = body.get("version")
-    known = body.get("format") == TOLERANCE_FORMAT and type(version) is int and version == 1
-    well_formed(known, f"format: not a {TOLERANCE_FORMAT}, version 1")
+    well_formed(type(version) is int and version == 1, f"format: not a {TOLERANCE_FORMAT}, version 1")
     values = dict(zip(TOLERANCE_KEYS.split(), an_object(body, "certificate", TOLERANCE_KEYS), strict=True))
     metric, base, platform = a_robot(values["robot"], "robot")
     squares = a_configuration(values["configuration"], len(base))
@@ -2997,7 +2989,7 @@ class Rectangle:
 
     def over(self, other: Rectangle) -> Rectangle:
         """The quotient by a rectangle without 0, or refused if that is too near to it."""
-        norm, product = other.re.square() + other.im.square(), self * other.conjugate()
+        norm, product = other.re * other.re + other.im * other.im, self * other.conjugate()
         require(not norm.contains_zero(), "boxes: N(e) is too near to 0")
         return Rectangle(product.re.over(norm), product.im.over(norm))
 
@@ -3092,7 +3084,7 @@ class Family:
         """Study's condition, unless planar, and the legs of the nominal robot as rows of coefficients."""
         rows = [] if self.planar else [[*[self.zero] * 17, self.one]]
         for a, b, length in zip(self.base, self.platform, self.lengths, strict=True):
-            squares = summed((x.square() for x in (*a, *b)), self.zero) - length.square()
+            squares = summed((x * x for x in (*a, *b)), self.zero) - length * length
             twice = [-2 * x for x in a]
             rows.append([squares, *(x * y for x in twice for y in b), *twice, *(2 * x for x in b), self.one, self.zero])
         return rows
@@ -3101,7 +3093,7 @@ class Family:
         """The derivatives of those of a form in the quantities: a symmetric matrix."""
         found = [[self.zero] * len(self.places) for _ in self.places]
         for c, rows in zip(form, self.polar, strict=True):
-            if c.low or c.high:
+            if c.largest():
                 for i, terms in enumerate(rows):
                     for j, v in terms:
                         found[i][j] = found[i][j] + v * c
@@ -3180,7 +3172,7 @@ class Neighbourhood:
 
     def weighted(self, row: Sequence[Rectangle], values: Sequence[Interval]) -> Rectangle:
         """The sum of a row of Y times values of all equations but the last; zeros are left out."""
-        terms = (y.scaled(v) for y, v in zip(row, values, strict=False) if v.low or v.high)
+        terms = (y.scaled(v) for y, v in zip(row, values, strict=False) if v.largest())
         return summed(terms, self.nothing)  # type: ignore[no-any-return]
 
     def on_legs(self, changes: Sequence[Rectangle]) -> list[Rectangle]:
@@ -3195,7 +3187,7 @@ class Neighbourhood:
 
     def form_value(self, form: Sequence[Interval], values: Sequence[Rectangle]) -> Rectangle:
         """A form in the quantities; zeros are left out."""
-        terms = (v.scaled(c) for c, v in zip(form, values, strict=True) if c.low or c.high)
+        terms = (v.scaled(c) for c, v in zip(form, values, strict=True) if c.largest())
         return summed(terms, self.nothing)  # type: ignore[no-any-return]
 
     def jacobian(self) -> list[list[Rectangle]]:
@@ -3242,9 +3234,9 @@ class Neighbourhood:
         defect = self.defect(widths, uncertain=uncertain, half=uncertain)
         for row, y, side in zip(defect, self.inverse, spread, strict=True):
             image = inner_product(row, spread) - inner_product(y, right)
-            for part, within in ((image.re, side.re), (image.im, side.im)):
-                inside = within.low < part.low and part.high < within.high
-                if not inside and not (within.high == 0 == part.low == part.high):
+            parts = (image.re, side.re), (image.im, side.im)  # those of real boxes are real
+            for part, within in parts[:1] if self.real else parts:
+                if not (within.low < part.low and part.high < within.high):
                     return False
         return self.has_poses(widths)
 
@@ -3480,18 +3472,18 @@ def greatest_length(rows: Sequence[Sequence[Interval]], reaches: Sequence[int], 
 
 def is_angle_of(angle: Fraction, chord: Fraction, p: int) -> bool:
     """Whether angle >= 4 arcsin(chord / 2), for a chord below 1: by the series of sin(angle / 4), ended below it."""
-    if chord >= 1:
-        return False
     end = min(int(angle * (1 << p)) // 4, 1 << p)  # the sine increases up to 1, where it is above 1/2
     x = Interval(end, end, p)
-    square, term, sine = x.square(), x, x
+    square, term, sine = x * x, x, x
     n = 1
-    while n % 4 == 1 or term.largest() > 1:
-        divisor = (n + 1) * (n + 2) << p
-        term = -1 * (term * square).over(Interval(divisor, divisor, p))
-        sine = sine + term
-        n += 2
-    return 2 * Fraction(sine.low, 1 << p) >= chord
+    while term.largest() > 1:
+        for sign in (-1, 1):
+            divisor = (n + 1) * (n + 2) << p
+            term = (term * square).over(Interval(divisor, divisor, p))
+            sine = sine + sign * term
+            n += 2
+    sine = sine - term
+    return chord < 1 and 2 * Fraction(sine.low, 1 << p) >= chord
 
 
 def check_nothing_else(at: Neighbourhood, box: PoseBox, name: str) -> None:

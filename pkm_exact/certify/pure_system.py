@@ -1415,16 +1415,9 @@ def powers_modulo(representation: pure.Representation, weights: Sequence[int], p
     """
     h0 = pure.primitive_part(representation.h)
     ring = pure.Residues(h0, p)
-    slope = ring.element(pure.derivative(representation.h)).polynomial()
-    inverse = pure.inverse_modulo(slope, h0, p)
-    if inverse is None:
-        return None
+    slope = ring.element(pure.derivative(representation.h))
     values = [ring.element(numerator) for numerator in representation.numerators]
-    u = pure.combination(weights, values) * ring.element(inverse)
-    powers = [ring.element([1])]
-    for _ in range(ring.degree - 1):
-        powers.append(powers[-1] * u)
-    return [power.value for power in powers]
+    return pure.powers_of_quotient(pure.combination(weights, values), slope)
 
 
 # ---------------------------------------------------------------------------------------------------------------------
