@@ -9,6 +9,7 @@ from forged_boxes import BOXES
 from forged_completions import COMPLETIONS
 from forged_ends import first_and_last
 from forged_poses import POSES
+from forged_primes import PRIMES
 from forgeries import FORGERIES
 
 
@@ -20,9 +21,9 @@ def test_a_forgery(name: str) -> None:
     assert last_line(answer).startswith(forgery.reason)
 
 
-@pytest.mark.parametrize("name", [*POSES, *BOXES, *COMPLETIONS])
+@pytest.mark.parametrize("name", [*POSES, *BOXES, *COMPLETIONS, *PRIMES])
 def test_one_condition_decides(name: str) -> None:
-    make, status, reason = (POSES | BOXES | COMPLETIONS)[name]
+    make, status, reason = (POSES | BOXES | COMPLETIONS | PRIMES)[name]
     answer = both_resealed(make())
     assert answer.status == status, last_line(answer)
     assert last_line(answer).startswith(reason)

@@ -1,65 +1,30 @@
 """Multiplicities of poses, exactly: robots with several multiple poses, of which each has its own."""
 
 from collections import Counter
-from collections.abc import Sequence
 from fractions import Fraction
 
 import pytest
 from certificate_tools import check_resealed, last_line
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from mirrored_robots import STRAIGHT, mirrored, problem_at_home, vectors
 from samples import placed
 
 from pkm_exact import Robot, certificate
 from pkm_exact.certify.check import Status
 from pkm_exact.claim import Claim, CompletenessRoute
-from pkm_exact.constraints.form import Vector
 from pkm_exact.engine import solve
-from pkm_exact.geometry.problem import ForwardProblem
 
-STRAIGHT = (Fraction(1), Fraction(0), Fraction(0), Fraction(0))
 integers = st.integers(-5, 5)
-
-
-def _vectors(*points: Sequence[Fraction | int]) -> list[Vector]:
-    return [(Fraction(x), Fraction(y), Fraction(z)) for x, y, z in points]
-
-
-def _mirrored(b: int, height: int, top: int) -> Robot | None:
-    """A mirror-symmetric 3-RPR robot with a fourfold pose (C = 0, R = 1) and a double one (a half turn).
-
-    All legs point to the origin, A_i = a_i B_i, in a pose that is its own mirror image; so they do after a half turn.
-    Such poses are double at least. At R = 1 the legs' second derivative along the turn is made to vanish as well:
-    sum m_i a_i / (1 - a_i) |B_i|^2 = 0 where sum m_i B_i = 0; then symmetry leaves no less than four. None if the
-    numbers give no robot.
-    """
-    x, y, z = map(Fraction, (b, height, top))
-    if not all((x, y, z)) or x * x + y * y == z * y:
-        return None
-    a = z * (y - z) / (x * x + y * y - z * y)
-    if a in (0, 1):
-        return None
-    ratio = a / (1 - a) * (x * x + y * y) / (y * z)
-    if ratio == -1:
-        return None
-    platform = _vectors((-x, y, 0), (x, y, 0), (0, z, 0))
-    factors = (a, a, ratio / (1 + ratio))
-    base = _vectors(*([f * c for c in joint] for f, joint in zip(factors, platform, strict=True)))
-    return Robot("mirrored", "3-RPR", "m", "made up", tuple(base), tuple(platform))
-
-
-def _problem_at_home(robot: Robot) -> ForwardProblem:
-    legs = placed(robot.base_joints, robot.platform_joints, _vectors((0, 0, 0))[0], STRAIGHT).problem.distances
-    return robot.problem([leg.length_squared for leg in legs])
 
 
 @given(integers, integers, integers)
 @settings(max_examples=20)
 def test_a_fourfold_and_a_double_pose(b: int, height: int, top: int) -> None:
-    robot = _mirrored(b, height, top)
+    robot = mirrored(b, height, top)
     assume(robot is not None)
     assert robot is not None
-    solution = solve(_problem_at_home(robot))
+    solution = solve(problem_at_home(robot))
     assert (solution.claim, solution.complex_solutions, solution.distinct_solutions) == (Claim.COMPLETE, 6, 2)
     for pose in solution.poses:
         home = pose.rotation[0][0].contains(Fraction(1))
@@ -70,9 +35,9 @@ def test_a_fourfold_and_a_double_pose(b: int, height: int, top: int) -> None:
 
 @pytest.mark.parametrize("forged", [(2, 4), (3, 3), (5, 1), (4, 4), (2, 2), (4, None), (None, None)])
 def test_forged_multiplicities_are_rejected(forged: tuple[int | None, ...]) -> None:
-    robot = _mirrored(1, 2, 1)
+    robot = mirrored(1, 2, 1)
     assert robot is not None
-    content = certificate(robot, None, solve(_problem_at_home(robot)))
+    content = certificate(robot, None, solve(problem_at_home(robot)))
     assert check_resealed(content).status is Status.ACCEPTED
     true = [pose["multiplicity"] for pose in content["poses"]]
     for pose, was in zip(content["poses"], true, strict=True):
@@ -86,7 +51,7 @@ HEXAGON = ((0, 0), (4, 0), (7, 3), (4, 8), (0, 7), (-2, 3))
 
 def _similar() -> Robot:
     """Similar planar hexagons at a pose without rotation: two poses hold all 16 solutions."""
-    base = _vectors(*((x, y, 0) for x, y in HEXAGON))
+    base = vectors(*((x, y, 0) for x, y in HEXAGON))
     return Robot("similar", "6-UPS", "m", "made up", tuple(base), tuple((x / 2, y / 2, z) for x, y, z in base))
 
 
@@ -108,10 +73,10 @@ def test_two_poses_that_are_mirror_images_have_half_of_all_each() -> None:
 
 def test_a_platform_lying_on_its_base_has_an_eightfold_pose() -> None:
     """General planar joints in one plane: the leg lines have rank 3, so the pose counts 2^3 times, the others once."""
-    base = _vectors(*((x, y, 0) for x, y in HEXAGON))
-    platform = _vectors(*((x, y, 0) for x, y in ((1, 0), (2, 1), (3, 3), (1, 4), (-1, 2), (0, -1))))
+    base = vectors(*((x, y, 0) for x, y in HEXAGON))
+    platform = vectors(*((x, y, 0) for x, y in ((1, 0), (2, 1), (3, 3), (1, 4), (-1, 2), (0, -1))))
     turn = (Fraction(2), Fraction(0), Fraction(0), Fraction(1))
-    solution = solve(placed(base, platform, _vectors((1, 2, 0))[0], turn).problem)
+    solution = solve(placed(base, platform, vectors((1, 2, 0))[0], turn).problem)
     assert solution.claim is Claim.COMPLETE
     assert solution.completeness_route is CompletenessRoute.EXACT_ELIMINATION
     counts = Counter(pose.multiplicity for pose in solution.poses)

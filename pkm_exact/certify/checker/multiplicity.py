@@ -180,9 +180,11 @@ def determinant(matrix: Sequence[Sequence[Any]]) -> Any:
                     continue
                 term = row[column] * minor
                 key = columns | 1 << column
-                if (columns >> column).bit_count() % 2:
-                    wider[key] = wider[key] - term if key in wider else -1 * term
+                if key not in wider:  # its last column is the one that is added: subsets come in lexicographic order
+                    wider[key] = term
+                elif (columns >> column).bit_count() % 2:
+                    wider[key] = wider[key] - term
                 else:
-                    wider[key] = wider[key] + term if key in wider else term
+                    wider[key] = wider[key] + term
         minors = wider
     return minors[(1 << size) - 1]
