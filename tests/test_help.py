@@ -24,7 +24,7 @@ PATH = "l1,l2,l3,l4,l5,l6\n1250,1250,1250,1250,1250,1250\n1250.5,1250,1250,1250,
 CUBE = "[region]\nposition = [[-9, 9], [-9, 9], [760, 780]]\nrpy_degrees = [0, 0, 0]\n"
 CUBE += "[conditions]\nno_type_2 = true\n[answer]\nkind = 'all'\n"
 SLOW = ("", "check", "compare", "formulations", "plot", "sweep")
-NOT_HERE = ("tcp://",)  # needs a cluster
+NOT_HERE = ("tcp://", " view ")  # need a cluster, or a reader at the browser
 POSES = """x,y,theta,l1,l2,l3
 5,5,0,7.085,5.106,5.035
 5,6,40,7.827,8.772,2.566

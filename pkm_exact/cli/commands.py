@@ -24,6 +24,7 @@ COMMANDS: Final = {
     "region": ("region", "Is all of a region of poses good? Or where is it?"),
     "calibrate": ("calibrate", "Joints and length offsets from measured poses."),
     "plot": ("plot", "Pictures of the poses in a certificate."),
+    "view": ("view", "The robot in the browser, with sliders."),
     "report": ("report_command", "A web page of a certificate."),
     "codegen": ("codegen", "Forward and inverse kinematics as C code, with proved bounds."),
     "selftest": ("selftest", "Check that this installation works."),

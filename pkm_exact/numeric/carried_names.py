@@ -120,7 +120,7 @@ def carried_names(
     for name, start in zip(reference.names, reference.poses, strict=True):
         if progress is not None:
             progress(f"following {name}")
-        place = _arrived(path, start, reference.poses, solution.poses)
+        place = end_of_branch(path, start, reference.poses, solution.poses)
         if isinstance(place, str):
             lost.append((name, place))
         else:
@@ -133,8 +133,18 @@ def carried_names(
     return CarriedNames(tuple(named[place] for place, _ in enumerate(solution.poses)), tuple(lost), reference.source)
 
 
-def _arrived(path: ProblemPath, start: Pose, starts: Sequence[Pose], ends: Sequence[Pose]) -> int | str:
-    """The place in the last list of the pose that a branch arrives at, or why there is none."""
+def end_of_branch(path: ProblemPath, start: Pose, starts: Sequence[Pose], ends: Sequence[Pose]) -> int | str:
+    """The place in a list of the pose that a branch arrives at, or why there is none; both lists are complete.
+
+    Examples
+    --------
+    >>> from fractions import Fraction
+    >>> from pkm_exact import read_robot, solve
+    >>> robot = read_robot("models/3-rpr-merlet-p.toml")
+    >>> first, second = (solve(robot.problem([Fraction(n)] * 3)) for n in (40, 45))
+    >>> end_of_branch(ProblemPath((first.problem, second.problem)), first.poses[1], first.poses, second.poses)
+    1
+    """
     try:
         sample = followed_pose(path, start, starts)
     except TrackingStopped as stop:
