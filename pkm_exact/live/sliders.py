@@ -69,7 +69,7 @@ def sliders(robot: Robot | Mechanism, configuration: str | None = None) -> tuple
     >>> from pkm_exact import read_robot
     >>> first = sliders(read_robot("models/3-rrr.toml"))[0]
     >>> first.in_degrees, first.value, first.high - first.low
-    (True, 53.1, 90.0)
+    (True, 53.13, 90.0)
     """
     values = _values(robot, configuration)
     longest = max((abs(value) for value in values), default=1.0) or 1.0
