@@ -36,15 +36,15 @@ def _outer(a: Values, b: Values) -> list[complex]:
     return [x * y for x in a for y in b]
 
 
-def _forms(point: Values) -> list[list[int]]:
-    """Six forms at random that vanish at a point, its conjugate, and where s alone is not 0."""
+def _forms(point: Values, number: int = 6) -> list[list[int]]:
+    """Forms at random that vanish at a point, its conjugate, and where s alone is not 0."""
     places = range(1, 16)
     rows = [[int(part(point[k])) for k in places] for part in (lambda x: complex(x).real, lambda x: complex(x).imag)]
     kernel, _ = fmpq_mat([[*row] for row in rows if any(row)]).rref()
     pivots = {next(j for j in range(15) if kernel[i, j]): i for i in range(kernel.nrows())}
     random = Random(7)
     found = []
-    for _ in range(6):
+    for _ in range(number):
         form = {j: random.randint(-9, 9) for j in range(15) if j not in pivots}
         solved = {j: -sum(kernel[i, k] * value for k, value in form.items()) for j, i in pivots.items()}
         found.append([0, *(int((form | solved)[j]) for j in range(15)), random.randint(1, 9)])
@@ -136,7 +136,53 @@ def _beside_a_surface(number: int) -> Content:
     return _no_pose(forms, isotropic_points())
 
 
+def _beside_lines(number: int, *, is_singular: bool) -> Content:
+    """Forms without |C|^2 through a point: all that differ from it in |C|^2 are on them, singular ones if R = 0."""
+    if is_singular:
+        point, steps = _point(u=ISOTROPIC), range(1, 11)
+    else:
+        point, steps = _point(u=ISOTROPIC, c=ISOTROPIC, r=_outer(ISOTROPIC, ISOTROPIC)), range(3, 23)
+    return _no_pose(_forms(point, number), _ladder(point, steps, 40))
+
+
+def _off_in_one_power(h: fmpz_poly, turned: fmpq_poly, beside: int) -> Content:
+    """Points u = (1, i, 0), |C|^2 = t at the roots of h, where i is a polynomial in t; the form is t + beside on them.
+
+    The numerators of the points give it one coefficient alone that is not 0.
+    """
+    values = [fmpq_poly([0])] * 16
+    values[SQUARE], values[U], values[U + 1] = fmpq_poly([0, 1]), fmpq_poly([1]), turned
+    chart, form = [0] * 16, [0] * 16
+    chart[U] = form[SQUARE] = 1
+    forms = _forms(_point(u=ISOTROPIC))
+    forms[2][SQUARE], forms[2][U], forms[2][U + 1] = 1, beside, 0
+    return _no_pose(forms, infinity_of([(h, values)], chart, form, 40))
+
+
+def _of_two_powers(constant: fmpz_poly) -> tuple[fmpz_poly, fmpq_poly]:
+    """T^20 + q^20, for a polynomial q, and a square root of -1 modulo it: (T / q)^10."""
+    h = fmpz_poly([0, 1]) ** 20 + constant**20
+    inverse = fmpq_poly(constant**10).xgcd(fmpq_poly(h))[1]
+    return h, fmpq_poly([0, 1]) ** 10 * inverse % fmpq_poly(h)
+
+
 AT_INFINITY: dict[str, Case] = {
+    **{
+        f"points of two lines at infinity, singular: {is_singular}, {number} forms": (
+            partial(_beside_lines, number, is_singular=is_singular),
+            REJECTED,
+        )
+        for number in (7, 9)
+        for is_singular in (True, False)
+    },
+    "points that are off a form in the first power alone": (
+        lambda: _off_in_one_power(*_of_two_powers(fmpz_poly([1])), 0),
+        REJECTED,
+    ),
+    "points that are off a form in the last power alone": (
+        lambda: _off_in_one_power(*_of_two_powers(fmpz_poly([1, 1])), 1),
+        REJECTED,
+    ),
     **{
         f"points of a surface at infinity, {number} forms": (partial(_beside_a_surface, number), REJECTED)
         for number in (7, 9, 12)

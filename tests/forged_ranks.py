@@ -1,6 +1,6 @@
 """Solutions that are regular, though by no prime that is tried first, and solutions that are singular in several ways.
 
-The plain checker draws combinations of rows, and completes them, by seeds that anybody knows: these are made for them.
+The plain checker draws combinations of rows by seeds that anybody knows: some of these are made for them.
 """
 
 from __future__ import annotations
@@ -53,9 +53,8 @@ def _held(rows: Sequence[Numbers], sphere: int, total: int) -> Content:
 
 
 def _one_row_apart(place: int) -> list[list[int]]:
-    """All rows but one are orthogonal to what completes no combination of them."""
-    one, other = _drawn(0, 2, 3)
-    rows = [one, other, [a + b for a, b in zip(one, other, strict=True)]]
+    """All rows but one begin with 0; all are 0 modulo primes."""
+    rows = [[0, 1, 0], [0, 0, 1], [0, 1, 1]]
     rows.insert(place, [1, 0, 0])
     return [[PRIMES * x for x in row] for row in rows]
 
@@ -80,14 +79,19 @@ def _large_and_small() -> list[list[int]]:
     weights = _drawn(2, 2, 4)
     (a, b, c), (d, e, f) = (row[1:] for row in weights)
     beside = [0, *(PRIMES * x for x in (b * f - c * e, c * d - a * f, a * e - b * d))]
-    rows = [[1, 0, beside[0]], [0, 1, beside[1]], [0, 0, beside[2]], [1, 0, beside[3]]]
+    rows = [[1, 0, beside[0]], [0, 1, beside[1]], [0, 1, beside[2]], [1, 0, beside[3]]]
     body = _held(rows, 1, 1)
     certificate = pure_mechanism.read(body)
     sized = pure.sized_motion(certificate.representation, (1, 1, 1))
     bounds = pure_mechanism.determinants(pure_mechanism.Slopes(certificate.robot), sized, 2)
     modulus = (1 << next(pure.prime_exponents(min(bound.size for bound in bounds).bit_length() + 1))) - 1
-    minors = [weights[0][k] * weights[1][1] - weights[0][1] * weights[1][k] for k in range(4)]
-    rows[2][0] = -(minors[0] + minors[3]) * pow(minors[2], -1, modulus) % modulus
+
+    def minor(*columns: int) -> int:
+        (x, y), (z, t) = ([row[column] for column in columns] for row in weights)
+        return x * t - y * z
+
+    others = minor(0, 1) + minor(0, 2) + minor(3, 1) + minor(3, 2)
+    rows[2][0] = -others * pow(minor(2, 1), -1, modulus) % modulus
     return rows
 
 
@@ -209,7 +213,9 @@ def _nearly_singular(total: int) -> Content:
     conditions = [[Fraction(int(rest[k].p), int(rest[k].q)) for rest in rests] for k in range(2)]
     start = [Fraction(int(row[0].p), int(row[0].q)) for row in (*e, *f)]
     slopes = _slopes(Pose(start[:4], start[4:]))
-    basis = _kernel(conditions)
+    order = (7, 5, 0, 1, 2, 3, 4, 6)  # solved for the first two, with denominators that c does not divide
+    solved = _kernel([[row[k] for k in order] for row in conditions])
+    basis = [[vector[order.index(k)] for k in range(8)] for vector in solved]
     scale = prod(p for p in pure.good_primes([c, -1, 1]) if p != c)
     first, second, *others = basis
     values = [_determinant(slopes, (first, second, other)) for other in others[:2]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -13,14 +14,18 @@ from certificate_subjects import Content
 from flint import fmpz_poly
 from forged_margins import ACCEPTED, NO_POSE, REJECTED, Case
 from held_mechanisms import Numbers, Pose, listing, moving
-from mechanism_certificates import mechanism_content
+from mechanism_certificates import made, mechanism_content
+from mechanisms import vector
 
 from pkm_exact.certify import pure
 from pkm_exact.certify.build_constraints import constraint_entry
 from pkm_exact.certify.checker.solutions import primes_for
+from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.constraints.form import Vector
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.motions.motion_groups import SPHERICAL
 
 
 def _without_pose(kind: str, constraints: Callable[[Pose], list[Constraint]]) -> Content:
@@ -156,12 +161,45 @@ def _boxes_of_fewer() -> Content:
 def _turned_one_way() -> Content:
     """A platform that turns about a point, all nine entries of R given: no unknown is left."""
     at = Pose((1, 0, 0, 0), (0, 0, 0, 0))
-    axes = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
-    content = listing("spherical", [at], [at.angle(one, other) for one in axes for other in axes])
+    content = listing("spherical", [at], [at.angle(one, other) for one in AXES for other in AXES])
     return content | {"claim": "complete", "completeness_route": "modular-rank"}
 
 
+AXES = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
+
+
+def _not_turned(held: Callable[[Pose], list[Constraint]]) -> Content:
+    """A platform that cannot turn, held by further constraints: what is left of its section is linear."""
+    at = Pose((1, 0, 0, 0), (0, 1, 2, 5))
+    angles: list[Constraint] = [at.angle(one, other) for one in AXES for other in AXES]
+    content = listing("spatial", [at], [*held(at), *angles])
+    return content | {"claim": "complete", "completeness_route": "modular-rank"}
+
+
+def _on_a_great_circle() -> Content:
+    """Eight poses of a platform that turns about a point, all of them double: on a cylinder that touches a sphere."""
+    v, b = vector(1, 2, 2), vector(2, 1, 0)
+    cylinder = AxisDistance(vector(0, 0, 0), v, b, Fraction(5))
+    angles = (
+        Angle(vector(1, 0, 0), vector(0, 1, 1), Fraction(1, 3)),
+        Angle(vector(0, 1, 2), vector(1, 0, 1), Fraction(1, 2)),
+    )
+    problem = ForwardProblem((*angles, cylinder), motion=SPHERICAL)
+    content: Content = json.loads(made(lambda: problem))
+    del content["digest"]
+    return content
+
+
 SECTIONS: dict[str, Case] = {
+    "a platform that turns about a point, all poses double": (_on_a_great_circle, ACCEPTED),
+    "a platform that cannot turn, held in a point": (
+        lambda: _not_turned(lambda at: [at.at_point((1, 2, 3))]),
+        ACCEPTED,
+    ),
+    "a platform that cannot turn, three of its planes held": (
+        lambda: _not_turned(lambda at: [at.carries(axis, (1, 2, 3)) for axis in AXES]),
+        ACCEPTED,
+    ),
     "a platform that cannot turn": (_turned_one_way, ACCEPTED),
     "cylinders whose axes are given in fractions, boxes": (_axes_in_fractions, ACCEPTED),
     "boxes of a robot with a constraint too few": (_boxes_of_fewer, REJECTED),

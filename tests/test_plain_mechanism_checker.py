@@ -9,7 +9,6 @@ import sys
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
-from random import Random
 
 import pytest
 from certificate_tools import both
@@ -422,10 +421,3 @@ def test_a_determinant_may_be_as_large_as_its_bound() -> None:
     assert shown is not None
     (value,) = pure_mechanism.large_determinants(slopes, shown, [0, 1], None)
     assert any(value)
-
-
-@pytest.mark.parametrize("dimension", sorted({kind.dimension for kind in pure_mechanism.MOTIONS.values()}))
-def test_random_rows_that_complete_nothing_are_independent(dimension: int) -> None:
-    draw = Random(0)
-    rows = [[draw.randrange(1, pure_mechanism.RANDOM) for _ in range(dimension)] for _ in range(dimension - 1)]
-    assert fmpq_mat(rows).rank() == dimension - 1

@@ -679,9 +679,9 @@ def irregular_factor(slopes: Slopes, representation: pure.Representation) -> pur
 def are_dependent(slopes: Slopes, representation: pure.Representation, a: pure.Polynomial) -> bool:
     """Whether the rank of the rows is less than m at all roots of a factor of h0, over Q.
 
-    With m rows, if their determinant is 0. With more: for some r < m, r combinations of the rows are completed by
-    random rows to m - 1, whose minors are a vector k that they are orthogonal to. It is nowhere 0 modulo a prime, or
-    r = 0: random rows alone are independent. And all rows are orthogonal to it.
+    With m rows, if their determinant is 0. With more: for some r < m the first r + 1 columns have rank r at most. Of r
+    combinations of the rows these columns have minors, a vector k, that is nowhere 0 modulo a prime, or r = 0; all
+    rows are orthogonal to it.
     """
     if slopes.number == slopes.dimension:
         (value,) = large_determinants(slopes, representation, a, None)
@@ -690,13 +690,9 @@ def are_dependent(slopes: Slopes, representation: pure.Representation, a: pure.P
     return not any(large_determinants(slopes, representation, a, next(ranks, 0)))
 
 
-def bordered(slopes: Slopes, placed: pure.Motion, rank: int) -> list[list[Any]]:
-    """``rank`` combinations of the rows and random ones, together m - 1."""
-    random = Random(rank)
-    rows = mixed(slopes.at(placed), rank, random)
-    while len(rows) < slopes.dimension - 1:
-        rows.append([placed.norm.ring.element([random.randrange(1, RANDOM)]) for _ in range(slopes.dimension)])
-    return rows
+def combined(slopes: Slopes, placed: pure.Motion, rank: int) -> list[list[Any]]:
+    """So many combinations of the rows."""
+    return mixed(slopes.at(placed), rank, Random(rank))
 
 
 def has_nonzero_minors(slopes: Slopes, representation: pure.Representation, a: pure.Polynomial, rank: int) -> bool:
@@ -706,7 +702,7 @@ def has_nonzero_minors(slopes: Slopes, representation: pure.Representation, a: p
         placed = pure.motion_modulo(representation, slopes.robot.metric, a, p)
         random = Random(p)
         row = [placed.norm.ring.element([random.randrange(1, RANDOM)]) for _ in range(slopes.dimension)]
-        minors = pure.determinant([*bordered(slopes, placed, rank), row]).polynomial()
+        minors = pure.determinant([*combined(slopes, placed, rank), row]).polynomial()
         if pure.is_coprime(a, minors, p):
             return True
     return False
@@ -715,7 +711,7 @@ def has_nonzero_minors(slopes: Slopes, representation: pure.Representation, a: p
 def large_determinants(
     slopes: Slopes, representation: pure.Representation, a: pure.Polynomial, rank: int | None
 ) -> Iterator[pure.Polynomial]:
-    """The determinant of the rows, or those of each row and the bordered ones, modulo a.
+    """The determinant of the rows, or those of each row below combinations, modulo a.
 
     A determinant is a polynomial in T of a degree d and of a size S at most; l^d times its remainder, l being the
     leading coefficient of a, has integer coefficients of a size of at most S size(a)^d. They are computed modulo a
@@ -737,14 +733,14 @@ def large_determinants(
 
 
 def determinants(slopes: Slopes, placed: pure.Motion, rank: int | None) -> Iterator[Any]:
-    """That of the rows, or those of each row and the bordered ones."""
+    """That of the rows, or those of each row below combinations, in the first columns."""
     rows = slopes.at(placed)
     if rank is None:
         yield pure.determinant(rows)
         return
-    border = bordered(slopes, placed, rank)
+    above = combined(slopes, placed, rank)
     for row in rows:
-        yield pure.determinant([*border, row])
+        yield pure.determinant([*above, row])
 
 
 # ---------------------------------------------------------------------------------------------------------------------
