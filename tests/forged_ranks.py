@@ -71,6 +71,13 @@ def _dependent_combinations() -> list[list[int]]:
     return [[a, b, PRIMES * c] for a, b, c in zip(columns[0], (1, 2, 3, 5), columns[1], strict=True)]
 
 
+def _one_combination() -> list[list[int]]:
+    """Rows of rank 3, one combination of which, that is drawn, begins with zeros; all are 0 modulo primes."""
+    (a, b, c, d) = _drawn(1, 1, 4)[0]
+    columns = (b, -a, 0, 0), (0, 0, d, -c), (1, 2, 3, 5)
+    return [[PRIMES * x for x in row] for row in zip(*columns, strict=True)]
+
+
 def _large_and_small() -> list[list[int]]:
     """A small row, and others whose determinants with what completes the combinations are multiples of 2^n - 1.
 
@@ -99,6 +106,7 @@ REGULAR: dict[str, Case] = {}
 for _name, _rows, _sphere in (
     ("all rows but the first one are in a plane", _one_row_apart(0), 1),
     ("all rows but the last one are in a plane", _one_row_apart(3), 1),
+    ("a combination of independent rows begins with zeros", _one_combination(), 0),
     ("determinants of rows are multiples of a number between their bounds", _large_and_small(), 1),
     ("combinations of independent rows are dependent", _dependent_combinations(), 0),
 ):
@@ -173,6 +181,15 @@ def _held_everywhere(total: int) -> Content:
     return listing("planar", [at], list(forms), None) | {"complex_solutions": total}
 
 
+def _parallel() -> Content:
+    """Four forms whose gradients are multiples of one at a pose."""
+    at = Pose((1, 0, 0, 0), (0, 1, 2, 0))
+    slopes = _slopes(at)
+    along = [[x - y for x, y in zip(slopes[0], slope, strict=True)] for slope in slopes[1:]]
+    forms = [_form(eight) for eight in _kernel([_values(at), *along])[1:]]
+    return listing("planar", [at], list(forms), None)
+
+
 def _of_two_ranks(multiplicity: int | None, total: int) -> Content:
     """Three forms whose gradients have rank 2 at one pose, and 1 at another one."""
     one, other = Pose((1, 0, 0, 0), (0, 1, 2, 0)), Pose((1, 0, 0, 1), (0, 2, -1, 0))
@@ -187,6 +204,7 @@ SINGULAR: dict[str, Case] = {
         f"a pose where nothing has a gradient, {total} in all": (partial(_held_everywhere, total), said)
         for total, said in ((1, ACCEPTED), (2, ACCEPTED), (7, REJECTED))
     },
+    "a pose where all gradients are parallel": (_parallel, ACCEPTED),
     "two poses at which gradients have different ranks": (partial(_of_two_ranks, None, 4), ACCEPTED),
     "two poses at which gradients have different ranks, said to be simple": (
         partial(_of_two_ranks, 1, 2),

@@ -421,3 +421,16 @@ def test_a_determinant_may_be_as_large_as_its_bound() -> None:
     assert shown is not None
     (value,) = pure_mechanism.large_determinants(slopes, shown, [0, 1], None)
     assert any(value)
+
+
+@pytest.mark.parametrize(
+    ("metric", "place", "exponent"),
+    [((1, 1, 1), 7, 200), ((1, 1, 1 << 60), 6, 20)],
+    ids=["products are as large as squares", "the metric is large in one place"],
+)
+def test_a_point_that_is_none_is_not_hidden_by_its_size(metric: pure.Metric, place: int, exponent: int) -> None:
+    """At the root 0 a coordinate, and with it a quadric, is a multiple of a large power of 2."""
+    numerators = tuple([1 << exponent] if place == k else [] for k in range(16))
+    point = pure_mechanism.PointsAtInfinity((0,) * 16, (0,) * 16, [0, 1], numerators, 1)
+    with pytest.raises(pure.Refusal, match="limit of rigid motions"):
+        pure_mechanism.check_points_on_motions(point, metric)

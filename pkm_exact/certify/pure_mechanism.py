@@ -1063,8 +1063,6 @@ def number_of_singular(infinity: PointsAtInfinity, g: pure.Metric) -> int:
 
 def exact_product(a: pure.Polynomial, b: pure.Polynomial) -> pure.Polynomial:
     """The product over Z."""
-    if not a or not b:
-        return []
     k = (pure.size(a) * pure.size(b)).bit_length() + 2
     pure.spend(pure.product_cost(k * len(a), k * len(b)))
     return pure.digits(pure.at_power(a, k) * pure.at_power(b, k), k)
