@@ -246,8 +246,14 @@ NO_TURN, NO_MOTION, NO_HOLD = (
     "not one of the motions",
     "pose: a constraint that always",
 )
-MIRROR, LONGER = [[1, 0, 0], [0, 1, 0], [0, 0, -1]], [[2, 0, 0], [0, 1, 0], [0, 0, 1]]
-SKEW = [[1, 1, 0], [0, 1, 0], [0, 0, 1]]
+MIRROR = [[1, 0, 0], [0, 1, 0], [0, 0, -1]]
+SHEARS = [
+    [[1, 1, 0], [0, 1, 0], [0, 0, 1]],
+    [[1, 0, "1/3"], [0, 1, 0], [0, 0, 1]],
+    [[1, 0, 0], ["1/3", 1, 0], [0, 0, 1]],
+    [[2, 0, 0], [0, "1/2", 0], [0, 0, 1]],
+    [[1, 0, 0], [0, 1, "-1/3"], [0, 0, 1]],
+]
 
 
 def _everywhere(content: Content, rank: int, route: str, combinations: Any = (), **entries: Any) -> Content:
@@ -257,9 +263,22 @@ def _everywhere(content: Content, rank: int, route: str, combinations: Any = (),
     return content | {EVERYWHERE: claim | entries}
 
 
-def _posed(content: Content, key: str, position: Any, rotation: Any, line: str) -> Row:
-    found = put(put(content, texts(rotation), key, "rotation"), texts(position), key, "position")
-    return found, "rejected", f"{key}{line}"
+def _posed(
+    legs: Sequence[Content], motion: str, position: Any, rotation: Any, line: str, metric: Any = (1, 1, 1)
+) -> Row:
+    """With proofs that fit what is no pose."""
+    found = certificate(legs, range(len(legs)), motion, (position, rotation), None, metric)
+    return found, "rejected", f"pose{line}"
+
+
+def _met(legs: Sequence[Content], motion: str, position: Any, rotation: Any, line: str) -> Row:
+    found = certificate(legs, [], motion, None, (position, rotation, "none", []))
+    return found, "rejected", f"everywhere{line}"
+
+
+def _held(constraints: Sequence[Content], position: Any) -> Row:
+    """At a pose where some constraint does not hold, with proofs that fit."""
+    return certificate(constraints, [], "spatial", (position, LEVEL)), "rejected", NO_HOLD
 
 
 ALL_LEGS = certificate(LEGS, range(7), everywhere=(*TURNED, "grid", []))
@@ -270,34 +289,53 @@ AT_REST = certificate([LINEAR], [], "spatial", None, ((0, 0, 0), OBLIQUE, "grid"
 SLIDING = certificate([LINEAR], [], "translation", None, ((0, 0, 0), LEVEL, "grid", []))
 ROLLED = certificate([LINEAR], [], "planar", None, ((0, 0, 0), QUARTER, "grid", []))
 TURNING = certificate(
-    [_constraint("angle", [_form(turn=[0, 0, 1, 0, 0, 0, 0, 0, 0])], base=(1, 0, 0), platform=(0, 0, 1), product=0)],
+    [_constraint("angle", [_form(turn=[1, 0, 0, 0, 0, 0, 0, 0, 0])], base=(1, 0, 0), platform=(1, 0, 0), product=0)],
     [],
     "spherical",
     None,
-    ((0, 0, 0), LEVEL, "full", []),
+    ((0, 0, 0), LEVEL, "grid", []),
 )
 
 FORGED: dict[str, Row] = {
-    "a mirror": _posed(FIVE, POSE, FAR, MIRROR, "." + NO_TURN),
-    "a mirror everywhere": _posed(FIVE, EVERYWHERE, FAR, MIRROR, "." + NO_TURN),
-    "a stretch": _posed(FIVE, POSE, FAR, LONGER, "." + NO_TURN),
-    "a shear": _posed(FIVE, POSE, FAR, SKEW, "." + NO_TURN),
-    "a rotation in another metric": _posed(ALIGNED, POSE, FAR, OBLIQUE, "." + NO_TURN),
-    "a tilt in the plane": _posed(FLAT, POSE, (3, 1, 0), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], ": " + NO_MOTION),
-    "a lift in the plane": _posed(FLAT, POSE, (3, 1, 2), LEVEL, ": " + NO_MOTION),
-    "a lift in the plane everywhere": _posed(FLAT, EVERYWHERE, (3, 1, 2), LEVEL, ": " + NO_MOTION),
-    "a turn of a translation": _posed(SHIFT, POSE, FAR, QUARTER, ": " + NO_MOTION),
-    "a move of a wrist": _posed(WRIST, POSE, (1, 0, 0), OBLIQUE, ": " + NO_MOTION),
-    "another tilt of a lift": _posed(LIFT, POSE, FAR, OBLIQUE, ": " + NO_MOTION),
-    "a joint that does not hold": (put(JOINED, texts((4, 1, 4)), POSE, "position"), "rejected", NO_HOLD),
-    "a joint that does not hold in its last form": (
-        put(JOINED, texts((3, 1, 5)), POSE, "position"),
+    "a mirror": _posed(LEGS[:5], "spatial", FAR, MIRROR, "." + NO_TURN),
+    "a mirror everywhere": _met(LEGS[:5], "spatial", FAR, MIRROR, "." + NO_TURN),
+    **{
+        f"a matrix of determinant 1, {k}": _posed(LEGS[:5], "spatial", FAR, rows, "." + NO_TURN)
+        for k, rows in enumerate(SHEARS)
+    },
+    "a shear everywhere": _met(LEGS[:5], "spatial", FAR, SHEARS[0], "." + NO_TURN),
+    "a rotation in another metric": _posed(SIX, "spatial", FAR, OBLIQUE, "." + NO_TURN, G3),
+    "a rotation in this metric": (
+        certificate(SIX, range(6), "spatial", (FAR, TURN), None, G3),
+        "accepted",
+        "everywhere: nothing",
+    ),
+    "a tilt in the plane": _posed(FLAT_LEGS, "planar", (3, 1, 0), [[1, 0, 0], [0, 0, -1], [0, 1, 0]], ": " + NO_MOTION),
+    "a lift in the plane": _posed(FLAT_LEGS, "planar", (3, 1, 2), LEVEL, ": " + NO_MOTION),
+    "a lift in the plane everywhere": _met(FLAT_LEGS, "planar", (3, 1, 2), LEVEL, ": " + NO_MOTION),
+    "a turn of a translation": _posed(LEGS[:3], "translation", FAR, QUARTER, ": " + NO_MOTION),
+    "a move of a wrist": _posed(SPHERE, "spherical", (1, 0, 0), OBLIQUE, ": " + NO_MOTION),
+    "another tilt of a lift": _posed(LEGS[:4], "schoenflies", FAR, OBLIQUE, ": " + NO_MOTION),
+    **{
+        f"a joint that does not hold along {k}": _held(
+            [at_point(FAR, (0, 0, 0))], [FAR[j] + (j == k) for j in range(3)]
+        )
+        for k in range(3)
+    },
+    "a joint that holds": (
+        certificate([at_point(FAR, (0, 0, 0))], [], "spatial", (FAR, LEVEL)),
+        "accepted",
+        "everywhere: nothing",
+    ),
+    "the first of three that does not hold": _held([ON_PLANE, BEARER, at_point((1, 1, 7), (-2, 0, 2))], (3, 1, 5)),
+    "the last of three that does not hold": _held([in_plane((1, 0, 0), 3, (0, 0, 0)), BEARER, ON_PLANE], (3, 1, 5)),
+    "outside of a cylinder": _held([ROLLER], (2, 5, 6)),
+    "within a cylinder": _held([ROLLER], ("5/2", 5, "7/2")),
+    "an actuated leg that is called fixed": (
+        put(certificate(LEGS[:2], [], pose=TURNED), [1], "actuated"),
         "rejected",
         NO_HOLD,
     ),
-    "a cylinder that does not hold": (put(CYLINDER, texts((2, 5, 4)), POSE, "position"), "rejected", NO_HOLD),
-    "a cylinder with the root only": (put(CYLINDER, texts((0, 0, 0)), POSE, "position"), "rejected", NO_HOLD),
-    "an actuated leg that is called fixed": (put(FIVE, [0, 1, 2, 3], "actuated"), "rejected", NO_HOLD),
     "a fixed joint that is called actuated": (put(JOINED, [0, 1], "actuated"), "malformed", "pose.free: a place"),
     "another null space of the free": (
         put(JOINED, "7", POSE, "free", "null_space", 0, 0),
@@ -417,11 +455,16 @@ FORGED: dict[str, Row] = {
     "a distance that changes from the next pose on": (AT_REST, "rejected", "everywhere: the rank is greater at a pose"),
     "a distance that changes with translations": (SLIDING, "rejected", "everywhere: the rank is greater at a pose"),
     "a distance that changes in the plane": (ROLLED, "rejected", "everywhere: the rank is greater at a pose"),
-    "an angle that does not change at rest": (
-        _everywhere(TURNING, 0, "grid"),
-        "rejected",
-        "everywhere: the rank is greater",
+    "an angle that does not change at rest": (TURNING, "rejected", "everywhere: the rank is greater"),
+    "the second combination is too short": (
+        _everywhere(SAME, 1, "combination", [*SUM_TO_0, [1, -1]]),
+        "malformed",
+        "everywhere.combinations: not a number",
     ),
+    "rows in one number": (_everywhere(FIVE, 1, "none", rows=5), "malformed", "everywhere.rows"),
+    "more rows than the rank": (_everywhere(FIVE, 1, "none", rows=[0, 1]), "malformed", "everywhere.rows"),
+    "more columns than the rank": (_everywhere(FIVE, 1, "none", columns=[0, 1]), "malformed", "everywhere.columns"),
+    "the only actuator is none": (put(FIVE, [5], "actuated"), "malformed", "actuated: no place"),
     "a combination without its route": (
         _everywhere(SAME, 2, "none", SUM_TO_0, rows=[0, 2]),
         "malformed",

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 if TYPE_CHECKING or __package__:
@@ -241,18 +241,21 @@ def check_grid(robot: pure_mechanism.Robot, r: int) -> None:
     columns_of_v = len(kind.twists) - columns_of_w
     t = 2 * (r + 1) if columns_of_w else 0
     p = min(r + 1, columns_of_w + 1) if columns_of_v else 0
-    turns = list(points([k in kind.support for k in (1, 2, 3)], t))
+    turns = list(points([k in kind.support for k in range(1, 4)], t))
     places = list(points([k in kind.twists for k in range(3)], p))
     few = len(turns) * len(places) <= MAX_POSES
     pure.affordable(few, f"everywhere: a grid of more than {MAX_POSES} poses")
     forms = [pure_mobility.whole(form[:16]) for form in robot.linear]
-    for e in turns:
+
+    def is_greater(pose: tuple[tuple[int, ...], tuple[int, ...]]) -> bool:
+        e, at = pose
+        pure.spend(len(forms) * (50_000 + 50 * pure.most_bits(x for form in forms for x in form)))
         turned = pure.motion((1, *e), (0, 0, 0, 0), g)
-        for at in places:
-            pure.spend(len(forms) * (50_000 + 50 * pure.most_bits(x for form in forms for x in form)))
-            rows = [row_of(form, g, at, turned.rotation, turned.norm) for form in forms]
-            found = len(pure_mobility.echelon([[row[k] for k in kind.twists] for row in rows]))
-            pure.require(found <= r, "everywhere: the rank is greater at a pose of the grid")
+        rows = [row_of(form, g, at, turned.rotation, turned.norm) for form in forms]
+        return len(pure_mobility.echelon([[row[k] for k in kind.twists] for row in rows])) > r
+
+    greater = any(map(is_greater, product(turns, places)))
+    pure.require(not greater, "everywhere: the rank is greater at a pose of the grid")
 
 
 def points(free: Sequence[bool], most: int) -> Iterator[tuple[int, ...]]:

@@ -164,7 +164,7 @@ def _check_grid(mechanism: Mechanism, forms: Sequence[Form], rank: int) -> None:
     moments = sum(k >= 3 for k in group.twists)
     turn = 2 * (rank + 1) if moments else 0
     move = min(rank, moments) + 1 if 0 in group.twists else 0
-    turns = _simplex([k for k in (1, 2, 3) if k in group.support], turn, 4)
+    turns = _simplex([k for k in group.support if 1 <= k <= 3], turn, 4)
     moves = _simplex([k for k in group.twists if k < 3], move, 3)
     number = len(turns) * len(moves)
     if number > MOST_POSES:
@@ -172,11 +172,15 @@ def _check_grid(mechanism: Mechanism, forms: Sequence[Form], rank: int) -> None:
     table = fmpz_mat([cleared(form)[:16] for form in forms])
     words = words_of([[fmpq(x) for x in row] for row in table.tolist()])
     charge(number * (200_000 + 2000 * len(forms) * (1 + words)))
-    for angles, places in product(turns, moves):
+
+    def is_greater(pose: tuple[list[int], list[int]]) -> bool:
+        angles, position = pose
         placed = motion((1, *angles[1:]), (0, 0, 0, 0), mechanism.metric)
-        basis = wrench_basis(mechanism.metric, places, placed.rotation, placed.norm, group.twists)
-        if int((table * fmpz_mat(basis)).rank()) > rank:
-            raise rejected("everywhere: the rank is greater at a pose of the grid")
+        basis = wrench_basis(mechanism.metric, position, placed.rotation, placed.norm, group.twists)
+        return int((table * fmpz_mat(basis)).rank()) > rank
+
+    if any(map(is_greater, product(turns, moves))):
+        raise rejected("everywhere: the rank is greater at a pose of the grid")
 
 
 def _simplex(places: Sequence[int], degree: int, size: int) -> list[list[int]]:
