@@ -40,7 +40,7 @@ def finite_entry(found: LinkageMobility, proof: SecondOrderProof) -> dict[str, A
         "least": finite.least,
         "most": finite.most,
         "platform_least": finite.platform_least,
-        "platform_most": finite.platform_most,
+        "platform_most": min(finite.most, 6),
         "dependencies": [list(map(str, row)) for row in proof.dependencies],
         "above": {
             "argument": proof.above,

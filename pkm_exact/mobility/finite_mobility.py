@@ -22,11 +22,13 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import reduce
 from itertools import chain, combinations
 from typing import Final
 
 from pkm_exact.geometry.linkage import Linkage
 from pkm_exact.mobility.instantaneous_mobility import Instantaneous, instantaneous
+from pkm_exact.mobility.legs_of_linkage import Leg, legs_of
 from pkm_exact.mobility.reachable import legs_are_transversal
 from pkm_exact.mobility.second_order import cone_dimension, obstructions, signature
 from pkm_exact.screws.screw import Screw
@@ -89,8 +91,8 @@ def finite(found: Instantaneous) -> Finite:
     total, platform = found.total, found.platform.rank
     if argument is not Argument.NONE:
         # The platform's poses have constant rank if legs are submersions, or if the rank is as large as it can be.
-        certain = argument is Argument.SUBGROUPS or platform == min(total, 6)
-        return Finite(total, total, argument, platform, platform if certain else min(total, 6))
+        most_of_platform = platform if argument is Argument.SUBGROUPS else min(total, reach_of_platform(found))
+        return Finite(total, total, argument, platform, most_of_platform)
     least, most = 0, cone_dimension(found)
     left = group_dimensions(found, found.locked) - found.rank
     signatures = [signature(entry.form, total) for entry in obstructions(found)]
@@ -99,10 +101,35 @@ def finite(found: Instantaneous) -> Finite:
     elif left == 1 and any(one.is_indefinite for one in signatures):
         least, most = total - 1, min(most, total - 1)
     if least == most:
-        return Finite(least, most, Argument.SECOND_ORDER, 0, min(most, 6))
+        return Finite(least, most, Argument.SECOND_ORDER, 0, min(most, reach_of_platform(found)))
     least, platform_least, locked = _with_freedoms_locked(found, most)
     known = Argument.SECOND_ORDER if least == most else Argument.NONE
-    return Finite(least, most, known, platform_least, min(most, 6), locked)
+    return Finite(least, most, known, platform_least, min(most, reach_of_platform(found)), locked)
+
+
+def reach_of_platform(found: Instantaneous) -> int:
+    """A bound of the dimension of the platform's poses near the configuration, whatever the whole mechanism does.
+
+    No leg moves the platform in more dimensions than it has freedoms by itself, nor out of the group that its joints
+    generate; and the poses that all legs allow are in all of these groups.
+
+    Examples
+    --------
+    >>> from pkm_exact.geometry.reader import read_linkage
+    >>> reach_of_platform(instantaneous(read_linkage("models/chains/3-pprr.toml")))
+    1
+    """
+    legs = legs_of(found.linkage, found.locked)
+    groups = [_group_of_leg(leg, found.locked) for leg in legs]
+    common = reduce(lambda one, other: one & other, groups)
+    return min(common.rank, *(leg.freedoms for leg in legs))
+
+
+def _group_of_leg(leg: Leg, locked: Collection[str]) -> ScrewSystem:
+    names = [(joint, name) for joint in leg.linkage.joints for name in joint.freedoms]
+    twists = [twist for joint in leg.linkage.joints for twist in joint.twists]
+    kept = [twist for (_, name), twist in zip(names, twists, strict=True) if name not in locked]
+    return ScrewSystem.span(map(Screw.from_coordinates, kept)).algebra()
 
 
 def smooth_argument(linkage: Linkage, locked: Collection[str]) -> Argument:
