@@ -6,9 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, partial
+from types import ModuleType
 from typing import Any
 
 import forged_platform
+import forged_second_order
 import pytest
 from certificate_tools import boxed_certificate, golden, tolerant_certificate, without_proof
 from mechanism_certificates import mechanism_content
@@ -47,6 +49,12 @@ def _nothing() -> Content:
 
 def _mobility(name: str) -> Content:
     return mobility_certificate(mobility_of(read_linkage(f"models/chains/{name}.toml")))
+
+
+def _rigid(made: ModuleType) -> Content:
+    content, entry = made.TRUE["five hinges in the third order"]
+    found: Content = made.second(content, entry)
+    return found
 
 
 def _nothing_finite() -> Content:
@@ -160,6 +168,8 @@ SUBJECTS = {
     "platform, five legs": Subject(lambda: forged_platform.FIVE, 15, complete=1500),
     "platform, six legs": Subject(lambda: forged_platform.SIX_POSED, 0, complete=1000),
     "platform, equal legs": Subject(lambda: forged_platform.SAME_POSED, 15, complete=1000),
+    "mobility-2, Bennett": Subject(partial(_mobility, "bennett"), 15, complete=1000),
+    "mobility-2, rigid in the third order": Subject(lambda: _rigid(forged_second_order), 15, complete=1000),
     "mobility-2, seven-link": Subject(partial(_mobility, "seven-link-oblique"), 20, complete=2000),
     "unproved multiplicities": Subject(partial(_unproved, "3-rpr-triple")),
     "not proven complete": Subject(lambda: without_proof(golden("similar-planar-s")), complete=1500),

@@ -34,14 +34,17 @@ def bounds(
     above: Any = ("rank", [], 0),
     below: Any = None,
 ) -> Content:
-    """The entry; ``below`` by argument, locked freedoms, legs and vectors."""
+    """The entry; ``below`` by argument, locked freedoms, legs, vectors and curve."""
     names = ("argument", "least", "most", "platform_least", "platform_most", "dependencies", "above", "below")
     why = dict(zip(("argument", "section", "degree"), (above[0], texts(above[1]), above[2]), strict=True))
+    why["series"] = texts(above[3]) if len(above) > 3 else []
     how = None
     if below is not None:
-        argument, locked, legs, vectors = (*below, *[[]] * 3)[:4]
-        how = {"argument": argument, "locked": locked, "legs": legs, "vectors": texts(vectors)}
-    return dict(zip(names, ("second-order", *mobility, *platform, list(known), why, how), strict=True))
+        argument, locked, legs, vectors, curve = (*below, *[[]] * 4)[:5]
+        how = {"argument": argument, "locked": locked, "legs": legs, "vectors": texts(vectors), "curve": texts(curve)}
+    higher = above[0] == "order" or (below or ("",))[0] == "curve"
+    word = "higher-order" if higher else "second-order"
+    return dict(zip(names, (word, *mobility, *platform, list(known), why, how), strict=True))
 
 
 def second(content: Content, entry: Any) -> Content:
@@ -68,6 +71,37 @@ MANY = [*ROLL[:3], str((1 << 61) - 1), "0", "0"]
 """The sum of the equation of turning and that of the line, the latter a prime number of times."""
 
 SIGNS = [[0, 1], [2, -3]]
+
+
+def ring(points: Any, axes: Any) -> list[Content]:
+    """A loop of hinges; the body behind the first one is the top."""
+    bodies = ["base", "top", *(f"b{k}" for k in range(2, len(points)))]
+    ends = [*bodies, "base"]
+    return [
+        joint(f"j{k}", "R", ends[k], ends[k + 1], point, [axis])
+        for k, (point, axis) in enumerate(zip(points, axes, strict=True))
+    ]
+
+
+FIVE_POINTS = [(0, 1, -1), (0, -1, 0), (0, 1, 1), (-1, 0, 1), (0, 1, 0)]
+FIVE = certificate(ring(FIVE_POINTS, [(1, 0, 1), (1, 1, 0), (1, 0, 1), (1, 0, 0), (1, -1, 0)]), [], [])
+"""Five hinges with one freedom to the first and second order, and none in the third."""
+TERMS = [[-1, 1, 1, -2, 1], [-1, 2, 1, -4, 0]]
+FOLLOWS = ["0", "0", "-1", "1", "0", "0"]
+SQUARE = [(1, 0, 0), (0, 1, 1), (-1, 0, 0), (0, -1, 1)]
+BENNETT = certificate(ring(SQUARE, [(-2, 0, -2), (0, 2, -2), (2, 0, -2), (0, -2, -2)]), [], [])
+TURN = [[[0, -1], [1, 2]], [[0, 1], [1]]] * 2
+SQUARED = [[[0, 0, -1], [1, 0, 2]], [[0, 0, 1], [1]]] * 2
+FIXED = [
+    joint(f"r{k}", "R", a, b, point, [Z])
+    for k, (a, b, point) in enumerate([("base", "p", (0, 5, 0)), ("p", "q", (1, 6, 0)), ("q", "base", (3, 5, 0))])
+]
+TWO_LOOPS = certificate([*FIXED, *hinges(0, 1, 3)], [], [])
+"""A triangle of hinges that holds itself, before a stretched one."""
+SCREWS = certificate(
+    [joint(f"s{k}", "H", *("base", "top")[:: 1 - 2 * k], O, [Z], pitch="1/3") for k in range(2)], [], []
+)
+
 
 TRUE: dict[str, tuple[Content, Content]] = {
     "a stretched triangle": (TRIANGLE, bounds((0, 0), (0, 0), [FIRST], DEFINITE)),
@@ -100,6 +134,35 @@ TRUE: dict[str, tuple[Content, Content]] = {
     "a hinge, its leg": (OPEN, bounds((1, 1), (1, 1), below=("subgroups", [], subgroups(("a", 0))["legs"]))),
     "a hinge that is held": (OPEN, bounds((0, 1), (0, 1), below=("regular", ["a"]))),
     "a hinge without equations": (OPEN, bounds((1, 1), (1, 1), [[]], below=("regular",))),
+    "five hinges in the third order": (FIVE, bounds((0, 0), (0, 0), [FOLLOWS], ("order", [], 3, TERMS))),
+    "five hinges, twice as fast": (
+        FIVE,
+        bounds((0, 0), (0, 0), [FOLLOWS], ("order", [], 3, [[2 * x for x in TERMS[0]], [4 * x for x in TERMS[1]]])),
+    ),
+    "five hinges, later": (
+        FIVE,
+        bounds(
+            (0, 0),
+            (0, 0),
+            [FOLLOWS],
+            ("order", [], 3, [TERMS[0], [x + 5 * y for x, y in zip(TERMS[1], TERMS[0], strict=True)]]),
+        ),
+    ),
+    "a stretched triangle in the second order": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST], ("order", [], 2, [[2, -3, 1]])),
+    ),
+    "a stretched triangle behind another": (
+        TWO_LOOPS,
+        bounds((0, 0), (0, 0), [["0"] * 6 + FIRST], ("order", [], 2, [[0, 0, 0, 2, -3, 1]])),
+    ),
+    "Bennett's linkage": (BENNETT, bounds((1, 1), (1, 1), below=("curve", [], [], [], TURN))),
+    "Bennett's linkage, slowly": (BENNETT, bounds((1, 1), (0, 1), below=("curve", [], [], [], SQUARED))),
+    "Bennett's linkage, fractions not reduced": (
+        BENNETT,
+        bounds((1, 1), (1, 1), below=("curve", [], [], [], [[[0, -1, 1], [1, 1, -2]], *TURN[1:]])),
+    ),
+    "a hinge along a curve": (OPEN, bounds((1, 1), (1, 1), below=("curve", [], [], [], [[[0, 1, 7], [3]]]))),
     "hinges that cannot move": (TIGHT, bounds((0, 0), (0, 0), [ROLL])),
     "hinges that cannot move, without a dependency": (TIGHT, bounds((0, 0), (0, 0), below=None)),
     "a triangle, regular when it is held": (
@@ -123,6 +186,154 @@ ABOVE, BELOW, MOST, LEAST = "finite.above: ", "finite.below: ", "finite.most: no
 LOW, HIGH, KNOWN = "finite.platform_least: not", "finite.platform_most: not", "finite.dependencies: "
 SECTION = ABOVE + "the section of the cone may be more"
 GROUPS = subgroups(("a", 0))["legs"]
+ORDER, CURVE, WORD = "finite.above.series: ", "finite.below.curve: ", "finite.argument: not that of its parts"
+SOLUTION = ABOVE + "the order may have a solution"
+
+
+def _order(known: Any, k: int, terms: Any, most: int = 0) -> Content:
+    return bounds((0, most), (0, most), known, ("order", [], k, terms))
+
+
+def _curve(curve: Any, low: int = 1, least: int = 1) -> Content:
+    return bounds((least, 1), (low, 1), below=("curve", [], [], [], curve))
+
+
+HIGHER: dict[str, tuple[Content, Content, str, str]] = {
+    "two motions in the second order": (
+        FLAT,
+        _order([FIRST], 2, [[1, 0, -4, 3]]),
+        "rejected",
+        ABOVE + "the mobility is not 1",
+    ),
+    "no motion in the second order": (TIGHT, _order([ROLL], 2, [[0, 0]]), "rejected", ABOVE + "the mobility is not 1"),
+    "the third order leaves one": (FIVE, _order([FOLLOWS], 3, TERMS, 1), "rejected", MOST),
+    "a short term": (FIVE, _order([FOLLOWS], 3, [TERMS[0], TERMS[1][:4]]), "malformed", ORDER + "not a number"),
+    "a long term": (FIVE, _order([FOLLOWS], 3, [[*TERMS[0], 0], TERMS[1]]), "malformed", ORDER + "not a number"),
+    "terms that begin with 0": (FIVE, _order([FOLLOWS], 3, [[0] * 5, TERMS[0]]), "rejected", ORDER + "begins with 0"),
+    "a first term that is none": (
+        FIVE,
+        _order([FOLLOWS], 3, [[1, *TERMS[0][1:]], TERMS[1]]),
+        "rejected",
+        ORDER + "does not close",
+    ),
+    "a second term that is none": (
+        FIVE,
+        _order([FOLLOWS], 3, [TERMS[0], [0] * 5]),
+        "rejected",
+        ORDER + "does not close",
+    ),
+    "an order too late": (FIVE, _order([FOLLOWS], 4, [*TERMS, [0] * 5]), "rejected", ORDER + "does not close"),
+    "an order too early": (FIVE, _order([FOLLOWS], 2, TERMS[:1]), "rejected", SOLUTION),
+    "an order of what moves": (BENNETT, _order([], 2, [[-1, 1, -1, 1]]), "rejected", SOLUTION),
+    "an order without a dependency": (FIVE, _order([], 3, TERMS), "rejected", SOLUTION),
+    "an order with another dependency": (TRIANGLE, _order([ROLL, FIRST], 2, [[2, -3, 1]]), "rejected", SOLUTION),
+    "the other loop's equation": (
+        TWO_LOOPS,
+        _order([[*ROLL, *["0"] * 6]], 2, [[0, 0, 0, 2, -3, 1]]),
+        "rejected",
+        SOLUTION,
+    ),
+    "screws in the second order": (SCREWS, _order([ROLL], 2, [[1, 1]]), "rejected", "finite: a screw of a loop"),
+    "fewer terms than orders": (FIVE, _order([FOLLOWS], 4, TERMS), "malformed", ABOVE + "not the parts"),
+    "more terms than orders": (FIVE, _order([FOLLOWS], 2, TERMS), "malformed", ABOVE + "not the parts"),
+    "an order of 1": (FIVE, _order([FOLLOWS], 1, []), "malformed", ABOVE + "not the parts"),
+    "an order of 13": (FIVE, _order([FOLLOWS], 13, TERMS[:1] * 12), "malformed", ABOVE + "not the parts"),
+    "an order with a section": (
+        FIVE,
+        bounds((0, 0), (0, 0), [FOLLOWS], ("order", [[1]], 3, TERMS)),
+        "malformed",
+        ABOVE + "not the parts",
+    ),
+    "a rank with terms": (
+        FIVE,
+        bounds((0, 1), (0, 1), [], ("rank", [], 0, TERMS)),
+        "malformed",
+        ABOVE + "not the parts",
+    ),
+    "definite with terms": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST], ("definite", [], 0, [[2, -3, 1]])),
+        "malformed",
+        ABOVE + "not the parts",
+    ),
+    "a curve of three": (BENNETT, _curve(TURN[:3]), "malformed", CURVE + "not a pair for each"),
+    "a curve of five": (BENNETT, _curve([*TURN, TURN[0]]), "malformed", CURVE + "not a pair for each"),
+    "a curve from elsewhere": (BENNETT, _curve([[[1, -1], [1, 2]], *TURN[1:]]), "rejected", CURVE + "does not begin"),
+    "a curve to elsewhere": (BENNETT, _curve([*TURN[:3], [[1, 1], [1]]]), "rejected", CURVE + "does not begin"),
+    "a curve from infinity": (BENNETT, _curve([[[0, -1], [0, 2]], *TURN[1:]]), "rejected", CURVE + "does not begin"),
+    "a curve at rest": (BENNETT, _curve([[[0], [1]]] * 4, 0), "rejected", CURVE + "does not move"),
+    "a curve at rest, written long": (BENNETT, _curve([[[0, 0], [1, 2]]] * 4, 0), "rejected", CURVE + "does not move"),
+    "a curve of the first order": (
+        BENNETT,
+        _curve([[[0, -1], [1]], [[0, 1], [1]]] * 2),
+        "rejected",
+        CURVE + "does not close",
+    ),
+    "a curve of one hinge": (BENNETT, _curve([*[[[0], [1]]] * 3, [[0, 1], [1]]]), "rejected", CURVE + "does not close"),
+    "a curve turned round": (BENNETT, _curve([[[0, 1], [1, 2]], *TURN[1:]]), "rejected", CURVE + "does not close"),
+    "a curve of a triangle": (
+        TRIANGLE,
+        _curve([[[0, 2], [1]], [[0, -3], [1]], [[0, 1], [1]]]),
+        "rejected",
+        CURVE + "does not close",
+    ),
+    "a curve of the last loop only": (
+        certificate(
+            [*hinges(0, 1, 3), joint("l", "R", "base", "aside", O, [Z]), joint("m", "R", "aside", "base", O, [Z])],
+            [],
+            [],
+        ),
+        bounds(
+            (1, 2),
+            (1, 2),
+            below=("curve", [], [], [], [*[[[0, x], [1]] for x in (2, -3, 1)], [[0, 1], [1]], [[0, -1], [1]]]),
+        ),
+        "rejected",
+        CURVE + "does not close",
+    ),
+    "a curve of screws": (SCREWS, _curve([[[0, 1], [1]]] * 2), "rejected", "finite: a screw of a loop"),
+    "two motions along a curve": (BENNETT, _curve(TURN, 1, 2), "rejected", LEAST),
+    "a platform at rest along a curve": (BENNETT, _curve(TURN, 0), "rejected", LOW),
+    "a platform that moves though slowly": (BENNETT, _curve(SQUARED, 1), "rejected", LOW),
+    "a curve of 13 coefficients": (OPEN, _curve([[[0, *[1] * 12], [1]]]), "malformed", "finite.below.curve[1]"),
+    "a curve of 12 coefficients": (OPEN, _curve([[[0, *[1] * 11], [1] * 12]]), "accepted", "finite: mobility"),
+    "a curve of no coefficient": (OPEN, _curve([[[], [1]]]), "malformed", "finite.below.curve[1]"),
+    "a curve of no denominator": (OPEN, _curve([[[0, 1], []]]), "malformed", "finite.below.curve[1]"),
+    "a curve of single lists": (OPEN, _curve([[[0, 1]]]), "malformed", "finite.below.curve[1]"),
+    "no curve": (OPEN, _curve([]), "malformed", BELOW + "not the parts"),
+    "a curve with a freedom held": (
+        BENNETT,
+        bounds((1, 1), (1, 1), below=("curve", ["j0"], [], [], TURN)),
+        "malformed",
+        BELOW + "not the parts",
+    ),
+    "a curve with legs": (
+        OPEN,
+        bounds((1, 1), (1, 1), below=("curve", [], GROUPS, [], [[[0, 1], [1]]])),
+        "malformed",
+        BELOW + "not the parts",
+    ),
+    "a curve with vectors": (
+        OPEN,
+        bounds((1, 1), (1, 1), below=("curve", [], [], [[1], [1]], [[[0, 1], [1]]])),
+        "malformed",
+        BELOW + "not the",
+    ),
+    "regular with a curve": (
+        OPEN,
+        bounds((1, 1), (1, 1), below=("regular", [], [], [], [[[0, 1], [1]]])),
+        "malformed",
+        BELOW + "not the parts",
+    ),
+    "a curve of second order": (BENNETT, _curve(TURN) | {"argument": "second-order"}, "malformed", WORD),
+    "an order of second order": (FIVE, _order([FOLLOWS], 3, TERMS) | {"argument": "second-order"}, "malformed", WORD),
+    "a definite form of higher order": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST], DEFINITE) | {"argument": "higher-order"},
+        "malformed",
+        WORD,
+    ),
+}
 FALSE: dict[str, tuple[Content, Content, str, str]] = {
     "an equation that is none": (TRIANGLE, bounds((0, 0), (0, 0), [OTHER], DEFINITE), "rejected", KNOWN + "not one of"),
     "a second equation that is none": (
@@ -213,32 +424,47 @@ FALSE: dict[str, tuple[Content, Content, str, str]] = {
         "too-large",
         ABOVE + "more than 500",
     ),
-    "a degree of 1": (FLAT, bounds((0, 1), (0, 1), [FIRST], ("cone", [[0, 1]], 1)), "malformed", ABOVE + "not the"),
-    "a degree of 13": (FLAT, bounds((0, 1), (0, 1), [FIRST], ("cone", [[0, 1]], 13)), "malformed", ABOVE + "not the"),
+    "a degree of 1": (
+        FLAT,
+        bounds((0, 1), (0, 1), [FIRST], ("cone", [[0, 1]], 1)),
+        "malformed",
+        ABOVE + "not the parts",
+    ),
+    "a degree of 13": (
+        FLAT,
+        bounds((0, 1), (0, 1), [FIRST], ("cone", [[0, 1]], 13)),
+        "malformed",
+        ABOVE + "not the parts",
+    ),
     "a cone without a section": (
         FLAT,
         bounds((0, 2), (0, 2), [FIRST], ("cone", [], 2)),
         "malformed",
-        ABOVE + "not the",
+        ABOVE + "not the parts",
     ),
     "a rank with a section": (
         FLAT,
         bounds((0, 2), (0, 2), [FIRST], ("rank", [[0, 1]], 0)),
         "malformed",
-        ABOVE + "not the",
+        ABOVE + "not the parts",
     ),
-    "a rank with a degree": (FLAT, bounds((0, 2), (0, 2), [FIRST], ("rank", [], 2)), "malformed", ABOVE + "not the"),
+    "a rank with a degree": (
+        FLAT,
+        bounds((0, 2), (0, 2), [FIRST], ("rank", [], 2)),
+        "malformed",
+        ABOVE + "not the parts",
+    ),
     "definite with a degree": (
         TRIANGLE,
         bounds((0, 0), (0, 0), [FIRST], ("definite", [], 2)),
         "malformed",
-        ABOVE + "not the",
+        ABOVE + "not the parts",
     ),
     "definite with a section": (
         TRIANGLE,
         bounds((0, 0), (0, 0), [FIRST], ("definite", [[1]], 0)),
         "malformed",
-        ABOVE + "not the",
+        ABOVE + "not the parts",
     ),
     "a false degree": (TRIANGLE, bounds((0, 1), (0, 1), [], ("rank", [], False)), "malformed", "finite.above.degree"),
     "an argument above of its own": (
@@ -420,7 +646,10 @@ FALSE: dict[str, tuple[Content, Content, str, str]] = {
     ),
 }
 _TRUE = {f"second: {name}": (second(*pair), "accepted", "finite: mobility") for name, pair in TRUE.items()}
-_FALSE = {f"second: {name}": (second(content, e), status, line) for name, (content, e, status, line) in FALSE.items()}
+_FALSE = {
+    f"second: {name}": (second(content, entry), status, line)
+    for name, (content, entry, status, line) in merged(FALSE, HIGHER).items()
+}
 _ONE: dict[str, Row] = {
     "second: version 2 in version 1": (put(_TRUE["second: a hinge"][0], 1, "version"), "malformed", "finite: not an"),
     "second: version 3": (put(_TRUE["second: a hinge"][0], 3, "version"), "malformed", "format: not a"),

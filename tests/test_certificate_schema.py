@@ -199,7 +199,7 @@ def test_the_page_of_mobility_defines_every_key_in_its_order() -> None:
     expected = [_keys(second[key]) for key in ("finite", "above", "below")]
     assert _tables("Version 2", "## What the digest binds", "certificates-mobility.md") == expected
     page = (CERTS.parent / "docs" / "certificates-mobility.md").read_text()
-    words = [word for key in ("above", "below") for word in second[key]["properties"]["argument"]["enum"]]
+    words = [word for key in ("finite", "above", "below") for word in second[key]["properties"]["argument"]["enum"]]
     assert all(f'`"{word}"`' in page for word in words)
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,12 +15,14 @@ from pkm_exact.geometry.joint_types import JointGeometry
 from pkm_exact.geometry.linkage import Joint, Linkage
 from pkm_exact.mobility.actuation import actuation
 from pkm_exact.mobility.analysis import LinkageMobility
+from pkm_exact.mobility.closure_series import higher_order
 from pkm_exact.mobility.finite_mobility import Argument, finite
 from pkm_exact.mobility.instantaneous_mobility import instantaneous
 from pkm_exact.mobility.second_order import cone_dimension
 
 ROOT = Path(__file__).parent.parent
 CHAINS = ROOT / "models" / "chains"
+ORIGIN = (Fraction(0),) * 3
 
 
 @cache
@@ -208,12 +211,62 @@ def bennett() -> Linkage:
     return _hinges(points, axes)
 
 
-def test_bennett_s_linkage_is_bounded_but_not_decided() -> None:
-    """It moves, and no argument here says so; nor does any say that it does not."""
+def test_bennett_s_linkage_moves_along_a_rational_curve() -> None:
+    """To the second order nothing decides; half tangents that are rational functions do."""
     found = instantaneous(bennett())
     assert (found.total, found.counted) == (1, -2)
+    assert cone_dimension(found) == 1
     proved = finite(found)
-    assert (proved.least, proved.most, proved.argument, proved.is_known) == (0, 1, Argument.NONE, False)
+    assert (proved.least, proved.most, proved.argument) == (1, 1, Argument.CURVE)
+    assert (proved.platform_least, proved.platform_most) == (1, 1)
+    written = read_linkage(CHAINS / "bennett.toml")
+    assert [joint.twists for joint in written.joints] == [joint.twists for joint in bennett().joints]
+
+
+THIRD = (
+    [(0, 1, -1), (0, -1, 0), (0, 1, 1), (-1, 0, 1), (0, 1, 0)],
+    [(1, 0, 1), (1, 1, 0), (1, 0, 1), (1, 0, 0), (1, -1, 0)],
+)
+FOURTH = (
+    [(1, 0, 1), (-1, 0, 0), (-1, 0, -1), (-1, -1, 1), (0, -1, 0), (1, 1, -1)],
+    [(1, 0, 0), (1, 1, 0), (1, 1, 0), (1, -1, 0), (1, -1, 0), (1, 0, 0)],
+)
+
+
+@pytest.mark.parametrize(("hinges", "order"), [(THIRD, 3), (FOURTH, 4)])
+def test_loops_that_are_rigid_in_the_third_and_fourth_order(hinges: Any, order: int) -> None:
+    found = instantaneous(_hinges(*hinges))
+    assert (found.total, cone_dimension(found)) == (1, 1)
+    proved = finite(found)
+    assert (proved.least, proved.most, proved.argument) == (0, 0, Argument.HIGHER_ORDER)
+    series = higher_order(found)
+    assert series is not None
+    assert len(series.terms) + 1 == order
+
+
+def with_arm() -> Linkage:
+    """Bennett's linkage, and a body that turns on one of its links: the series are those of one freedom only."""
+    linkage = bennett()
+    arm = Joint("arm", "R", ("b1", "arm"), JointGeometry(ORIGIN, ((Fraction(1), Fraction(2), Fraction(2)),)))
+    return replace(linkage, bodies=(*linkage.bodies, "arm"), joints=(*linkage.joints, arm), platform="arm")
+
+
+def test_what_is_not_decided_has_bounds() -> None:
+    proved = finite(instantaneous(with_arm()))
+    assert (proved.least, proved.most, proved.argument, proved.is_known) == (0, 2, Argument.NONE, False)
+
+
+def test_the_platform_moves_as_its_legs_can() -> None:
+    """A hinge by itself is a leg; the other one has five freedoms more, but the platform only turns."""
+    ball, up = JointGeometry((Fraction(1), Fraction(2), Fraction(3))), (Fraction(0), Fraction(0), Fraction(1))
+    joints = (
+        Joint("a", "S", ("base", "x"), ball),
+        Joint("b", "S", ("x", "y"), JointGeometry(ORIGIN)),
+        Joint("c", "S", ("y", "top"), JointGeometry((Fraction(0), Fraction(5), Fraction(0)))),
+        Joint("d", "R", ("top", "base"), JointGeometry(ORIGIN, (up,))),
+    )
+    proved = finite(instantaneous(Linkage("legs", "1", "a test", ("base", "x", "y", "top"), joints, "base", "top")))
+    assert (proved.least, proved.platform_least, proved.platform_most) == (4, 1, 1)
 
 
 def test_a_joint_that_cannot_move_is_named() -> None:
@@ -313,12 +366,13 @@ def test_bad_questions_are_refused_in_one_sentence(
 
 
 def test_what_is_not_known_has_an_exit_code_of_its_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    linkage = with_arm()
     text = 'schema = 1\nname = "folded"\nkind = "chains"\nunit = "1"\nsource = "a test"\n'
-    text += "".join(f'[[bodies]]\nname = "{body}"\n' for body in bennett().bodies)
-    for joint in bennett().joints:
+    text += "".join(f'[[bodies]]\nname = "{body}"\n' for body in linkage.bodies)
+    for joint in linkage.joints:
         point, axis = ([int(x) for x in v] for v in (joint.geometry.point, joint.geometry.axes[0]))
         text += f'[[joints]]\nname = "{joint.name}"\ntype = "R"\nbodies = {json.dumps(joint.bodies)}\n'
         text += f"point = {point}\naxis = {axis}\n"
     (tmp_path / "flat.toml").write_text(text)
     assert main(["mobility", str(tmp_path / "flat.toml")]) == 3
-    assert "not known, 0 to 1" in capsys.readouterr().out
+    assert "not known, 0 to 2" in capsys.readouterr().out

@@ -41,6 +41,7 @@ def _made(name: str, **words: Any) -> Content:
         ("3-pprr", {"actuated": ["A1", "B1"]}),
         ("seven-link-oblique", {}),
         ("peaucellier", {}),
+        ("bennett", {}),
         ("3-upu", {"among": ["P1", "P2", "P3", "U1"]}),
         ("5-rrr-rr", {"among": ["R11", "R21", "R31", "R41", "R51", "R12"]}),
         ("5-rrr-rr-alike", {"among": ["R11", "R21", "R31", "R41", "R51"]}),

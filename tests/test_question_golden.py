@@ -24,6 +24,7 @@ COMMANDS = {
         *LIMITS,
     ],
     "mobility/3-rps": ["mobility", "models/3-rps.toml", "--at", "0,0,1/2,1,0,0,0"],
+    "mobility/bennett": ["mobility", "models/chains/bennett.toml"],
     "mobility/seven-link-oblique": ["mobility", "models/chains/seven-link-oblique.toml"],
     "regions/3-rpr-merlet-p": ["region", "models/3-rpr-merlet-p.toml", "certs/regions/3-rpr-merlet-p.toml"],
     "regions/rolland-6-6": ["region", "models/rolland-6-6.toml", "certs/regions/rolland-6-6.toml"],

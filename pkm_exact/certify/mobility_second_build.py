@@ -34,9 +34,10 @@ def finite_entry(found: LinkageMobility, proof: SecondOrderProof) -> dict[str, A
             "locked": list(finite.locked),
             "legs": legs_entry(found.linkage, finite.locked) if proof.below == "subgroups" else [],
             "vectors": [list(map(str, row)) for row in proof.signs],
+            "curve": [[list(map(str, part)) for part in pair] for pair in proof.curve],
         }
     return {
-        "argument": "second-order",
+        "argument": "second-order" if proof.is_of_second_order else "higher-order",
         "least": finite.least,
         "most": finite.most,
         "platform_least": finite.platform_least,
@@ -46,6 +47,7 @@ def finite_entry(found: LinkageMobility, proof: SecondOrderProof) -> dict[str, A
             "argument": proof.above,
             "section": [list(map(str, row)) for row in proof.section],
             "degree": proof.degree,
+            "series": [list(map(str, row)) for row in proof.series],
         },
         "below": below,
     }

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations_with_replacement, pairwise
+from itertools import combinations_with_replacement, pairwise, zip_longest
 from math import comb, gcd, lcm
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
@@ -597,16 +597,19 @@ Square: TypeAlias = list[list[Fraction]]
 class Bounds(NamedTuple):
     """Bounds of the mobility near the configuration, those of the platform, and what proves them."""
 
+    argument: str
     mobility: tuple[int, int]
     platform: tuple[int, int]
     dependencies: tuple[Row, ...]
     above: str
     section: tuple[Row, ...]
     degree: int
-    below: str | None
-    held: tuple[int, ...]
-    legs: tuple[Leg, ...]
-    signs: tuple[Row, ...]
+    series: tuple[Row, ...]
+    below: str | None = None
+    held: tuple[int, ...] = ()
+    legs: tuple[Leg, ...] = ()
+    signs: tuple[Row, ...] = ()
+    curve: tuple[tuple[Row, ...], ...] = ()
 
 
 def some_bounds(value: Any, joints: Sequence[str], freedoms: Sequence[str]) -> Bounds:
@@ -614,26 +617,47 @@ def some_bounds(value: Any, joints: Sequence[str], freedoms: Sequence[str]) -> B
     word, least, most, low, high, dependencies, above, below = pure.an_object(
         value, "finite", "argument least most platform_least platform_most dependencies above below"
     )
-    pure.one_of(("second-order",))(word, "finite.argument")
+    argument = pure.one_of(("second-order", "higher-order"))(word, "finite.argument")
     mobility = pure.a_number(least, "finite.least"), pure.a_number(most, "finite.most")
     platform = pure.a_number(low, "finite.platform_least"), pure.a_number(high, "finite.platform_most")
     some_rows = pure.a_list(pure.a_list(pure.a_rational))
-    upper, section, degree = pure.an_object(above, "finite.above", "argument section degree")
-    pure.one_of(("rank", "cone", "definite"))(upper, "finite.above.argument")
+    upper, section, degree, series = pure.an_object(above, "finite.above", "argument section degree series")
+    pure.one_of(("rank", "cone", "definite", "order"))(upper, "finite.above.argument")
     cut, number = some_rows(section, "finite.above.section"), pure.a_number(degree, "finite.above.degree")
-    fits = bool(cut) and 2 <= number <= MAX_DEGREE if upper == "cone" else not cut and not number
-    pure.well_formed(fits, "finite.above: not the section and degree of the argument")
+    terms = some_rows(series, "finite.above.series")
+    numbered = 2 <= number <= MAX_DEGREE if upper in ("cone", "order") else number == 0
+    fits = numbered and bool(cut) == (upper == "cone") and len(terms) == (number - 1 if upper == "order" else 0)
+    pure.well_formed(fits, "finite.above: not the parts of the argument")
     known = some_rows(dependencies, "finite.dependencies")
-    if below is None:
-        return Bounds(mobility, platform, known, upper, cut, number, None, (), (), ())
-    lower, held, legs, vectors = pure.an_object(below, "finite.below", "argument locked legs vectors")
-    pure.one_of(("regular", "subgroups", "indefinite"))(lower, "finite.below.argument")
+    found = Bounds(argument, mobility, platform, known, upper, cut, number, terms)
+    if below is not None:
+        found = with_below(found, below, joints, freedoms)
+    higher = found.above == "order" or found.below == "curve"
+    pure.well_formed(higher == (argument == "higher-order"), "finite.argument: not that of its parts")
+    return found
+
+
+def with_below(bounds: Bounds, value: Any, joints: Sequence[str], freedoms: Sequence[str]) -> Bounds:
+    """The same with the entry ``below``."""
+    lower, held, legs, vectors, curve = pure.an_object(value, "finite.below", "argument locked legs vectors curve")
+    pure.one_of(("regular", "subgroups", "indefinite", "curve"))(lower, "finite.below.argument")
     shut = in_order(freedoms)(held, "finite.below.locked")
+    some_rows = pure.a_list(pure.a_list(pure.a_rational))
     read, signs = some_legs(joints)(legs, "finite.below.legs"), some_rows(vectors, "finite.below.vectors")
-    sizes = {"regular": (False, 0), "subgroups": (True, 0), "indefinite": (False, 2)}
-    fits = (bool(read), len(signs)) == sizes[lower] and not (shut and signs)
+    path = pure.a_list(a_half_tangent)(curve, "finite.below.curve")
+    sizes = {"regular": (False, 0, False), "subgroups": (True, 0, False), "indefinite": (False, 2, False)}
+    sizes["curve"] = (False, 0, True)
+    fits = (bool(read), len(signs), bool(path)) == sizes[lower] and not (shut and (signs or path))
     pure.well_formed(fits, "finite.below: not the parts of the argument")
-    return Bounds(mobility, platform, known, upper, cut, number, lower, shut, read, signs)
+    return bounds._replace(below=lower, held=shut, legs=read, signs=signs, curve=path)
+
+
+def a_half_tangent(value: Any, where: str) -> tuple[Row, ...]:
+    """The coefficients of numerator and denominator."""
+    found: tuple[Row, ...] = pure.a_list(pure.a_list(pure.a_rational), 2)(value, where)
+    fits = all(1 <= len(part) <= MAX_DEGREE for part in found)
+    pure.well_formed(fits, f"{where}: not 1 to {MAX_DEGREE} coefficients")
+    return found
 
 
 def check_bounds(
@@ -650,6 +674,8 @@ def check_bounds(
         columns = [list(column) for column in zip(*m, strict=True)] if m else []
         pure.require(not any(applied(columns, u)), "finite.dependencies: not one of the equations")
     forms = [form_of(mechanism, loops, u, motions) for u in bounds.dependencies]
+    if bounds.above == "order":
+        check_order(mechanism, loops, bounds, len(motions))
     check_above(bounds, forms, len(motions))
     least, low = (0, 0)
     if bounds.below == "indefinite":
@@ -660,6 +686,8 @@ def check_bounds(
         both = bool(forms) and value_of(forms[0], bounds.signs[0]) > 0 > value_of(forms[0], bounds.signs[1])
         pure.require(both, "finite.below: the form has not both signs")
         least = len(motions) - 1
+    elif bounds.below == "curve":
+        least, low = 1, check_curve(mechanism, loops, bounds.curve, p)
     elif bounds.below is not None:
         kept = [k for k in range(len(mechanism.freedoms)) if k not in bounds.held]
         rest = [[row[k] for k in kept] for row in m]
@@ -674,7 +702,7 @@ def check_bounds(
     pure.require(bounds.platform[0] == low, "finite.platform_least: not the number that follows")
     pure.require(bounds.platform[1] == min(bounds.mobility[1], 6), "finite.platform_most: not the number that follows")
     known = " to ".join(map(str, sorted(set(bounds.mobility))))
-    return f"finite: mobility {known} near the configuration, by the argument second-order"
+    return f"finite: mobility {known} near the configuration, by the argument {bounds.argument}"
 
 
 def form_of(mechanism: Mechanism, loops: Sequence[Way], u: Row, motions: Sequence[Row]) -> Square:
@@ -705,7 +733,9 @@ def value_of(form: Square, y: Row) -> Fraction:
 def check_above(bounds: Bounds, forms: Sequence[Square], mobility: int) -> None:
     """Prove that the mobility near the configuration is not greater."""
     most = mobility
-    if bounds.above == "definite":
+    if bounds.above == "order":
+        most = 0
+    elif bounds.above == "definite":
         most = 0
         pure.require(bool(forms) and is_positive(forms[0]), "finite.above: the form is not positive")
     elif bounds.above == "cone":
@@ -719,6 +749,97 @@ def check_above(bounds: Bounds, forms: Sequence[Square], mobility: int) -> None:
         proved_0 = are_all_monomials(cut, len(bounds.section), bounds.degree)
         pure.require(proved_0, "finite.above: the section of the cone may be more than 0")
     pure.require(bounds.mobility[1] == most, "finite.most: not the number that follows")
+
+
+Poly: TypeAlias = list[Fraction]
+"""Coefficients, lowest degree first."""
+
+HAMILTON: Final = (
+    *((0, 1, 1, -1), (0, 2, 2, -1), (0, 3, 3, -1)),
+    *((1, 0, 1, 1), (1, 2, 3, 1), (1, 3, 2, -1)),
+    *((2, 0, 2, 1), (2, 3, 1, 1), (2, 1, 3, -1)),
+    *((3, 0, 3, 1), (3, 1, 2, 1), (3, 2, 1, -1)),
+)
+"""Entry a of p times a vector u has the term p_b u_c with this sign: a, b, c and the sign."""
+
+
+def check_order(mechanism: Mechanism, loops: Sequence[Way], bounds: Bounds, mobility: int) -> None:
+    """Prove that the only curve there can be leaves the configurations at the order k."""
+    pure.require(mobility == 1, "finite.above: the mobility is not 1")
+    size, k = len(mechanism.freedoms), bounds.degree
+    fits = all(len(term) == size for term in bounds.series)
+    pure.well_formed(fits, "finite.above.series: not a number for each freedom")
+    pure.require(any(bounds.series[0]), "finite.above.series: begins with 0")
+    halves = [([Fraction(0), *(term[i] for term in bounds.series)], [Fraction(1)]) for i in range(size)]
+    parts = [[*part, *[Fraction(0)] * k] for part in closures(mechanism, loops, halves, k)]
+    closed = not any(any(part[:k]) for part in parts)
+    pure.require(closed, "finite.above.series: does not close the loops to its order")
+    left = [part[k] for part in parts]
+    open_end = bool(bounds.dependencies) and any(applied([bounds.dependencies[0]], left))
+    pure.require(open_end, "finite.above: the order may have a solution")
+
+
+def check_curve(
+    mechanism: Mechanism, loops: Sequence[Way], curve: Sequence[tuple[Row, ...]], p: Sequence[Sequence[Fraction]]
+) -> int:
+    """Prove that half tangents close the loops; 1 if the platform moves with their speeds, else 0."""
+    pure.well_formed(len(curve) == len(mechanism.freedoms), "finite.below.curve: not a pair for each freedom")
+    begins = all(numerator[0] == 0 != denominator[0] for numerator, denominator in curve)
+    pure.require(begins, "finite.below.curve: does not begin at the configuration")
+    pure.require(any(any(numerator) for numerator, _ in curve), "finite.below.curve: does not move")
+    halves = [(list(numerator), list(denominator)) for numerator, denominator in curve]
+    closed = not any(any(part) for part in closures(mechanism, loops, halves, None))
+    pure.require(closed, "finite.below.curve: does not close the loops")
+    speeds = [sum(numerator[1:2], Fraction(0)) / denominator[0] for numerator, denominator in curve]
+    return int(any(applied(p, speeds)))
+
+
+def closures(
+    mechanism: Mechanism, loops: Sequence[Way], halves: Sequence[tuple[Poly, Poly]], order: int | None
+) -> list[Poly]:
+    """The six vector parts of each loop, up to an order if there is one."""
+    twists = [twist for joint in mechanism.joints for twist in joint.twists]
+    found = []
+    for loop in loops:
+        product: list[Poly] = [[Fraction(1)]] + [[Fraction(0)] for _ in range(7)]
+        for k, sign in passed(mechanism, loop):
+            w, v = ([sign * x for x in half] for half in (twists[k][:3], twists[k][3:]))
+            straight = sum((a * b for a, b in zip(w, v, strict=True)), Fraction(0)) == 0
+            pure.require(straight, "finite: a screw of a loop has a pitch")
+            real, dual = product[:4], product[4:]
+            turned = [*hamilton(((real, w),)), *hamilton(((real, v), (dual, w)))]
+            numerator, denominator = halves[k]
+            product = [
+                combined(multiplied(a, denominator, order), multiplied(b, numerator, order))
+                for a, b in zip(product, turned, strict=True)
+            ]
+        found += [*product[1:4], *product[5:8]]
+    return found
+
+
+def hamilton(products: Sequence[tuple[Sequence[Poly], Sequence[Fraction]]]) -> list[Poly]:
+    """The sum of quaternions times vectors."""
+    found: list[Poly] = [[], [], [], []]
+    for p, u in products:
+        for a, b, c, sign in HAMILTON:
+            found[a] = combined(found[a], [sign * u[c - 1] * x for x in p[b]])
+    return found
+
+
+def combined(a: Sequence[Fraction], b: Sequence[Fraction]) -> Poly:
+    """The sum of polynomials."""
+    pure.spend((len(a) + len(b)) * 2 * pure.fraction_cost(longest([a]), longest([b])))
+    return [x + y for x, y in zip_longest(a, b, fillvalue=Fraction(0))]
+
+
+def multiplied(a: Sequence[Fraction], b: Sequence[Fraction], order: int | None) -> Poly:
+    """The product of polynomials, up to an order if there is one."""
+    pure.spend(len(a) * len(b) * 2 * pure.fraction_cost(longest([a]), longest([b])))
+    found = [Fraction(0)] * (len(a) + len(b) - 1)
+    for i, x in enumerate(a):
+        for j, y in enumerate(b):
+            found[i + j] += x * y
+    return found if order is None else found[: order + 1]
 
 
 def is_positive(form: Square) -> bool:

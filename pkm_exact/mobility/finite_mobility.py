@@ -12,6 +12,9 @@ Rank alone tells no more than an upper bound. The dimension d at the configurati
     fit, and 0 if a quadratic form that must be 0 there is definite. From below, it is at least what one of the other
     arguments proves with some freedoms locked; or the loops ask one thing more than their rank says, a quadratic form
     in the second order that takes both signs. The bounds agree.
+    higher-order The instantaneous mobility is 1, and the power series of the only curve there can be has no term of
+    some order.
+    curve It is 1, and half tangents that are rational functions of one number close the loops, as polynomials.
 
 Otherwise there are bounds: the dimension of the cone from above, and what is proved with some freedoms locked from
 below.
@@ -27,6 +30,7 @@ from itertools import chain, combinations
 from typing import Final
 
 from pkm_exact.geometry.linkage import Linkage
+from pkm_exact.mobility.closure_series import higher_order
 from pkm_exact.mobility.instantaneous_mobility import Instantaneous, instantaneous
 from pkm_exact.mobility.legs_of_linkage import Leg, legs_of
 from pkm_exact.mobility.reachable import legs_are_transversal
@@ -46,6 +50,8 @@ class Argument(StrEnum):
     REGULAR = "regular"
     SUBGROUPS = "subgroups"
     SECOND_ORDER = "second-order"
+    HIGHER_ORDER = "higher-order"
+    CURVE = "curve"
     NONE = "not known"
 
 
@@ -102,6 +108,12 @@ def finite(found: Instantaneous) -> Finite:
         least, most = total - 1, min(most, total - 1)
     if least == most:
         return Finite(least, most, Argument.SECOND_ORDER, 0, min(most, reach_of_platform(found)))
+    further = higher_order(found)
+    if further is not None and further.curve:
+        most_of_platform = min(total, reach_of_platform(found))
+        return Finite(total, total, Argument.CURVE, platform, most_of_platform)
+    if further is not None:
+        return Finite(0, 0, Argument.HIGHER_ORDER, 0, 0)
     least, platform_least, locked = _with_freedoms_locked(found, most)
     known = Argument.SECOND_ORDER if least == most else Argument.NONE
     return Finite(least, most, known, platform_least, min(most, reach_of_platform(found)), locked)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from pkm_exact.mobility.closure_series import higher_order
 from pkm_exact.mobility.finite_mobility import Argument, Finite, smooth_argument
 from pkm_exact.mobility.instantaneous_mobility import Instantaneous
 from pkm_exact.mobility.second_order import (
@@ -35,6 +36,10 @@ class SecondOrderProof:
         None if nothing is claimed, "indefinite", or the argument that applies with freedoms locked.
     signs : tuple of rows
         A motion at which the first form is positive, and one at which it is negative.
+    series : tuple of rows
+        The terms of the only curve there can be, for "order".
+    curve : tuple of pairs of rows
+        Numerators and denominators of the half tangents along a curve, for "curve".
     """
 
     dependencies: tuple[Row, ...]
@@ -43,6 +48,13 @@ class SecondOrderProof:
     degree: int = 0
     below: str | None = None
     signs: tuple[Row, ...] = ()
+    series: tuple[Row, ...] = ()
+    curve: tuple[tuple[Row, Row], ...] = ()
+
+    @property
+    def is_of_second_order(self) -> bool:
+        """Whether nothing beyond is used."""
+        return not self.series and not self.curve
 
 
 def second_order_proof(free: Instantaneous, finite: Finite) -> SecondOrderProof | None:
@@ -59,6 +71,8 @@ def second_order_proof(free: Instantaneous, finite: Finite) -> SecondOrderProof 
     smooth = finite.argument in (Argument.REGULAR, Argument.SUBGROUPS)
     if smooth or (finite.least, finite.most) == (0, free.total):
         return None
+    if finite.argument in (Argument.HIGHER_ORDER, Argument.CURVE):
+        return _of_higher_order(free)
     forms = obstructions(free)
     known = tuple(entry.factors for entry in forms)
     below, signs = _below(free, finite, forms)
@@ -72,6 +86,15 @@ def second_order_proof(free: Instantaneous, finite: Finite) -> SecondOrderProof 
     if degree is None:  # one less than the motions, but the first form is 0 on the vector that would be looked at
         return SecondOrderProof(known, "cone", (squares(forms[0].form, free.total)[0][1],), 2, below, signs)
     return SecondOrderProof(known, "cone", section_vectors(free.total, finite.most), degree, below, signs)
+
+
+def _of_higher_order(free: Instantaneous) -> SecondOrderProof | None:
+    found = higher_order(free)
+    if found is None:
+        return None
+    if found.curve:
+        return SecondOrderProof((), "rank", below="curve", curve=found.curve)
+    return SecondOrderProof((found.factors,), "order", degree=len(found.terms) + 1, series=found.terms)
 
 
 def _below(free: Instantaneous, finite: Finite, forms: list[Obstruction]) -> tuple[str | None, tuple[Row, ...]]:

@@ -10,6 +10,7 @@ from typing import Final
 from flint import fmpq, fmpq_mat
 
 from pkm_exact.certify.checker.budget import charge
+from pkm_exact.certify.checker.mobility_closure import check_curve, check_order
 from pkm_exact.certify.checker.mobility_document import MobilityDocument, SecondOrder
 from pkm_exact.certify.checker.mobility_groups import bracket, check_legs, group_dimensions
 from pkm_exact.certify.checker.mobility_machine import Machine, Rows, exact, rank_of, times, words_of
@@ -22,14 +23,17 @@ Form = list[list[fmpq]]
 
 def check_second_order(document: MobilityDocument, claim: SecondOrder, machine: Machine, motions: Rows) -> str:
     """The bounds of the finite mobility, with the motions as the null space of the loops."""
-    forms = [_form(machine, motions, u) for u in _dependencies(claim, machine)]
+    dependencies = _dependencies(claim, machine)
+    forms = [_form(machine, motions, u) for u in dependencies]
+    if claim.above == "order":
+        check_order(claim, machine, dependencies, motions)
     _check_above(claim, forms, len(motions))
     _check_below(document, claim, machine, forms, len(motions))
     if claim.platform_most != min(claim.most, 6):
         raise rejected("finite.platform_most: not the number that follows")
     least, most = claim.least, claim.most
     found = str(least) if least == most else f"{least} to {most}"
-    return f"finite: mobility {found} near the configuration, by the argument second-order"
+    return f"finite: mobility {found} near the configuration, by the argument {claim.argument}"
 
 
 def _dependencies(claim: SecondOrder, machine: Machine) -> Rows:
@@ -74,10 +78,10 @@ def _check_above(claim: SecondOrder, forms: Sequence[Form], mobility: int) -> No
         if most != mobility:
             raise rejected("finite.most: not the number that follows")
         return
-    if claim.above == "definite":
+    if claim.above in ("definite", "order"):
         if most != 0:
             raise rejected("finite.most: not the number that follows")
-        if not forms or not _is_positive(forms[0]):
+        if claim.above == "definite" and (not forms or not _is_positive(forms[0])):
             raise rejected("finite.above: the form is not positive")
         return
     section = [[exact(x) for x in vector] for vector in claim.section]
@@ -134,6 +138,8 @@ def _check_below(
             raise rejected("finite.below: the loops do not ask one thing more")
         _check_signs(claim, forms, mobility)
         expected = (mobility - 1, 0)
+    elif claim.below == "curve":
+        expected = (1, check_curve(claim, machine))
     else:
         expected = _with_locked(document, claim, machine)
     for key, given, follows in zip(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any, Final
@@ -18,8 +18,8 @@ TYPES: Final = {"R": 1, "P": 1, "H": 1, "C": 1, "U": 2, "S": 0, "screw": 0}
 """Types of joints, with their numbers of axes."""
 FREEDOMS: Final = {"R": 1, "P": 1, "H": 1, "C": 2, "U": 2, "S": 3}
 ARGUMENTS: Final = ("regular", "subgroups")
-ABOVE: Final = ("rank", "cone", "definite")
-BELOW: Final = ("regular", "subgroups", "indefinite")
+ABOVE: Final = ("rank", "cone", "definite", "order")
+BELOW: Final = ("regular", "subgroups", "indefinite", "curve")
 MOST_DEGREE: Final = 12
 _KEYS: Final = (
     "format",
@@ -87,6 +87,7 @@ class LegOfProof:
 class SecondOrder:
     """Bounds of the finite mobility, and why it is not greater and not less; freedoms by their places."""
 
+    argument: str
     least: int
     most: int
     platform_least: int
@@ -95,10 +96,12 @@ class SecondOrder:
     above: str
     section: tuple[Vector, ...]
     degree: int
-    below: str | None
-    locked: tuple[int, ...]
-    legs: tuple[LegOfProof, ...]
-    vectors: tuple[Vector, ...]
+    series: tuple[Vector, ...]
+    below: str | None = None
+    locked: tuple[int, ...] = ()
+    legs: tuple[LegOfProof, ...] = ()
+    vectors: tuple[Vector, ...] = ()
+    curve: tuple[tuple[Vector, ...], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -310,26 +313,42 @@ def _legs(value: Any, where: str, joints: dict[str, int]) -> tuple[LegOfProof, .
 def _second_order(value: Any, joints: dict[str, int], freedoms: dict[str, int]) -> SecondOrder:
     keys = ("argument", "least", "most", "platform_least", "platform_most", "dependencies", "above", "below")
     word, *bounds, dependencies, above, below = entries(value, "finite", keys)
-    choice(word, "finite.argument", ("second-order",))
+    choice(word, "finite.argument", ("second-order", "higher-order"))
     least, most, lower, upper = (count(x, f"finite.{key}") for key, x in zip(keys[1:5], bounds, strict=True))
-    why, section, degree = entries(above, "finite.above", ("argument", "section", "degree"))
+    why, section, degree, series = entries(above, "finite.above", ("argument", "section", "degree", "series"))
     choice(why, "finite.above.argument", ABOVE)
-    cut = _vectors(section, "finite.above.section")
+    cut, terms = _vectors(section, "finite.above.section"), _vectors(series, "finite.above.series")
     number = count(degree, "finite.above.degree")
-    fits = 2 <= number <= MOST_DEGREE if why == "cone" else number == 0
-    if not fits or bool(cut) != (why == "cone"):
-        raise malformed("finite.above: not the section and degree of the argument")
+    fits = 2 <= number <= MOST_DEGREE if why in ("cone", "order") else number == 0
+    if not fits or bool(cut) != (why == "cone") or len(terms) != (number - 1 if why == "order" else 0):
+        raise malformed("finite.above: not the parts of the argument")
     known = _vectors(dependencies, "finite.dependencies")
-    above_parts = (least, most, lower, upper, known, why, cut, number)
-    if below is None:
-        return SecondOrder(*above_parts, None, (), (), ())
-    how, locked, legs, vectors = entries(below, "finite.below", ("argument", "locked", "legs", "vectors"))
+    found = SecondOrder(word, least, most, lower, upper, known, why, cut, number, terms)
+    if below is not None:
+        found = _with_below(found, below, joints, freedoms)
+    if (word == "higher-order") != (found.above == "order" or found.below == "curve"):
+        raise malformed("finite.argument: not that of its parts")
+    return found
+
+
+def _with_below(found: SecondOrder, value: Any, joints: dict[str, int], freedoms: dict[str, int]) -> SecondOrder:
+    how, locked, legs, vectors, curve = entries(
+        value, "finite.below", ("argument", "locked", "legs", "vectors", "curve")
+    )
     choice(how, "finite.below.argument", BELOW)
     shut, read = _names(locked, "finite.below.locked", freedoms), _legs(legs, "finite.below.legs", joints)
-    signs = _vectors(vectors, "finite.below.vectors")
-    if bool(read) != (how == "subgroups") or len(signs) != 2 * (how == "indefinite") or (shut and signs):
+    signs, path = _vectors(vectors, "finite.below.vectors"), items(curve, "finite.below.curve", None, _half)
+    fits = bool(read) == (how == "subgroups") and len(signs) == 2 * (how == "indefinite")
+    if not fits or bool(path) != (how == "curve") or (shut and (signs or path)):
         raise malformed("finite.below: not the parts of the argument")
-    return SecondOrder(*above_parts, how, shut, read, signs)
+    return replace(found, below=how, locked=shut, legs=read, vectors=signs, curve=path)
+
+
+def _half(value: Any, where: str) -> tuple[Vector, ...]:
+    found = items(value, where, 2, lambda x, place: items(x, place, None, rational))
+    if not all(1 <= len(part) <= MOST_DEGREE for part in found):
+        raise malformed(f"{where}: not 1 to {MOST_DEGREE} coefficients")
+    return found
 
 
 def _vectors(value: Any, where: str) -> tuple[Vector, ...]:
