@@ -53,7 +53,7 @@ def higher_order(found: Instantaneous) -> HigherOrder | None:
     >>> from pkm_exact.mobility.instantaneous_mobility import instantaneous
     >>> proved = higher_order(instantaneous(read_linkage("models/chains/bennett.toml")))
     >>> [[str(x) for x in numerator] for numerator, _ in proved.curve]
-    [['0', '1'], ['0', '-1'], ['0', '1'], ['0', '-1']]
+    [['0', '-1'], ['0', '1'], ['0', '-1'], ['0', '1']]
     """
     loops, count = found.loops, len(found.linkage.freedoms)
     twists = [loops.twists[index] for loop in loops.loops for index, _ in loop]
