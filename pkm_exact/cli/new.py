@@ -73,10 +73,17 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
     "--urdf",
     type=arguments.FilePath(),
     metavar="ROBOT.urdf",
-    help="Instead: links and joints of a URDF file, loops closed by loop_joint elements, as a mechanism of bodies and "
-    "joints for mobility. All joint values are 0.",
+    help="Instead: links and joints of a URDF file, loops closed by loop_joint elements, as a robot with six legs "
+    "(UPS, SPS or PUS) if it is one, otherwise as a mechanism of bodies and joints for mobility, all joint values 0.",
 )
-@click.option("--platform", metavar="LINK", help="With --urdf: the link that is asked about.  [default: the last one]")
+@click.option(
+    "--platform",
+    metavar="LINK",
+    help="With --urdf: the link that is asked about.  [default: where six joints end, otherwise the last one]",
+)
+@click.option(
+    "--bodies", is_flag=True, help="With --urdf: bodies and joints, also of a robot that is recognised by its six legs."
+)
 @click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
 @click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
 @click.option("--rod", metavar="L", help="Instead of --height: length of all rods, for 6-RUS and 6-PUS.")
@@ -110,6 +117,7 @@ def new(
     dimensions: tuple[str, ...],
     urdf: str | None,
     platform: str | None,
+    bodies: bool,
     **given: Any,
 ) -> int:
     """Write a commented model file of a symmetric robot, as a start for your own.
@@ -127,12 +135,14 @@ def new(
       certify-poses new --urdf models/chains/sarrus.urdf -o sarrus.toml
     """
     _checked_output(output, force)
-    if platform is not None and urdf is None:
-        raise click.UsageError("--platform: belongs to --urdf, give that as well.")
+    if urdf is None and (bodies or platform is not None):
+        raise click.UsageError(f"--{'bodies' if bodies else 'platform'}: belongs to --urdf, give that as well.")
     if urdf is not None:
         from pkm_exact.cli.new_from_urdf import write_from_urdf
 
-        return write_from_urdf(urdf, output, platform, given | {"csv": csv, "name": name, "dimension": dimensions})
+        return write_from_urdf(
+            urdf, output, platform, given | {"csv": csv, "name": name, "dimension": dimensions}, bodies=bodies
+        )
     if csv is not None:
         from pkm_exact.cli.new_from_csv import write_from_csv
 

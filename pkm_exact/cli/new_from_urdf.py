@@ -5,18 +5,22 @@ from __future__ import annotations
 import shlex
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from pkm_exact.cli import arguments
 from pkm_exact.cli.program import PROGRAM, ExitCode
 from pkm_exact.errors import InputError
-from pkm_exact.wording import printable
+from pkm_exact.wording import printable, shown
+
+if TYPE_CHECKING:
+    from pkm_exact.geometry.robot import Robot
+    from pkm_exact.geometry.urdf_reader import UrdfMechanism
 
 
-def write_from_urdf(path: str, output: str | None, platform: str | None, given: dict[str, Any]) -> int:
-    """Write the model of the mechanism in a URDF file.
+def write_from_urdf(path: str, output: str | None, platform: str | None, given: dict[str, Any], *, bodies: bool) -> int:
+    """Write the model of the mechanism in a URDF file: a robot with six legs if it is one, otherwise bodies and joints.
 
     Raises
     ------
@@ -24,6 +28,7 @@ def write_from_urdf(path: str, output: str | None, platform: str | None, given: 
         If the file is no URDF file, or has what such mechanisms do not have.
     """
     from pkm_exact.geometry.linkage_text import linkage_text
+    from pkm_exact.geometry.model_writer import robot_text
     from pkm_exact.geometry.urdf_reader import read_urdf
 
     for key, value in given.items():
@@ -33,18 +38,45 @@ def write_from_urdf(path: str, output: str | None, platform: str | None, given: 
         raise click.UsageError("--urdf: give -o MODEL.toml as well, or -o - for stdout.")
     try:
         found = read_urdf(path, platform)
+        legged, words = (None, ()) if bodies else _legged(path, found, platform)
     except InputError as error:
         text = str(error)
         raise InputError(text if text.startswith(path) else f"{path}: {text}") from None
-    text = linkage_text(found.linkage)
-    for note in found.notes:
+    text = linkage_text(found.linkage) if legged is None else robot_text(legged)
+    for note in (*found.notes, *words):
         click.echo(f"{PROGRAM}: note: {printable(path)}: {note}", err=True)
     if output == "-":
         sys.stdout.write(text)
         return ExitCode.DONE
     arguments.require_other_file(Path(output), path, "-o")
     arguments.write_output(output, text.encode("utf-8"))
-    linkage = found.linkage
-    click.echo(f"{printable(output)}: {len(linkage.bodies)} bodies, {len(linkage.joints)} joints")
-    click.echo(f"next: {PROGRAM} mobility {printable(shlex.quote(output))}")
+    linkage, file = found.linkage, printable(shlex.quote(output))
+    if legged is None:
+        click.echo(f"{printable(output)}: {len(linkage.bodies)} bodies, {len(linkage.joints)} joints")
+        click.echo(f"next: {PROGRAM} mobility {file}")
+    else:
+        click.echo(f"{printable(output)}: six legs, kind {legged.kind}")
+        click.echo(f"next: {PROGRAM} solve {file}")
     return ExitCode.DONE
+
+
+def _legged(path: str, found: UrdfMechanism, platform: str | None) -> tuple[Robot | None, tuple[str, ...]]:
+    """The robot with six legs that the mechanism is, if it is one, and what is to be said of that."""
+    from pkm_exact.geometry.urdf_reader import read_urdf
+    from pkm_exact.templates.legs_of_bodies import NoLegsError, legged_robot, platform_of_legs
+
+    if platform is None:
+        body = platform_of_legs(found.linkage)
+        if body is None:
+            return None, ()
+        found = read_urdf(path, body)
+    try:
+        robot, off = legged_robot(found.linkage, found.origin)
+    except NoLegsError as error:
+        return None, (f"is not recognised as one with six legs: {error}",)
+    missed = f"axes miss the points of the legs by up to {off:.1e}"
+    frame = (
+        f"the platform is {shown(found.linkage.platform)}, its frame parallel to the base's in the pose of the file, "
+        "which is the nominal one; limits of joints are not taken over; --bodies writes bodies and joints instead"
+    )
+    return robot, (missed, frame) if off else (frame,)

@@ -82,10 +82,13 @@ class UrdfMechanism:
     linkage : Linkage
     notes : tuple of str
         What was taken instead of what stands there.
+    origin : vector of 3 Fraction
+        Of the frame of the platform's link, in the coordinates of the base.
     """
 
     linkage: Linkage
     notes: tuple[str, ...]
+    origin: Vector = _ZERO
 
 
 def read_urdf(path: str | Path, platform: str | None = None) -> UrdfMechanism:
@@ -116,7 +119,7 @@ def read_urdf(path: str | Path, platform: str | None = None) -> UrdfMechanism:
     root = _root(Path(path))
     reader = _Reader(root)
     linkage = reader.linkage(Path(path).name, platform)
-    return UrdfMechanism(linkage, tuple(reader.notes()))
+    return UrdfMechanism(linkage, tuple(reader.notes()), reader.origin)
 
 
 def _root(path: Path) -> Element:
@@ -151,7 +154,7 @@ class _Reader:
 
     def __init__(self, root: Element) -> None:
         self.root = root
-        self.right, self.near, self.noise, self.open = 0, 0, 0, Fraction(0)
+        self.right, self.near, self.noise, self.open, self.origin = 0, 0, 0, Fraction(0), _ZERO
         self.links = [_name(link, "link") for link in root.findall("link")]
         if not 2 <= len(self.links) <= MOST_ELEMENTS or len(set(self.links)) < len(self.links):
             raise InputError(f"link: {len(self.links)} given; give 2 to {MOST_ELEMENTS} with different names")
@@ -193,6 +196,7 @@ class _Reader:
         last = self.links[-1] if platform is None else platform
         if last not in bodies:
             raise InputError(f"platform: {shown(last)} is not the name of a link; use one that is")
+        self.origin = frames[last].point
         name = self.root.get("name") or source
         return Linkage(name, "m", f"URDF file {source}", names, tuple(joints), base, bodies[last])
 
