@@ -489,6 +489,181 @@ def form_rows() -> Iterator[tuple[str, Row]]:
     yield "two poses of no joint values", (opposite | {"joints": []}, "accepted", "claim: not all poses")
 
 
+# Designs
+
+UPRIGHT = leg((0, 0, 0), (0, 0, 0), (2, 6))
+ROD = leg((0, 0, 0), (0, 3, 0), None, direction=(0, 1, 0), rod=25)
+SCALED: Content = second(
+    region([leg((1, 0, 0), (0, 0, 0), (2, 6))], box=[[4, 5]]), parameters={"base.scale": [1, 5]}, axes=[0, 0]
+)
+"""A leg from (p1, 0, 0) to (x, 0, 0), x from 4 to 5: from 2 to 6 long for all x if p1 is at most 2."""
+MOVED: Content = second(
+    region([UPRIGHT, leg((0, 0, 0), (9, 0, 0), (2, 6))], box=[[4, 5]], modes=[0, 0]),
+    parameters={"platform.joints.2.1": [-2, 2]},
+    axes=[0, 0],
+)
+"""The second leg is x + p1 long, 2 to 7."""
+LONG = second(
+    region([ROD], modes=[1], conditions=["reachable"], box=[[3, 4]]), parameters={"rods.length": [2, 10]}, axes=[0]
+)
+"""A rod reaches if it is at least x long, x from 3 to 4."""
+SIGNS = second(
+    region(COPLANAR, **(PUSHED | {"box": [[-2, 2]], "axes": [0, 0, 0]})),
+    parameters={"base.joints.1.1": ["-1/4", "1/4"]},
+)
+"""The determinant of the three rods is 1 + x - p1 at (x, 0, 0)."""
+DESIGNS: dict[str, tuple[Content, str, tuple[int, int], str, str]] = {
+    # From 1 to 2, to 3, to 5.
+    "a scale": (SCALED, "ssyiuu", (1, 2), "accepted", "claim: what the boxes"),
+    "a scale, all of it": (SCALED, "yi", (1, 0), "rejected", "paving: what letter 2 says is not proved"),
+    "a scale that is bad": (SCALED, "ssyiusunox", (1, 2), "rejected", "paving: it goes on after its end"),
+    "a scale that is too large": (SCALED, "ssyiusunsxo", (1, 2), "accepted", "claim: what the boxes"),
+    "a scale that is bad for some": (SCALED, "ssyiusnsoxu", (1, 2), "accepted", "claim: what the boxes"),
+    "a scale that is not so bad": (SCALED, "ssyiusnou", (1, 2), "rejected", "paving: what letter 8"),
+    "a bad box that is not refuted": (SCALED, "ssyiusunsxx", (1, 2), "rejected", "paving: the designs of letter 8"),
+    "a bad box of which nothing is said": (SCALED, "ssyiusunx", (1, 2), "rejected", "paving: the designs of letter"),
+    "a good box that is called bad": (SCALED, "ssnouu", (0, 2), "rejected", "paving: what letter 4 says"),
+    "a good box without its region": (SCALED, "ssyuu", (1, 2), "rejected", "paving: letter 4 does not belong"),
+    "half of a region": (SCALED, "ssysiuu", (1, 2), "rejected", "paving: letter 6 does not belong"),
+    "a region in halves": (SCALED, "ssysiiuu", (1, 2), "accepted", "claim: what the boxes"),
+    "a region in eighths": (SCALED, "ssysisisiiuu", (1, 2), "rejected", "paving: letter 8 halves a part deeper"),
+    "a box that is missing": (SCALED, "ssyiu", (1, 1), "rejected", "paving: parts of the region are missing"),
+    "a region that is missing": (SCALED, "ssyius", (1, 1), "rejected", "paving: parts of the region are missing"),
+    "boxes that go on": (SCALED, "ssyiuuu", (1, 3), "rejected", "paving: it goes on after its end"),
+    "an i for designs": (SCALED, "ssiuu", (0, 2), "rejected", "paving: letter 3 says nothing"),
+    "an o for designs": (SCALED, "o", (0, 0), "rejected", "paving: letter 1 says nothing"),
+    "an undecided part of a bad box": (SCALED, "ssyiusunsuo", (1, 2), "rejected", "paving: letter 10 does not belong"),
+    "a good part of a bad box": (SCALED, "ssyiusunsio", (1, 2), "rejected", "paving: letter 10 does not belong"),
+    "a bad part of a good box": (SCALED, "ssyouu", (1, 2), "rejected", "paving: letter 4 does not belong"),
+    "more good boxes": (SCALED, "ssyiuu", (2, 2), "rejected", "inside, undecided: not as many boxes"),
+    "more undecided boxes": (SCALED, "ssyiuu", (1, 3), "rejected", "inside, undecided: not as many boxes"),
+    "a coordinate": (MOVED, "sunsxsxo", (0, 1), "rejected", "paving: what letter 8 says"),
+    "a coordinate that is good": (MOVED, "ssuyiu", (1, 2), "accepted", "claim: what the boxes"),
+    "a coordinate that is not good": (MOVED, "su" + "yi", (1, 1), "rejected", "paving: what letter 4 says"),
+    "a rod": (LONG, "ssnouyi", (1, 1), "rejected", "paving: what letter 4 says"),
+    "a long rod": (LONG, "ssuyiyi", (2, 1), "accepted", "claim: what the boxes"),
+    "a short rod": (LONG, "sssnsxouuyi", (1, 2), "accepted", "claim: what the boxes"),
+    "a rod that is not long enough": (LONG, "syiyi", (2, 0), "rejected", "paving: what letter 3 says"),
+    "two signs": (SIGNS, "nsss-xxsx+", (0, 0), "accepted", "claim: what the boxes"),
+    "one sign twice": (SIGNS, "nssxxsx+", (0, 0), "rejected", "paving: the designs of letter 1"),
+    "the other sign twice": (SIGNS, "nsss-xxx", (0, 0), "rejected", "paving: the designs of letter 1"),
+    "a plus that is none": (SIGNS, "nsss+xxsx+", (0, 0), "rejected", "paving: what letter 5 says"),
+    "a minus that is none": (SIGNS, "nsss-xxsx-", (0, 0), "rejected", "paving: what letter 10 says"),
+    "halved 121 times": (SCALED, "s" * 121 + "u" * 122, (0, 122), "rejected", "paving: letter 121 halves designs"),
+    "halved 120 times": (SCALED, "s" * 120 + "u" * 121, (0, 121), "accepted", "claim: what the boxes"),
+}
+BESIDE = second(region([UPRIGHT]), parameters={"base.scale": [1, 2]}, paving="u", inside=0, undecided=1)
+APART_BY: Content = second(
+    region([leg((0, 0, 0), (0, 0, 0)), leg((0, 9, 0), (0, 9, 0))], modes=[0, 0]),
+    leg_distance=8,
+    directions=[["0", "1", "0", "1"]],
+    parameters={"platform.scale": ["1/2", 1], "base.joints.2.2": [9, 10]},
+    paving="u",
+    inside=0,
+    undecided=1,
+)
+SAME: Content = second(
+    region([leg((0, 0, 0), (0, 0, 0)), leg((0, 9, 0), (0, 0, 0))], modes=[0, 0]),
+    leg_distance=8,
+    parameters={"platform.scale": ["1/2", 1]},
+    paving="u",
+    inside=0,
+    undecided=1,
+)
+ELSEWHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
+    "nothing said of designs": (BESIDE, ("chart", "parameters"), ["base.scale"], "accepted", "claim: what the boxes"),
+    "no parameters": (BESIDE, ("chart", "parameters"), [], "malformed", ""),
+    "a parameter twice": (BESIDE, ("chart", "parameters"), ["base.scale"] * 2, "malformed", "chart.parameters: more"),
+    "five parameters": (
+        BESIDE,
+        ("chart", "parameters"),
+        ["base.scale", *(f"platform.joints.1.{k}" for k in "123"), "platform.joints.2.1"],
+        "malformed",
+        "chart.parameters: more",
+    ),
+    **{
+        f"a parameter that is none: {key}": (
+            BESIDE,
+            ("chart", "parameters"),
+            [key],
+            "malformed",
+            "chart.parameters: one",
+        )
+        for key in (
+            "height",
+            "base.joints.0.1",
+            "base.joints.1.0",
+            "base.joints.1.4",
+            "base.joints.01.1",
+            "base.joint.1.1",
+        )
+    }
+    | {
+        f"a parameter that is not quite one: {key}": (BESIDE, ("chart", "parameters"), [key], "malformed", "")
+        for key in ("rods.scale", "base.joints.1", "base.joints.1.1.1", "top.joints.1.1", "base.joints.100.1")
+    },
+    "a coordinate of the first leg": (BESIDE, ("chart", "parameters"), ["base.joints.1.3"], "accepted", ""),
+    "a coordinate of the second leg": (
+        BESIDE,
+        ("chart", "parameters"),
+        ["base.joints.2.3"],
+        "malformed",
+        "chart.parameters: there is no such leg",
+    ),
+    "rods that are none": (
+        BESIDE,
+        ("chart", "parameters"),
+        ["rods.length"],
+        "malformed",
+        "chart.parameters: a leg has",
+    ),
+    "a scale from 0": (BESIDE, ("chart", "box", 1, 0), "0", "malformed", "chart.parameters: a scale or length"),
+    "a scale from a little more": (BESIDE, ("chart", "box", 1, 0), "1/9", "accepted", ""),
+    "another claim beside parameters": (BESIDE, ("claim",), "undecided", "malformed", ""),
+    "designs without parameters": (second(region()), ("claim",), "designs", "malformed", ""),
+    "letters of designs elsewhere": (second(region()), ("paving",), "yi", "malformed", "paving: not a word"),
+    "a form beside parameters": (BESIDE, ("robot", "forms"), [["0"] * 17], "malformed", "chart.parameters: there are"),
+    "joints beside parameters": (BESIDE, ("joints",), [["0", "9"]], "malformed", "chart.parameters: there are"),
+    "a measure of designs": (BESIDE, ("measure",), ["0", "1"], "malformed", "measure: claimed where"),
+    "no member of designs": (BESIDE, ("member",), [], "malformed", "member: not a value"),
+    "a member beyond the designs": (BESIDE, ("member", 1), "3", "rejected", NOT_MEMBER),
+    "an axis of a parameter": (BESIDE, ("axes",), [1], "malformed", "axes: one is not"),
+    "legs that are scaled alike": (SAME, ("directions",), [], "accepted", ""),
+    "legs that are scaled alike, with a direction": (SAME, ("directions",), [None], "malformed", "directions: not one"),
+    "a joint that moves, without a direction": (APART_BY, ("directions",), [], "malformed", "directions: not one"),
+    "a joint that moves and is scaled": (
+        APART_BY,
+        ("chart", "parameters"),
+        ["base.scale", "base.joints.2.2"],
+        "malformed",
+        "chart.parameters: there is no such leg, or its",
+    ),
+    "a joint that leaves another": (
+        changed(SAME, ["platform.joints.2.1"], "chart", "parameters"),
+        ("directions",),
+        [None],
+        "accepted",
+        "",
+    ),
+    "a joint that leaves another, not compared": (
+        changed(SAME, ["platform.joints.2.1"], "chart", "parameters"),
+        ("directions",),
+        [],
+        "malformed",
+        "directions: not one",
+    ),
+}
+
+
+def design_rows() -> Iterator[tuple[str, Row]]:
+    """Words about designs, and certificates of designs with one entry changed."""
+    for name, (content, word, (good, undecided), status, line) in DESIGNS.items():
+        found = content | {"paving": word, "inside": good, "undecided": undecided}
+        yield f"designs: {name}", (found, status, line)
+    for name, (content, where, value, status, line) in ELSEWHERE.items():
+        yield f"designs: {name}", (changed(content, value, *where), status, line)
+
+
 ROWS: dict[str, Row] = merged(
-    *map(dict, (distance_rows(), curve_rows(), axis_rows(), joint_rows(), tube_rows(), form_rows()))
+    *map(dict, (distance_rows(), curve_rows(), axis_rows(), joint_rows(), tube_rows(), form_rows(), design_rows()))
 )

@@ -278,6 +278,7 @@ def second(content: Content, **entries: Any) -> Content:
     """A certificate of version 1 as one of version 2, the other entries changed; ``path`` and ``leg_distance`` too."""
     chart, robot = dict(content["chart"]), deepcopy(content["robot"])
     path, least = entries.pop("path", None), entries.pop("leg_distance", None)
+    parameters: dict[str, Numbers] = entries.pop("parameters", {})
     axes = entries.pop("leg_axes", [None] * len(robot["legs"]))
     for entry, axis in zip(robot["legs"], axes, strict=True):
         entry["axis"] = texts(axis)
@@ -294,8 +295,12 @@ def second(content: Content, **entries: Any) -> Content:
         ordered[key] = value
         if key == "position":
             ordered["path"] = texts(path) if path is not None else None
+    ordered["variables"] = [*ordered["variables"], *(f"p{k}" for k in range(1, len(parameters) + 1))]
+    ordered["box"] = [*ordered["box"], *texts(list(parameters.values()))]
+    ordered["parameters"] = list(parameters)
     found |= {"version": 2, "robot": robot, "chart": ordered}
-    if found["claim"] == "all":
+    found["claim"] = "designs" if parameters else found["claim"]
+    if found["claim"] in ("all", "designs"):
         found["member"] = texts([(Fraction(low) + Fraction(high)) / 2 for low, high in ordered["box"]])
     return found | {key: texts(value) if key in ("joints", "member") else value for key, value in entries.items()}
 

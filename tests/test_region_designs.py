@@ -117,8 +117,11 @@ def test_the_command_and_programs_have_the_boxes(tmp_path: Path, capsys: pytest.
     assert ends[0][0] == 1
     assert ends[-1][1] == Fraction(3, 2)
     assert all(one[1] == other[0] for one, other in pairwise(ends))
-    assert main([*command, "-o", str(tmp_path / "a.json")]) == 2
-    assert "designs has neither certificate nor picture" in capsys.readouterr().err
+    assert main([*command, "-o", str(tmp_path / "a.json")]) == 0
+    assert main(["check", str(tmp_path / "a.json")]) == 0
+    assert main(["check", "--pure", str(tmp_path / "a.json")]) == 0
+    assert main([*command, "--picture", str(tmp_path / "a.png")]) == 2
+    assert "designs has no picture" in capsys.readouterr().err
 
 
 def test_how_many_boxes_there_may_be_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -31,6 +31,8 @@ KEYS_2: Final = (
     "format version robot chart shape tube joints directions conditions modes claim axes paving inside undecided "
     "measure member counterexample"
 )
+SCALED: Final = ("base.scale", "platform.scale", "rods.length")
+CHART: Final = "variables box position quaternion turns"
 ROBOT: Final = "name unit source motion metric legs forms base_cones platform_cones position"
 VARIABLES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
 ASKED: Final = ("reachable", "limits", "no_type_1", "no_type_2")
@@ -47,6 +49,7 @@ MAX_PARTS: Final = 64
 MAX_STEPS: Final = 120
 MAX_CORNERS: Final = 64
 MAX_POWERS: Final = 5
+MAX_PARAMETERS: Final = 4
 MAX_COEFFICIENTS: Final = 1 << 20
 ROOT_BITS: Final = 80
 PRECISIONS: Final = (64, 256, 1024)
@@ -86,6 +89,7 @@ class Chart(NamedTuple):
     quaternion: Numbers | None
     turns: tuple[tuple[Any, ...], ...]
     path: tuple[Numbers, ...] = ()
+    parameters: tuple[str, ...] = ()
 
 
 class Region(NamedTuple):
@@ -141,10 +145,12 @@ def first_part(found: Mapping[str, Any], *, second: bool) -> Region:
     pure.well_formed(all(sign in (-1, 0, 1) for sign in signs), "modes: one is not -1, 0 or 1")
     steps = pure.a_list(pure.an_integer)(axes, "axes")
     pure.affordable(len(steps) <= MAX_STEPS, f"axes: more than {MAX_STEPS}")
-    known = all(0 <= axis < len(chart.names) for axis in steps)
+    known = all(0 <= axis < len(chart.names) - len(chart.parameters) for axis in steps)
     pure.well_formed(known, "axes: one is not that of a variable")
-    is_word = isinstance(paving, str) and not set(paving) - set("siou")
-    pure.well_formed(is_word, "paving: not a word of the letters s, i, o, u")
+    letters = "siouynx+-" if chart.parameters else "siou"
+    is_word = isinstance(paving, str) and not set(paving) - set(letters)
+    pure.well_formed(is_word, f"paving: not a word of the letters {', '.join(letters)}")
+    claims = ("designs",) if chart.parameters else ("all", "not-all", "undecided", "map")
     parts = pure.a_list(a_shape)(shape, "shape")
     pure.affordable(len(parts) <= MAX_PARTS, f"shape: more than {MAX_PARTS}")
     return Region(
@@ -153,7 +159,7 @@ def first_part(found: Mapping[str, Any], *, second: bool) -> Region:
         parts,
         conditions,
         signs,
-        pure.one_of(("all", "not-all", "undecided", "map"))(claim, "claim"),
+        pure.one_of(claims)(claim, "claim"),
         steps,
         paving,
         pure.a_number(inside, "inside"),
@@ -267,13 +273,16 @@ def a_cone(value: Any, where: str) -> tuple[Numbers, int]:
 
 def a_chart(value: Any, *, second: bool) -> Chart:
     """The chart."""
-    names_, box, position, *curve, quaternion, turns = pure.an_object(
-        value, "chart", f"variables box position {'path ' if second else ''}quaternion turns"
-    )
-    path = () if curve in ([], [None]) else a_path(curve[0])
+    keys = "variables box position path quaternion turns parameters" if second else CHART
+    found = dict(zip(keys.split(), pure.an_object(value, "chart", keys), strict=True))
+    names_, box, position, quaternion, turns = (found[key] for key in CHART.split())
+    curve, varied = [found.get("path")], a_list_of_parameters(found.get("parameters", []))
+    more = tuple(f"p{k}" for k in range(1, len(varied) + 1))
+    path = () if curve == [None] else a_path(curve[0])
     first = ("along",) if path else ()
-    names = pure.a_list(pure.one_of((*first, *VARIABLES)))(names_, "chart.variables")
-    in_order = names and list(names) == [name for name in (*first, *VARIABLES) if name in names]
+    every = (*first, *VARIABLES, *more)
+    names = pure.a_list(pure.one_of(every))(names_, "chart.variables")
+    in_order = names and list(names) == [name for name in every if name in names]
     pure.well_formed(in_order, "chart.variables: none, or not in their order")
     pairs = pure.a_list(a_pair, len(names))(box, "chart.box")
     pure.well_formed(all(pair[0] < pair[1] for pair in pairs), "chart.box: an interval is a point")
@@ -299,10 +308,45 @@ def a_chart(value: Any, *, second: bool) -> Chart:
         if variable is not None:
             pure.well_formed(variable == name, "chart: the variables are not those of position and turns")
             used.append(variable)
-    pure.well_formed(tuple(used) == names, "chart: the variables are not those of position and turns")
+    pure.well_formed((*used, *more) == names, "chart: the variables are not those of position and turns")
     pure.well_formed(fixed is None or any(fixed), "chart.quaternion: is 0")
     pure.well_formed(not path or not any(places), "chart.path: there is a position beside it")
-    return Chart(names, pairs, places, fixed, angles, path)
+    return Chart(names, pairs, places, fixed, angles, path, varied)
+
+
+def a_list_of_parameters(value: Any) -> tuple[str, ...]:
+    """The names of the numbers of the robot that vary."""
+    keys: tuple[str, ...] = pure.a_list(pure.a_text)(value, "chart.parameters")
+    alone = len(keys) <= MAX_PARAMETERS and len(keys) == len(set(keys))
+    pure.well_formed(alone, f"chart.parameters: more than {MAX_PARAMETERS}, or one twice")
+    known = all(key in SCALED or coordinate(key) is not None for key in keys)
+    pure.well_formed(known, "chart.parameters: one is no number of the robot")
+    return keys
+
+
+def coordinate(key: str) -> tuple[str, int, int] | None:
+    """Side, leg and axis, from 0, of a coordinate such as base.joints.2.1."""
+    side, *parts = key.split(".")
+    if side not in ("base", "platform") or len(parts) != 3 or parts[0] != "joints":
+        return None
+    if parts[1] not in map(str, range(1, 100)) or parts[2] not in ("1", "2", "3"):
+        return None
+    return side, int(parts[1]) - 1, int(parts[2]) - 1
+
+
+def require_parameters(region: Region) -> None:
+    """Refuse parameters of what the robot has not, or that move one joint twice."""
+    robot, keys = region.robot, region.chart.parameters
+    plain = not keys or not (robot.forms or region.joints or any(leg.axis is not None for leg in robot.legs))
+    pure.well_formed(plain, "chart.parameters: there are forms, axes of rods or joint values")
+    driven = "rods.length" not in keys or all(leg.axes for leg in robot.legs)
+    for key, ends in zip(reversed(keys), reversed(region.chart.box), strict=False):
+        place = coordinate(key)
+        positive = place is not None or ends[0] > 0
+        pure.well_formed(positive, "chart.parameters: a scale or length is not positive")
+        there = place is None or (place[1] < len(robot.legs) and f"{place[0]}.scale" not in keys)
+        pure.well_formed(there, "chart.parameters: there is no such leg, or its joint is scaled too")
+    pure.well_formed(driven, "chart.parameters: a leg has no rod")
 
 
 def a_path(value: Any) -> tuple[Numbers, ...]:
@@ -327,10 +371,10 @@ def second_part(region: Region, found: Mapping[str, Any]) -> Region:
         pure.well_formed(moves, "tube.corners: fewer than two, or neighbours are the same")
         radius = pure.a_positive_rational(radius_, "tube.radius")
     member = pure.a_list(pure.a_rational)(found["member"], "member")
-    expected = len(region.chart.names) if region.claim == "all" else 0
+    expected = len(region.chart.names) if region.claim in ("all", "designs") else 0
     pure.well_formed(
         len(member) == expected,
-        "member: not a value for each variable where the claim is all, or some where it is another",
+        "member: not a value for each variable where the claim is all or designs, or some elsewhere",
     )
     region = region._replace(
         corners=corners,
@@ -339,6 +383,7 @@ def second_part(region: Region, found: Mapping[str, Any]) -> Region:
         directions=pure.a_list(a_direction)(found["directions"], "directions"),
         member=member if expected else None,
     )
+    require_parameters(region)
     require_positions(region)
     require_joints(region)
     require_directions(region)
@@ -386,9 +431,21 @@ def pairs_apart(region: Region) -> list[tuple[int, int]]:
     for j in range(len(legs)):
         for i in range(j):
             fixed = not legs[i].axes and not legs[j].axes
-            if legs[i].platform != legs[j].platform and not (fixed and legs[i].base == legs[j].base):
+            (base, platform), (base_2, platform_2) = joints_of(region, i), joints_of(region, j)
+            if platform != platform_2 and not (fixed and base == base_2):
                 found.append((i, j))
     return sorted(found)
+
+
+def joints_of(region: Region, number: int) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+    """Base and platform joint of a leg, the names of variables for coordinates that vary."""
+    leg = region.robot.legs[number]
+    joints: dict[str, list[Any]] = {"base": list(leg.base), "platform": list(leg.platform)}
+    for k, key in enumerate(region.chart.parameters, 1):
+        place = coordinate(key)
+        if place is not None and place[1] == number:
+            joints[place[0]][place[2]] = f"p{k}"
+    return tuple(joints["base"]), tuple(joints["platform"])
 
 
 def require_directions(region: Region) -> None:
@@ -574,6 +631,24 @@ class Equations:
         """N R v."""
         return [plus(*zip(vector, row, strict=True)) for row in self.rotation]
 
+    def joints(self, number: int) -> tuple[list[Polynomial], list[Polynomial]]:
+        """N A and N R B of a leg."""
+        base, platform = (list(map(self.entry, joint)) for joint in joints_of(self.region, number))
+        keys = self.region.chart.parameters
+        for side, entries in (("base.scale", base), ("platform.scale", platform)):
+            if side in keys:
+                entries[:] = [times(self.entry(f"p{keys.index(side) + 1}"), x) for x in entries]
+        arm = [plus(*((1, times(x, b)) for x, b in zip(row, platform, strict=True))) for row in self.rotation]
+        return [times(self.norm, a) for a in base], arm
+
+    def rod(self, leg: Leg) -> Polynomial:
+        """N^2 times its square."""
+        keys = self.region.chart.parameters
+        if "rods.length" not in keys:
+            return plus((leg.rod, self.square_norm))
+        length = times(self.entry(f"p{keys.index('rods.length') + 1}"), self.norm)
+        return times(length, length)
+
     def all(self) -> Conditions:
         """All of them, and the polynomials that checks need besides."""
         region = self.region
@@ -689,9 +764,9 @@ class Placed:
 
     def __init__(self, equations: Equations, k: int) -> None:
         self.equations, self.leg, self.mode = equations, equations.region.robot.legs[k], equations.region.modes[k]
-        n, leg = equations.norm, self.leg
-        self.arm = equations.moved(leg.platform)
-        e = [plus((1, c), (1, b), (-a, n)) for c, b, a in zip(equations.center, self.arm, leg.base, strict=True)]
+        leg = self.leg
+        base, self.arm = equations.joints(k)
+        e = [plus((1, c), (1, b), (-1, a)) for c, b, a in zip(equations.center, self.arm, base, strict=True)]
         if leg.axis is not None:
             size = pure.scalar_product(equations.g, leg.axis, leg.axis)  # type: ignore[arg-type]
             along = equations.inner(equations.numbers(leg.axis), e)
@@ -700,6 +775,7 @@ class Placed:
         self.rod = e
         self.root: Polynomial | None = None
         self.value = self.square, equations.square_norm
+        self.length = equations.rod(leg) if leg.axes else self.square
         self.crank: Polynomial | None = None
         self.place = -1
         if leg.axes:
@@ -722,14 +798,14 @@ class Placed:
             length = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
             along_it = eq.inner(axes[0], e)
             way = plus((1, along_it), (self.mode, y))
-            terms = (1, times(along_it, along_it)), (-length, self.square), (length * leg.rod, eq.square_norm)
+            terms = (1, times(along_it, along_it)), (-length, self.square), (length, self.length)
             self.root = plus(*terms)
             self.rod = [plus((length, x), (-d, way)) for x, d in zip(e, leg.axes[0], strict=True)]
             self.value = way, plus((length, eq.norm))
             return
         a, p = (plus((2, times(eq.norm, eq.inner(axis, e)))) for axis in axes)
         size = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
-        h = plus((1, self.square), (size - leg.rod, eq.square_norm))
+        h = plus((1, self.square), (size, eq.square_norm), (-1, self.length))
         w = Fraction(1, leg.weight)
         m = self.crank = plus((1, times(a, a)), (w, times(p, p)))
         self.root = plus((w, m), (-w, times(h, h)))
@@ -816,11 +892,8 @@ class Pair:
         self.least = equations.region.robot.least or ZERO
         self.m, self.n = (equations.number(1) if leg.crank is None else leg.crank for leg in self.legs)
         self.u, self.v = map(self.lowered, self.legs)
-        way = [b - a for a, b in zip(one.leg.platform, other.leg.platform, strict=True)]
-        self.w = equations.moved(way)
-        self.a, self.b = (
-            plus((leg.leg.rod, equations.square_norm)) if leg.leg.axes else leg.square for leg in self.legs
-        )
+        self.w = [plus((1, b), (-1, a)) for a, b in zip(one.arm, other.arm, strict=True)]
+        self.a, self.b = one.length, other.length
 
     def lowered(self, leg: Placed) -> list[Polynomial]:
         """U: from the upper end to the lower one."""
@@ -1041,6 +1114,15 @@ def checks(region: Region) -> Iterator[str]:
         yield refuted(region, found)
         return
     pure.well_formed(not region.points, "counterexample: there is one, but the claim is another")
+    if region.claim == "designs":
+        pure.well_formed(region.measure is None, "measure: claimed where there is none")
+        good, bad, undecided = Designs(region, found).counted()
+        agree = (good, undecided) == (region.inside, region.undecided)
+        pure.require(agree, "inside, undecided: not as many boxes of designs as the paving has")
+        yield f"paving: {good} boxes of designs good, {bad} not, each proved; {undecided} undecided"
+        require_poses(region, found)
+        yield "claim: what the boxes of designs say is true for every design in them"
+        return
     is_map = region.claim == "map"
     condition = ("and", [found.region, found.asked]) if is_map else ("or", [opposite(found.region), found.asked])
     shares = followed(region, condition, found.roots)
@@ -1104,12 +1186,18 @@ def opposite(condition: Any) -> Any:
 class Part:
     """A part of the box: polynomials get their coefficients on it when they are asked for."""
 
-    def __init__(self, region: Region, roots: Sequence[Polynomial], above: Part | None = None, side: int = 0) -> None:
-        self.region, self.roots, self.above, self.side = region, roots, above, side
+    def __init__(
+        self, region: Region, roots: Sequence[Polynomial], above: Part | None = None, axis: int = 0, side: int = 0
+    ) -> None:
+        self.region, self.roots, self.above, self.axis, self.side = region, roots, above, axis, side
         self.depth: int = 0 if above is None else above.depth + 1
         self.tables: dict[int, Table] = {}
         self.split: dict[int, tuple[Table, Table]] = {}
         self.known: dict[int, tuple[Any, Any]] = {}
+
+    def halved(self, axis: int) -> list[Part]:
+        """The upper and the lower half along a variable."""
+        return [Part(self.region, self.roots, self, axis, side) for side in (1, 0)]
 
     def table(self, polynomial: Polynomial) -> Table:
         """The coefficients, from those of the part above."""
@@ -1121,7 +1209,7 @@ class Part:
                 if name not in self.above.split:
                     whole = self.above.table(polynomial)
                     pure.spend(cost_of(whole))
-                    self.above.split[name] = halves(whole, self.region.axes[self.above.depth])
+                    self.above.split[name] = halves(whole, self.axis)
                 self.tables[name] = self.above.split[name][self.side]
         return self.tables[name]
 
@@ -1162,7 +1250,7 @@ def followed(region: Region, condition: Any, roots: Sequence[Polynomial]) -> dic
         if letter == "s":
             deep = part.depth < len(region.axes)
             pure.require(deep, f"paving: letter {number} halves a part deeper than the axes say")
-            waiting += [Part(region, roots, part, side) for side in (1, 0)]
+            waiting += part.halved(region.axes[part.depth])
             continue
         if letter != "u":
             proved = holds(condition, part.range) if letter == "i" else fails(condition, part.range)
@@ -1171,6 +1259,79 @@ def followed(region: Region, condition: Any, roots: Sequence[Polynomial]) -> dic
         shares[letter] += Fraction(1, 1 << part.depth)
     pure.require(not waiting, "paving: parts of the region are missing")
     return shares
+
+
+class Designs:
+    """The word of a certificate about designs, read from left to right."""
+
+    def __init__(self, region: Region, found: Conditions) -> None:
+        self.region, self.found = region, found
+        self.letters = enumerate(region.paving, 1)
+        self.good = ("or", [opposite(found.region), found.asked])
+        self.sided: dict[str, Any] = {}
+        for sign, factor in (("+", 1), ("-", -1)) if found.determinant is not None else ():
+            side = Signed(plus((factor, found.determinant or {})), "+")
+            self.sided[sign] = ("and", [found.region, *(Signed(root, "0+") for root in found.roots), side])
+
+    def letter(self) -> tuple[int, str]:
+        """The next one, and which it is."""
+        pure.spend(50_000)
+        number, letter = next(self.letters, (0, ""))
+        pure.require(number, "paving: parts of the region are missing")
+        return number, letter
+
+    def counted(self) -> tuple[int, int, int]:
+        """The boxes of designs that are good, bad and undecided, the former two proved."""
+        count = len(self.region.chart.parameters)
+        start = len(self.region.chart.names) - count
+        verdicts: list[str] = []
+        waiting = [Part(self.region, self.found.roots)]
+        while waiting:
+            part = waiting.pop()
+            number, letter = self.letter()
+            if letter == "s":
+                shallow = part.depth < MAX_STEPS
+                pure.require(shallow, f"paving: letter {number} halves designs more often than {MAX_STEPS} times")
+                waiting += part.halved(start + part.depth % count)
+                continue
+            pure.require(letter in "ynu", f"paving: letter {number} says nothing of designs")
+            verdicts.append(letter)
+            if letter == "y":
+                self.follow(part, "i")
+            if letter == "n":
+                said = self.follow(part, "xo+-")
+                refuted = "o" in said or {"+", "-"} <= said
+                pure.require(refuted, f"paving: the designs of letter {number} are not refuted")
+        pure.require(next(self.letters, None) is None, "paving: it goes on after its end")
+        good, bad, undecided = map(verdicts.count, "ynu")
+        return good, bad, undecided
+
+    def follow(self, designs: Part, known: str) -> set[str]:
+        """The letters of the region's word for a box of designs, each proved."""
+        said: set[str] = set()
+        waiting = [designs]
+        while waiting:
+            part = waiting.pop()
+            number, letter = self.letter()
+            depth = part.depth - designs.depth
+            if letter == "s":
+                deep = depth < len(self.region.axes)
+                pure.require(deep, f"paving: letter {number} halves a part deeper than the axes say")
+                waiting += part.halved(self.region.axes[depth])
+                continue
+            pure.require(letter in known, f"paving: letter {number} does not belong to what is said of the designs")
+            proved = letter == "x" or self.is_shown(letter, part)
+            pure.require(proved, f"paving: what letter {number} says is not proved")
+            said.add(letter)
+        return said
+
+    def is_shown(self, letter: str, part: Part) -> bool:
+        """Whether what a letter says holds all over a part."""
+        if letter == "i":
+            return holds(self.good, part.range)
+        if letter == "o":
+            return holds(self.found.region, part.range) and fails(self.found.asked, part.range)
+        return letter in self.sided and holds(self.sided[letter], part.range)
 
 
 def holds(condition: Any, ranges: Callable[[Signed], tuple[Any, Any]]) -> bool:

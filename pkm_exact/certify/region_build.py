@@ -9,13 +9,15 @@ from pkm_exact.certify.build import sealed
 from pkm_exact.certify.certificate_entries import texts
 from pkm_exact.certify.region_build_2 import needs_second, second_version
 from pkm_exact.errors import InputError
+from pkm_exact.regions.region_designs import OPEN, YES, widened
 from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, RegionLeg, RegionMachine
+from pkm_exact.regions.region_solver import RegionAnswer
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.limits import Cones, Pair
     from pkm_exact.regions.chart import Chart
+    from pkm_exact.regions.region_designs import Designs
     from pkm_exact.regions.region_question import RegionQuestion
-    from pkm_exact.regions.region_solver import RegionAnswer
 
 FORMAT: Final = "pkm_exact region certificate"
 VERSION: Final = 1
@@ -34,6 +36,21 @@ def region_certificate(answer: RegionAnswer) -> dict[str, Any]:
     question, machine = answer.question, answer.machine
     require_words(machine, question)
     return sealed(second_version(_content(answer), answer) if needs_second(machine, question) else _content(answer))
+
+
+def designs_certificate(machine: RegionMachine, question: RegionQuestion, found: Designs) -> dict[str, Any]:
+    """The certificate of boxes of designs.
+
+    Raises
+    ------
+    InputError
+        As ``region_certificate``.
+    """
+    require_words(machine, question)
+    answer = RegionAnswer(widened(question), machine, found.axes, "")
+    counts = {verdict: sum(box.verdict == verdict for box in found.boxes) for verdict in (YES, OPEN)}
+    said = {"claim": "designs", "paving": found.word, "inside": counts[YES], "undecided": counts[OPEN]}
+    return sealed(second_version(_content(answer) | said, answer))
 
 
 def _content(answer: RegionAnswer) -> dict[str, Any]:

@@ -44,7 +44,7 @@ def second_version(content: dict[str, Any], answer: RegionAnswer) -> dict[str, A
     found: dict[str, Any] = {}
     for key, value in content.items():
         if key == "counterexample":
-            found["member"] = texts(member_of(answer)) if content["claim"] == "all" else []
+            found["member"] = texts(member_of(answer)) if content["claim"] in ("all", "designs") else []
         found[key] = value
         if key == "shape":
             found |= added
@@ -81,7 +81,7 @@ def _chart(content: dict[str, Any], chart: Chart) -> dict[str, Any]:
             found["path"] = None if curve is None else _path(curve, chart)
     if curve is not None:
         found |= {"variables": [ALONG, *content["variables"][1:]], "position": ["0", "0", "0"]}
-    return found
+    return found | {"parameters": [parameter.key for parameter in chart.parameters]}
 
 
 def _path(curve: Arc | Line, chart: Chart) -> list[list[str]]:

@@ -83,7 +83,7 @@ def region(
     if asked.answer.kind == "extremes":
         return _extremes(machine, asked, question, layout, verbose=verbose)
     if asked.answer.kind == "designs":
-        return _designs(machine, asked, question, layout, verbose=verbose)
+        return _designs(machine, asked, question, output, layout, verbose=verbose)
     if asked.answer.kind == "threshold":
         return _threshold(model, asked, question, output, layout, verbose=verbose)
     from pkm_exact.interactive.progress import Progress
@@ -105,10 +105,10 @@ def region(
 def _require_outputs(model: str, question: str, asked: RegionQuestion, output: str | None, picture: str | None) -> None:
     """Refuse files that the answer does not have, and those that must not be written."""
     kind = asked.answer.kind
-    if kind in ("locus", "extremes", "designs") and (output or picture):
+    if kind in ("locus", "extremes") and (output or picture):
         raise InputError(f"{question}: answer.kind: {kind} has neither certificate nor picture; leave -o out")
-    if kind == "threshold" and picture is not None:
-        raise InputError(f"{question}: answer.kind: a threshold has no picture; leave --picture out")
+    if kind in ("threshold", "designs") and picture is not None:
+        raise InputError(f"{question}: answer.kind: {kind} has no picture; leave --picture out")
     if picture is not None:
         from pkm_exact.pictures.output import picture_format
         from pkm_exact.pictures.region_figure import require_drawable
@@ -169,7 +169,9 @@ def _threshold(
     return ExitCode.DONE if found.is_precise else ExitCode.WEAKER_CLAIM
 
 
-def _designs(machine: RegionMachine, asked: RegionQuestion, question: str, layout: str, *, verbose: bool) -> int:
+def _designs(
+    machine: RegionMachine, asked: RegionQuestion, question: str, output: str | None, layout: str, *, verbose: bool
+) -> int:
     from pkm_exact.cli import designs_report
     from pkm_exact.interactive.progress import Progress
     from pkm_exact.regions.region_designs import OPEN, designs
@@ -179,6 +181,11 @@ def _designs(machine: RegionMachine, asked: RegionQuestion, question: str, layou
             found = designs(machine, asked, progress=lambda count: progress(f"{count} boxes of designs"))
     except InputError as error:
         raise InputError(f"{question}: {error}") from None
+    if output is not None:
+        from pkm_exact.certify.build import canonical_bytes
+        from pkm_exact.certify.region_build import designs_certificate
+
+        arguments.write_output(output, canonical_bytes(designs_certificate(machine, asked, found)))
     said = designs_report.as_json if layout == "json" else designs_report.as_text
     sys.stdout.write(said(machine, asked, found))
     return ExitCode.WEAKER_CLAIM if found.share(OPEN) == 1 else ExitCode.DONE

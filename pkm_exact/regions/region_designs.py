@@ -8,7 +8,7 @@ or two poses between which there is one, as the region is connected. Other boxes
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import cycle, islice
@@ -58,10 +58,16 @@ class Designs:
     keys : tuple of str
     boxes : tuple of DesignBox
         They fill the box that was asked about, in order.
+    axes : tuple of int
+        Along which variable the region's parts of each depth are halved.
+    word : str
+        The boxes and what proves their verdicts, as certificates have it (``docs/certificates-regions.md``).
     """
 
     keys: tuple[str, ...]
     boxes: tuple[DesignBox, ...]
+    axes: tuple[int, ...] = ()
+    word: str = ""
 
     def share(self, verdict: str) -> Fraction:
         """How large a part of the box has a verdict."""
@@ -98,22 +104,55 @@ def designs(
     search = _Search(machine, question)
     level: list[Part] = [Part(0, (0,) * search.count)]
     found: list[DesignBox] = []
+    words: dict[Part, str] = {}
     while level:
         undecided = []
         for part in level:
-            verdict = search.verdict(part)
+            verdict, word = search.verdict(part)
             if verdict == OPEN:
                 undecided.append(part)
                 continue
+            words[part] = word
             found.append(DesignBox(search.ends(part), verdict))
             if progress is not None:
                 progress(len(found))
         if level[0].depth == search.deepest or len(found) + 2 * len(undecided) > MOST_BOXES:
             found += [DesignBox(search.ends(part), OPEN) for part in undecided]
+            words |= dict.fromkeys(undecided, "u")
             break
         level = [half for part in undecided for half in _halves(part, part.depth % search.count)]
     keys = tuple(key for key, _ in question.answer.parameters)
-    return Designs(keys, tuple(sorted(found, key=lambda box: box.ends)))
+    word = _joined(Part(0, (0,) * search.count), words, search.count)
+    return Designs(keys, tuple(sorted(found, key=lambda box: box.ends)), search.inner, word)
+
+
+def _joined(part: Part, words: Mapping[Part, str], count: int) -> str:
+    """The word of a box of designs, from those of the boxes in it."""
+    if part in words:
+        return words[part]
+    return "s" + "".join(_joined(half, words, count) for half in _halves(part, part.depth % count))
+
+
+def _pruned(word: str, kept: Mapping[int, str]) -> str:
+    """A paving with nothing said of its leaves but of some, by their numbers."""
+    found: list[str] = []
+    leaf = 0
+    for letter in word:
+        found.append(letter if letter == "s" else kept.get(leaf, "x"))
+        leaf += letter != "s"
+        while found[-3:] == ["s", "x", "x"]:
+            found[-3:] = ["x"]
+    return "".join(found)
+
+
+def widened(question: RegionQuestion) -> RegionQuestion:
+    """The question with the parameters as variables of its chart."""
+    chart, wanted = question.chart, question.answer
+    names = tuple(f"p{k}" for k in range(1, len(wanted.parameters) + 1))
+    parameters = tuple(Parameter(name, key) for name, (key, _) in zip(names, wanted.parameters, strict=True))
+    boxes = (ends for _, ends in wanted.parameters)
+    wide = replace(chart, variables=(*chart.variables, *names), box=(*chart.box, *boxes), parameters=parameters)
+    return replace(question, chart=wide)
 
 
 def _halves(part: Part, axis: int) -> list[Part]:
@@ -128,14 +167,10 @@ class _Search:
         chart, wanted = question.chart, question.answer
         self.count = len(wanted.parameters)
         self._boxes = [ends for _, ends in wanted.parameters]
-        names = tuple(f"p{k}" for k in range(1, self.count + 1))
-        parameters = tuple(Parameter(name, key) for name, (key, _) in zip(names, wanted.parameters, strict=True))
-        wide = replace(
-            chart, variables=(*chart.variables, *names), box=(*chart.box, *self._boxes), parameters=parameters
-        )
-        ready = prepared(machine, replace(question, chart=wide))
+        wide_question = widened(question)
+        wide, ready = wide_question.chart, prepared(machine, wide_question)
         self._compiled, self._variables = ready.compiled, len(wide.variables)
-        self._inner = axes_of(machine, chart.variables, chart.box, wanted.steps)
+        self.inner = axes_of(machine, chart.variables, chart.box, wanted.steps)
         self._most = wanted.boxes
         self._determinants = [
             atom for atom in atoms_of(ready.asked.formula) if atom.sign is Sign.NOT_ZERO and question.is_connected
@@ -157,39 +192,40 @@ class _Search:
             for (low, high), place, depth in zip(self._boxes, part.places, depths, strict=True)
         )
 
-    def verdict(self, part: Part) -> str:
-        """Of all designs in a part: first with few halvings of the region, then with all that are allowed."""
+    def verdict(self, part: Part) -> tuple[str, str]:
+        """Of all designs in a part, and the word that proves it: few halvings of the region first, then all."""
         outer = list(islice(cycle(range(self._variables - self.count, self._variables)), part.depth))
-        axes = (*outer, *self._inner)
+        axes = (*outer, *self.inner)
         places = (0,) * (self._variables - self.count) + part.places
         start = Part(part.depth, places)
-        for last in dict.fromkeys((min(_FIRST_STEPS, len(self._inner)), len(self._inner))):
+        for last in dict.fromkeys((min(_FIRST_STEPS, len(self.inner)), len(self.inner))):
             word = pave(self._compiled, axes, start, part.depth + last, most=self._most, stop_outside=True).word
-            if OUTSIDE in word:
-                return NO
-            if UNDECIDED not in word:
-                return YES
-            good = [leaf for letter, leaf in leaves(word, axes, self._variables, start) if letter == INSIDE]
-            if self._changes_sign(good, axes):
-                return NO
-        return OPEN
+            letters = word.replace("s", "")
+            if OUTSIDE in letters:
+                return NO, "n" + _pruned(word, {letters.index(OUTSIDE): OUTSIDE})
+            if UNDECIDED not in letters:
+                return YES, "y" + word
+            found = leaves(word, axes, self._variables, start)
+            good = {number: leaf for number, (letter, leaf) in enumerate(found) if letter == INSIDE}
+            for atom in self._determinants:
+                signs = self._signs(atom, good, axes)
+                if len(signs) == 2:
+                    return NO, "n" + _pruned(word, {number: sign for sign, number in signs.items()})
+        return OPEN, "u"
 
-    def _changes_sign(self, parts: Sequence[Part], axes: Sequence[int]) -> bool:
-        """Whether the determinant is positive all over one part of the region, and negative all over another."""
-        return any(len(self._signs(atom, parts, axes)) == 2 for atom in self._determinants)
-
-    def _signs(self, atom: Atom, parts: Sequence[Part], axes: Sequence[int]) -> set[int]:
-        found: set[int] = set()
+    def _signs(self, atom: Atom, parts: Mapping[int, Part], axes: Sequence[int]) -> dict[str, int]:
+        """The number of a part of the region all over which the determinant is positive, and of one where negative."""
+        found: dict[str, int] = {}
         polynomial, _ = self._compiled.atoms[id(atom)]
-        by_depth: dict[int, list[Part]] = {}
-        for part in parts:
-            by_depth.setdefault(part.depth, []).append(part)
+        by_depth: dict[int, list[int]] = {}
+        for number, part in parts.items():
+            by_depth.setdefault(part.depth, []).append(number)
         for depth, same in by_depth.items():
-            view = View(
-                depths_at(axes, depth, self._variables), np.array([part.places for part in same], dtype=np.int64)
-            )
+            places = np.array([parts[number].places for number in same], dtype=np.int64)
+            view = View(depths_at(axes, depth, self._variables), places)
             low, high = view.range_of(polynomial, self._compiled.root_ends(view))
             inside = np.ones(len(same), dtype=bool) if self._region is None else self._region.truths_in(view) > 0
-            found |= {1} if bool(((low > 0) & inside).any()) else set()
-            found |= {-1} if bool(((high < 0) & inside).any()) else set()
+            for sign, holds in (("+", (low > 0) & inside), ("-", (high < 0) & inside)):
+                if holds.any():
+                    found.setdefault(sign, same[int(holds.argmax())])
         return found

@@ -144,34 +144,36 @@ class RegionDocument:
     joints: tuple[Pair, ...] = ()
     directions: tuple[Vector | None, ...] = ()
     member: Vector | None = None
+    parameters: tuple[str, ...] = ()
 
 
-def read_region(body: dict[str, Any], first: tuple[str, ...] = ()) -> RegionDocument:
+def read_region(body: dict[str, Any], first: tuple[str, ...] = (), last: tuple[str, ...] = ()) -> RegionDocument:
     """The content of a region certificate of version 1, or a refusal if it has not the shape of one.
 
     Parameters
     ----------
     body : dict
-    first : tuple of str
-        Variables of version 2 that come before those of version 1.
+    first, last : tuple of str
+        Variables of version 2 that come before those of version 1, and parameters of designs that come after them.
     """
     values = entries(body, "certificate", KEYS)
     _, _, robot, chart, shape, conditions, modes, claim, axes, paving, inside, undecided, measure, points = values
     motion, metric, legs, forms, base_cones, platform_cones, position = _robot(robot)
-    variables, box, place, quaternion, turns = _chart(chart, motion, first)
+    variables, box, place, quaternion, turns = _chart(chart, motion, first, last)
     asked = items(conditions, "conditions", None, lambda value, where: choice(value, where, CONDITIONS))
     if list(asked) != [name for name in CONDITIONS if name in asked] or not asked:
         raise malformed("conditions: none, or not in their order")
     steps = items(axes, "axes", None, integer)
     if len(steps) > MOST_STEPS:
         raise too_large(f"axes: more than {MOST_STEPS}")
-    if any(not 0 <= axis < len(variables) for axis in steps):
+    if any(not 0 <= axis < len(variables) - len(last) for axis in steps):
         raise malformed("axes: one is not that of a variable")
     signs = items(modes, "modes", len(legs), integer)
     if any(sign not in (-1, 0, 1) for sign in signs):
         raise malformed("modes: one is not -1, 0 or 1")
-    if not isinstance(paving, str) or set(paving) - set("siou"):
-        raise malformed("paving: not a word of the letters s, i, o, u")
+    letters = "siouynx+-" if last else "siou"
+    if not isinstance(paving, str) or set(paving) - set(letters):
+        raise malformed(f"paving: not a word of the letters {', '.join(letters)}")
     return RegionDocument(
         TWISTS[motion],
         metric,
@@ -188,7 +190,7 @@ def read_region(body: dict[str, Any], first: tuple[str, ...] = ()) -> RegionDocu
         _limited(items(shape, "shape", None, _shape_part), "shape", MOST_SHAPES),
         asked,
         signs,
-        choice(claim, "claim", CLAIMS),
+        choice(claim, "claim", ("designs",) if last else CLAIMS),
         steps,
         paving,
         count(inside, "inside"),
@@ -304,9 +306,9 @@ def _shape_part(value: object, where: str) -> ShapePart:
     )
 
 
-def _chart(value: object, motion: str, first: tuple[str, ...]) -> tuple[Any, ...]:
+def _chart(value: object, motion: str, first: tuple[str, ...], last: tuple[str, ...]) -> tuple[Any, ...]:
     names, box, position, quaternion, turns = entries(value, "chart", CHART)
-    known = (*first, *NAMES)
+    known = (*first, *NAMES, *last)
     variables = items(names, "chart.variables", None, lambda entry, where: choice(entry, where, known))
     if list(variables) != [name for name in known if name in variables] or not variables:
         raise malformed("chart.variables: none, or not in their order")
@@ -317,9 +319,10 @@ def _chart(value: object, motion: str, first: tuple[str, ...]) -> tuple[Any, ...
     fixed = None if quaternion is None else items(quaternion, "chart.quaternion", 4, rational)
     angles = items(turns, "chart.turns", 3 if fixed is None else 0, lambda entry, where: _turn(entry, where, variables))
     used = [value for value in place if isinstance(value, str)] + [turn[0] for turn in angles if len(turn) == 1]
-    used = [*first, *used]
+    used = [*first, *used, *last]
     expected = [*first, *(name for name, value in zip(NAMES, place, strict=False) if isinstance(value, str))]
     expected += [name for name, turn in zip(NAMES[3:], angles, strict=False) if len(turn) == 1]
+    expected += last
     if used != expected or tuple(used) != variables:
         raise malformed("chart: the variables are not those of position and turns")
     if fixed is not None and not any(fixed):

@@ -20,6 +20,7 @@ from pkm_exact.certify.checker.region_document import (
     read_region,
     read_vector,
 )
+from pkm_exact.certify.checker.region_parameters import read_parameters, require_varied, varied_joints
 from pkm_exact.certify.checker.spelling import entries, items, positive, rational
 from pkm_exact.certify.checker.verdict import malformed, rejected, too_large
 
@@ -27,7 +28,7 @@ MOST_CORNERS: Final = 64
 MOST_POWERS: Final = 5
 ALONG: Final = "along"
 _KEYS: Final = (*KEYS[:5], "tube", "joints", "directions", *KEYS[5:-1], "member", KEYS[-1])
-_CHART: Final = (*CHART[:3], "path", *CHART[3:])
+_CHART: Final = (*CHART[:3], "path", *CHART[3:], "parameters")
 
 
 def read_region_2(body: dict[str, Any]) -> RegionDocument:
@@ -36,13 +37,15 @@ def read_region_2(body: dict[str, Any]) -> RegionDocument:
     robot = dict(zip((*ROBOT, "leg_distance"), entries(body["robot"], "robot", (*ROBOT, "leg_distance")), strict=True))
     chart = dict(zip(_CHART, entries(body["chart"], "chart", _CHART), strict=True))
     least, path = robot.pop("leg_distance"), _path(chart.pop("path"))
+    parameters = read_parameters(chart.pop("parameters"))
     split = items(robot["legs"], "robot.legs", None, _split)
     robot["legs"], axes = [leg for leg, _ in split], [axis for _, axis in split]
     plain = {key: values[key] for key in KEYS} | {"robot": robot, "chart": chart}
-    found = read_region(plain, () if path is None else (ALONG,))
+    names = tuple(f"p{k}" for k in range(1, len(parameters) + 1))
+    found = read_region(plain, () if path is None else (ALONG,), names)
     member = items(values["member"], "member", None, rational)
-    if len(member) != (len(found.variables) if found.claim == "all" else 0):
-        raise malformed("member: not a value for each variable where the claim is all, or some where it is another")
+    if len(member) != (len(found.variables) if found.claim in ("all", "designs") else 0):
+        raise malformed("member: not a value for each variable where the claim is all or designs, or some elsewhere")
     document = replace(
         found,
         legs=tuple(replace(leg, axis=axis) for leg, axis in zip(found.legs, axes, strict=True)),
@@ -51,8 +54,10 @@ def read_region_2(body: dict[str, Any]) -> RegionDocument:
         tube=_tube(values["tube"]),
         joints=items(values["joints"], "joints", None, read_pair),
         directions=items(values["directions"], "directions", None, _direction),
-        member=member if found.claim == "all" else None,
+        member=member or None,
+        parameters=parameters,
     )
+    require_varied(document)
     _require_axes(document)
     _require_place(document)
     _require_joints(document)
@@ -64,12 +69,12 @@ def compared_pairs(document: RegionDocument) -> list[tuple[int, int]]:
     """The legs that must be apart: those that share no joint, if that is asked for."""
     if document.leg_distance is None or "limits" not in document.conditions:
         return []
-    legs = document.legs
-    return [(i, j) for i, j in combinations(range(len(legs)), 2) if not _share_a_joint(legs[i], legs[j])]
+    legs = [(leg, *varied_joints(document, k)) for k, leg in enumerate(document.legs)]
+    return [(i, j) for i, j in combinations(range(len(legs)), 2) if not _share_a_joint(*legs[i], *legs[j])]
 
 
-def _share_a_joint(one: LegEntry, other: LegEntry) -> bool:
-    return one.platform == other.platform or (not one.axes and not other.axes and one.base == other.base)
+def _share_a_joint(one: LegEntry, base: Any, platform: Any, other: LegEntry, base_2: Any, platform_2: Any) -> bool:
+    return bool(platform == platform_2 or (not one.axes and not other.axes and base == base_2))
 
 
 def _split(value: object, where: str) -> tuple[dict[str, Any], Vector | None]:

@@ -11,21 +11,12 @@ from pkm_exact.certify.checker.region_document_2 import compared_pairs
 from pkm_exact.certify.checker.region_ring import Condition, Deferred, PlacedLeg, RegionRing, Signed
 
 
-def legs_apart(
-    document: RegionDocument, ring: RegionRing, norm: Any, rotation: Sequence[Sequence[Any]], legs: Sequence[PlacedLeg]
-) -> list[Condition]:
+def legs_apart(document: RegionDocument, ring: RegionRing, norm: Any, legs: Sequence[PlacedLeg]) -> list[Condition]:
     """One condition for every two legs that must be apart; the costly part of it is made when it is needed."""
-    segments = [
-        _Segment(entry, leg, ring, norm, document.metric) for entry, leg in zip(document.legs, legs, strict=True)
-    ]
+    segments = [_Segment(entry, leg, ring, document.metric) for entry, leg in zip(document.legs, legs, strict=True)]
     found: list[Condition] = []
     for (i, j), direction in zip(compared_pairs(document), document.directions, strict=True):
-        ends = zip(document.legs[i].platform, document.legs[j].platform, strict=True)
-        between = [ring.number(b - a) for a, b in ends]
-        way = [
-            ring.times(row[0], between[0]) + ring.times(row[1], between[1]) + ring.times(row[2], between[2])
-            for row in rotation
-        ]
+        way = [b - a for a, b in zip(legs[i].arm, legs[j].arm, strict=True)]
         pair = _Pair(ring, norm, segments[i], segments[j], way, document.leg_distance or Fraction(0))
         separated = [] if direction is None else [pair.beyond_each_other(direction)]
         found.append(("or", [*separated, Deferred(pair.apart)]))
@@ -35,15 +26,13 @@ def legs_apart(
 class _Segment:
     """A leg: m, U from the upper end to the lower one, and N^2 times its squared length."""
 
-    def __init__(self, entry: LegEntry, leg: PlacedLeg, ring: RegionRing, norm: Any, metric: Sequence[int]) -> None:
-        self.leg, self.scale = leg, ring.number(1) if leg.scale is None else leg.scale
+    def __init__(self, entry: LegEntry, leg: PlacedLeg, ring: RegionRing, metric: Sequence[int]) -> None:
+        self.leg, self.square = leg, leg.square
+        self.scale = ring.number(1) if leg.scale is None else leg.scale
         size = Fraction(1)
         if len(entry.axes) == 1:
             size = sum((g * d * d for g, d in zip(metric, entry.axes[0], strict=True)), Fraction(0))
         self.way = [-ring.number(1 / size) * x for x in leg.rod]
-        self.square = leg.value[0]
-        if entry.axes:
-            self.square = ring.number(entry.rod_squared) * ring.times(norm, norm)
 
 
 class _Pair:

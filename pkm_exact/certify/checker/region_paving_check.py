@@ -9,9 +9,11 @@ from typing import Any, Final
 
 from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.region_coefficients import Part
+from pkm_exact.certify.checker.region_designs_check import designs_lines
 from pkm_exact.certify.checker.region_document import RegionDocument
 from pkm_exact.certify.checker.region_document_2 import require_held
 from pkm_exact.certify.checker.region_polynomials import RegionEquations
+from pkm_exact.certify.checker.region_proofs import LETTER, is_proved, ranges_on
 from pkm_exact.certify.checker.region_ring import (
     Condition,
     Conditions,
@@ -25,8 +27,6 @@ from pkm_exact.certify.checker.region_ring import (
 from pkm_exact.certify.checker.verdict import malformed, rejected
 
 _SIGN_BITS: Final = (64, 256, 1024)
-_LETTER: Final = 40_000
-"""Operations for a letter, beside the polynomials that it needs."""
 
 
 def check_region(document: RegionDocument) -> Iterator[str]:
@@ -43,6 +43,11 @@ def check_region(document: RegionDocument) -> Iterator[str]:
         return
     if document.points:
         raise malformed("counterexample: there is one, but the claim is another")
+    if document.claim == "designs":
+        yield from designs_lines(document, conditions)
+        _require_poses(document, conditions)
+        yield "claim: what the boxes of designs say is true for every design in them"
+        return
     yield from _paved(document, conditions)
 
 
@@ -51,7 +56,7 @@ def _paved(document: RegionDocument, conditions: Conditions) -> Iterator[str]:
         condition: Condition = ("and", [conditions.region, conditions.asked])
     else:
         condition = ("or", [beyond(conditions.region), conditions.asked])
-    shares = _Walk(document, condition, conditions.roots).shares()
+    shares = _shares(document, condition, conditions.roots)
     counts = {letter: document.paving.count(letter) for letter in "iou"}
     if (counts["i"], counts["u"]) != (document.inside, document.undecided):
         raise rejected("inside, undecided: not as many parts as the paving has")
@@ -99,66 +104,27 @@ def _measured(document: RegionDocument, shares: dict[str, Fraction]) -> Iterator
     yield "measure: between that of the parts inside, and that of these with the undecided ones"
 
 
-class _Walk:
-    """Follows the word of a paving."""
-
-    def __init__(self, document: RegionDocument, condition: Condition, roots: Sequence[Any]) -> None:
-        self._document, self._condition, self._roots = document, condition, roots
-
-    def shares(self) -> dict[str, Fraction]:
-        """For every letter the share of the box of the parts that have it; refused if one is not proved."""
-        word, axes = self._document.paving, self._document.axes
-        found = dict.fromkeys("iou", Fraction(0))
-        waiting = [Part(0)]
-        for place, letter in enumerate(word, 1):
-            if not waiting:
-                raise rejected("paving: it goes on after its end")
-            part = waiting.pop()
-            charge(_LETTER)
-            if letter == "s":
-                if part.depth >= len(axes):
-                    raise rejected(f"paving: letter {place} halves a part deeper than the axes say")
-                waiting += part.halves(axes[part.depth])[::-1]
-                continue
-            if letter != "u" and not self._holds(letter, part):
-                word_for = "inside" if letter == "i" else "outside"
-                raise rejected(f"paving: the part of letter {place} is not proved to be {word_for}")
-            found[letter] += Fraction(1, 1 << part.depth)
-        if waiting:
-            raise rejected("paving: parts of the region are missing")
-        return found
-
-    def _holds(self, letter: str, part: Part) -> bool:
-        ends: list[tuple[Fraction, Fraction]] = []
-        ranges: dict[int, tuple[int, int]] = {}
-        box = self._document.box
-
-        def range_of(test: Signed) -> tuple[int, int]:
-            key = id(test.polynomial)
-            if key not in ranges:
-                if not ends:
-                    ends.extend(part.root_ends(root, box) for root in self._roots)
-                ranges[key] = part.table(test.polynomial, box).range_of(ends)
-            return ranges[key]
-
-        return _is(self._condition, range_of, wanted=letter == "i")
-
-
-def _is(condition: Condition, range_of: Any, *, wanted: bool) -> bool:
-    """Whether a condition is proved to hold all over a part, or if not ``wanted`` to hold nowhere in it."""
-    if isinstance(condition, Signed):
-        low, high = range_of(condition)
-        if condition.sign == "/":
-            return wanted and (low > 0 or high < 0)
-        if wanted:
-            return bool(low > 0 if condition.sign == "+" else low >= 0)
-        return bool(high <= 0 if condition.sign == "+" else high < 0)
-    if isinstance(condition, Deferred):
-        return _is(condition.condition, range_of, wanted=wanted)
-    word, parts = condition
-    some = (word == "or") is wanted
-    results = (_is(part, range_of, wanted=wanted) for part in parts)
-    return any(results) if some else all(results)
+def _shares(document: RegionDocument, condition: Condition, roots: Sequence[Any]) -> dict[str, Fraction]:
+    """For every letter the share of the box of the parts that have it; refused if one is not proved."""
+    axes, found = document.axes, dict.fromkeys("iou", Fraction(0))
+    waiting = [Part(0)]
+    for place, letter in enumerate(document.paving, 1):
+        if not waiting:
+            raise rejected("paving: it goes on after its end")
+        part = waiting.pop()
+        charge(LETTER)
+        if letter == "s":
+            if part.depth >= len(axes):
+                raise rejected(f"paving: letter {place} halves a part deeper than the axes say")
+            waiting += part.halves(axes[part.depth])[::-1]
+            continue
+        if letter != "u" and not is_proved(condition, ranges_on(part, document, roots), wanted=letter == "i"):
+            word_for = "inside" if letter == "i" else "outside"
+            raise rejected(f"paving: the part of letter {place} is not proved to be {word_for}")
+        found[letter] += Fraction(1, 1 << part.depth)
+    if waiting:
+        raise rejected("paving: parts of the region are missing")
+    return found
 
 
 def _refuted(document: RegionDocument, conditions: Conditions) -> str:

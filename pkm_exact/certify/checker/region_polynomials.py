@@ -9,6 +9,7 @@ from typing import Any
 
 from pkm_exact.certify.checker.region_document import SQUARED_COSINES, Cone, LegEntry, RegionDocument
 from pkm_exact.certify.checker.region_pairs import legs_apart
+from pkm_exact.certify.checker.region_parameters import RODS, scale_of, varied_joints
 from pkm_exact.certify.checker.region_ring import Condition, Conditions, PlacedLeg, RegionRing, Signed
 from pkm_exact.certify.checker.verdict import malformed, rejected
 
@@ -47,7 +48,7 @@ class RegionEquations:
                     Signed(c - ring.number(low) * self.norm, "0+"),
                     Signed(ring.number(high) * self.norm - c, "0+"),
                 ]
-            parts += legs_apart(document, ring, self.norm, self.rotation, legs)
+            parts += legs_apart(document, ring, self.norm, legs)
         if "no_type_1" in document.conditions:
             parts += [Signed(leg.value[0] if leg.root is None else leg.root, "+") for leg in legs]
         determinant = None
@@ -114,14 +115,37 @@ class RegionEquations:
             for i in range(3)
         ]
 
-    def _turned(self, vector: Sequence[Fraction]) -> list[Any]:
-        exact, zero = [self._ring.number(b) for b in vector], self._ring.number(0)
-        return [sum((entry * b for entry, b in zip(row, exact, strict=True)), zero) for row in self.rotation]
+    def _turned(self, vector: Sequence[Fraction | str]) -> list[Any]:
+        ring = self._ring
+        exact = [ring.entry(b) for b in vector]
+        return [
+            sum((ring.times(entry, b) for entry, b in zip(row, exact, strict=True)), ring.number(0))
+            for row in self.rotation
+        ]
+
+    def _joints(self, k: int) -> tuple[list[Any], list[Any]]:
+        """N A and N R B of a leg."""
+        base, platform = varied_joints(self._document, k)
+        found = []
+        for side, entries in (
+            ("base", [self._ring.times(self.norm, self._ring.entry(x)) for x in base]),
+            ("platform", self._turned(platform)),
+        ):
+            scale = scale_of(self._document, side)
+            found.append(entries if scale is None else [self._ring.times(self._ring.named[scale], x) for x in entries])
+        return found[0], found[1]
+
+    def _rod_squared(self, leg: LegEntry) -> Any:
+        """N^2 r^2."""
+        ring, keys = self._ring, self._document.parameters
+        r = ring.named[f"p{keys.index(RODS) + 1}"] if RODS in keys else None
+        square = ring.number(leg.rod_squared) if r is None else r * r
+        return ring.times(square, ring.times(self.norm, self.norm))
 
     def _leg(self, leg: LegEntry, k: int) -> PlacedLeg:
         ring, n = self._ring, self.norm
-        arm = self._turned(leg.platform)
-        e = [c + b - n * ring.number(a) for c, b, a in zip(self.center, arm, leg.base, strict=True)]
+        base, arm = self._joints(k)
+        e = [c + b - a for c, b, a in zip(self.center, arm, base, strict=True)]
         if leg.axis is not None:
             axis = [ring.number(x) for x in leg.axis]
             along = sum((g * x * x for g, x in zip(self._document.metric, leg.axis, strict=True)), Fraction(0))
@@ -129,17 +153,17 @@ class RegionEquations:
             e = [x - ring.times(a, share) for a, x in zip(axis, e, strict=True)]
         square = ring.dot(e, e)
         if not leg.axes:
-            return PlacedLeg(arm, e, (square, ring.times(n, n)), None, "")
+            return PlacedLeg(arm, e, square, (square, ring.times(n, n)), None, "")
         mode, y = self._document.modes[k], ring.named[f"y{k}"]
         self._require_mode(leg, mode)
-        rod_squared = ring.number(leg.rod_squared) * ring.times(n, n)
+        rod_squared = self._rod_squared(leg)
         axes = [[ring.number(x) for x in axis] for axis in leg.axes]
         if len(axes) == 1:
             a, p = ring.dot(axes[0], axes[0]), ring.dot(axes[0], e)
             way = p + mode * y
             rod = [ring.times(a, x) - ring.times(way, d) for x, d in zip(e, axes[0], strict=True)]
             root = ring.times(p, p) - ring.times(a, square - rod_squared)
-            return PlacedLeg(arm, rod, (way, ring.times(a, n)), root, f"y{k}")
+            return PlacedLeg(arm, rod, rod_squared, (way, ring.times(a, n)), root, f"y{k}")
         share = ring.number(Fraction(1, leg.weight))
         a, p = (2 * ring.times(n, ring.dot(axis, e)) for axis in axes)
         h = square + ring.times(ring.dot(axes[0], axes[0]), ring.times(n, n)) - rod_squared
@@ -150,7 +174,7 @@ class RegionEquations:
             ring.times(m, x) - ring.times(n, ring.times(cosine, u) + ring.times(sine, v))
             for x, u, v in zip(e, *axes, strict=True)
         ]
-        return PlacedLeg(arm, rod, (cosine, sine), share * (m - ring.times(h, h)), f"y{k}", m)
+        return PlacedLeg(arm, rod, rod_squared, (cosine, sine), share * (m - ring.times(h, h)), f"y{k}", m)
 
     def _require_mode(self, leg: LegEntry, mode: int) -> None:
         asked = self._document.conditions

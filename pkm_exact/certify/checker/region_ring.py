@@ -84,10 +84,11 @@ def size_factor(left: int, right: int) -> int:
 
 @dataclass(frozen=True, eq=False)
 class PlacedLeg:
-    """A leg at the poses of the chart: N R B, the rod, its value, D, the name of y, and m of a crank."""
+    """A leg at the poses of the chart: N R B, the rod, N^2 times its square, value, D, the name of y, m of a crank."""
 
     arm: list[Any]
     rod: list[Any]
+    square: Any
     value: tuple[Any, Any]
     root: Any
     name: str
