@@ -23,6 +23,7 @@ from pkm_exact.certify import (
     pure,
     region_build,
     region_build_2,
+    statics_box_build,
     statics_build,
     system_build,
     tolerance_build,
@@ -40,6 +41,7 @@ SYSTEMS = "system-certificate-1.schema.json"
 REGIONS = "region-certificate-1.schema.json"
 REGIONS_2 = "region-certificate-2.schema.json"
 STATICS = "statics-certificate-1.schema.json"
+STATICS_2 = "statics-certificate-2.schema.json"
 LINKS = "links-certificate-1.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
@@ -60,7 +62,8 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
 
 
 @pytest.mark.parametrize(
-    "name", [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, PLATFORM, REGIONS, REGIONS_2, STATICS, LINKS]
+    "name",
+    [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, PLATFORM, REGIONS, REGIONS_2, STATICS, LINKS, STATICS_2],
 )
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
@@ -228,6 +231,14 @@ def test_the_page_of_regions_defines_every_key_in_its_order() -> None:
 def test_the_page_of_statics_defines_every_key_in_its_order() -> None:
     root = _schema(STATICS)
     assert _tables("Format", "### Claims", "certificates-statics.md") == [_keys(root)]
+    second = _schema(STATICS_2)
+    page = (CERTS.parent / "docs" / "certificates-statics.md").read_text()
+    keys, parts = page.partition("## Version 2")[2].partition("### What is claimed")[0].split("| part |")
+    assert re.findall(r"^\| `(\w+)` \|", keys, re.M) == list(second["properties"])
+    for name in ("solution", "velocity_polytope", "wrench_polytope", "ellipsoid"):
+        row = next(line for line in parts.splitlines() if line.startswith(f"| `{name}` |"))
+        words = re.findall(r"`(\w+)`", row)[1:]
+        assert words == list(second["properties"][name]["anyOf"][0]["properties"])
 
 
 def test_the_page_of_links_defines_every_key_in_its_order() -> None:
@@ -252,7 +263,7 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
     writers = (build, build_constraints, tolerance_build, system_build, mobility_build, region_build, statics_build)
-    writers = (*writers, mobility_second_build, platform_build, links_build, region_build_2)
+    writers = (*writers, mobility_second_build, platform_build, links_build, region_build_2, statics_box_build)
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

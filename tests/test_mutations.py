@@ -251,6 +251,7 @@ OF_A_KIND = {
     "region": lambda: golden("regions/rolland-6-6"),
     "region, version 2": lambda: golden("regions/3-rpr-merlet-p"),
     "statics": lambda: golden("statics/3-rpr-merlet-p"),
+    "statics, version 2": lambda: golden("statics/3-rps"),
     "links": lambda: golden("links/four-bar"),
 }
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import jsonschema
 import pytest
+from certificate_tools import both, golden
 from samples import model
 from test_statics import POSES, at, vector
 
@@ -16,7 +17,9 @@ from pkm_exact import Mechanism
 from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import check_bytes
-from pkm_exact.certify.statics_build import statics_certificate, statics_certificate_bytes
+from pkm_exact.certify.statics_box_build import statics_box_certificate
+from pkm_exact.certify.statics_build import statics_certificate
+from pkm_exact.certify.statics_of_poses import at_certified_poses
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InputError
@@ -24,7 +27,7 @@ from pkm_exact.motions.motion_groups import PLANAR, SPHERICAL
 from pkm_exact.statics.machine_at_pose import machine_at
 
 Capture = pytest.CaptureFixture[str]
-SCHEMA = Path(pure.__file__).with_name("statics-certificate-1.schema.json")
+SCHEMA, SECOND = (Path(pure.__file__).with_name(f"statics-certificate-{k}.schema.json") for k in (1, 2))
 
 
 def redundant() -> Mechanism:
@@ -210,7 +213,7 @@ def test_the_command_writes_what_the_checkers_accept(tmp_path: Path, capsys: Cap
     words = ["statics", "models/3-rpr-merlet-p.toml", "--position", "5,9/2", "--half-tangent", "1/3", "-o", str(target)]
     assert main([*words, "--limits", "speeds=1", "--limits", "forces=2", "--limits", "length=3"]) == 0
     measures = machine_at(model("3-rpr-merlet-p"), POSES["3-rpr-merlet-p"]).measures(speeds=1, forces=2, length=3)
-    assert target.read_bytes() == statics_certificate_bytes(model("3-rpr-merlet-p"), measures)
+    assert target.read_bytes() == canonical_bytes(statics_certificate(model("3-rpr-merlet-p"), measures))
     assert main(["check", str(target)]) == 0
     assert "and no others" in capsys.readouterr().out
     with pytest.raises(InputError, match="exact poses of machines of legs"):
@@ -265,3 +268,62 @@ def test_a_leg_through_the_center_of_turns_is_certified() -> None:
     assert content["ellipsoid"]["weights"][3] == "0"
     assert len(content["velocity_polytope"]["vertices"]) == 8
     assert verdicts(content) == ("accepted", "accepted")
+
+
+LARGE = ("rolland-6-6", "linapod-n")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("3-rps", "3-rrr", "h4", "dual-v", "delta", "bipod", "3-rpr-triple"),
+        *(pytest.param(name, marks=pytest.mark.slow) for name in LARGE),
+    ],
+)
+def test_poses_of_certificates_have_certificates(name: str) -> None:
+    """Slides, cranks, constraints that are not actuated, redundant legs, a singular pose."""
+    at = at_certified_poses(golden(name), model(name), [0])[0]
+    measures = at.measures(speeds=1, forces=2, length=3)
+    content, left_out = statics_box_certificate(measures, [1] * len(at.twist), {"digest": "sha256:", "pose": 1})
+    verdict = both(canonical_bytes(content))
+    assert verdict.status == "accepted", verdict.lines
+    assert len(verdict.lines) == 7 - len(left_out)
+    assert bool(left_out) == (name in ("dual-v", "3-rpr-triple"))
+    jsonschema.Draft202012Validator(json.loads(SECOND.read_text())).validate(content)
+
+
+def test_what_is_in_a_box_is_what_is_said_of_the_pose() -> None:
+    at = at_certified_poses(golden("3-rrr"), model("3-rrr"), [0])[0]
+    limits = {"speeds": 1, "forces": 2, "length": 3}
+    content, _ = statics_box_certificate(at.measures(**limits), [1, 2, 3])
+    for listed, there in (
+        *zip(content["jacobian"][0], (at.jacobian[0, j] for j in range(3)), strict=True),
+        *((content["indices"][key], at.indices(**limits)[key]) for key in ("sigma_min", "sigma_max", "condition")),
+        *zip(content["actuator_forces"], at.forces([1, 2, 3]).values, strict=True),
+        (content["velocity_polytope"]["volume"], at.velocity_polytope(1).volume),
+        (content["wrench_polytope"]["volume"], at.wrench_polytope(2).volume),
+    ):
+        low, high = map(Fraction, listed)
+        assert low <= there.hi
+        assert there.lo <= high
+        assert max(high - low, there.hi - there.lo) < 1e-3
+
+
+def test_a_machine_that_has_none_is_refused_in_a_sentence(tmp_path: Path, capsys: Capture) -> None:
+    target = tmp_path / "statics.json"
+    words = ["statics", "certs/3-prs.json", "--model", "models/3-prs.toml", "--pose", "1", "-o", str(target)]
+    assert main(words) == 2
+    assert "constraints that are not actuated" in capsys.readouterr().err
+    assert not target.exists()
+
+
+def test_the_command_certifies_a_pose_of_a_certificate(tmp_path: Path, capsys: Capture) -> None:
+    target = tmp_path / "statics.json"
+    words = ["statics", "certs/3-rrr.json", "--model", "models/3-rrr.toml", "--pose", "2", "-o", str(target)]
+    assert main([*words, "--limits", "speeds=1", "--limits", "length=3", "--load", "1,2,3"]) == 0
+    content = json.loads(target.read_text())
+    assert content["solution"] == {"digest": golden("3-rrr")["digest"], "pose": 2}
+    assert main(["check", str(target)]) == 0
+    assert "forces: those that bear the load" in capsys.readouterr().out
+    assert main([*words, "--load", "1,2", "--load-at", "1,1"]) == 2
+    assert "--load-at makes moments that are not exact" in capsys.readouterr().err

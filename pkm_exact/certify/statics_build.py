@@ -11,7 +11,7 @@ from fractions import Fraction
 from math import isqrt
 from typing import TYPE_CHECKING, Any, Final
 
-from pkm_exact.certify.build import canonical_bytes, sealed
+from pkm_exact.certify.build import sealed
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InputError, PkmExactError
 from pkm_exact.geometry.mechanism import Mechanism
@@ -77,22 +77,28 @@ def statics_certificate(machine: Machine, measures: Measures) -> dict[str, Any]:
     )
 
 
-def statics_certificate_bytes(machine: Machine, measures: Measures) -> bytes:
-    """What a certificate file holds."""
-    return canonical_bytes(statics_certificate(machine, measures))
+def is_for_legs_alone(machine: Machine, at: PoseRows) -> bool:
+    """Whether this version has a certificate: of an exact pose, and legs whose lengths are actuated."""
+    return _joints(machine, at) is not None
 
 
 def _legs(machine: Machine, at: PoseRows) -> list[tuple[Any, Any]]:
-    wanted = "certificate: is for exact poses of machines of legs whose lengths are actuated, 12 at most"
+    found = _joints(machine, at)
+    if found is None:
+        raise InputError("certificate: is for exact poses of machines of legs whose lengths are actuated, 12 at most")
+    return found
+
+
+def _joints(machine: Machine, at: PoseRows) -> list[tuple[Any, Any]] | None:
     if not at.is_exact or not 1 <= len(at.held.actuators) <= MOST_LEGS or at.held.structural:
-        raise InputError(wanted)
+        return None
     if isinstance(machine, Robot) and not machine.chains:
         return list(zip(machine.base_joints, machine.platform_joints, strict=True))
     if isinstance(machine, Mechanism) and not machine.drives:
         legs = [found for found in machine.constraints if isinstance(found, Distance)]
         if len(legs) == len(machine.constraints):
             return [(leg.base, leg.platform) for leg in legs]
-    raise InputError(wanted)
+    return None
 
 
 def _texts(values: Sequence[Any]) -> list[str]:
@@ -167,7 +173,7 @@ def _ellipsoid(measures: Measures, speeds: Sequence[Fraction]) -> dict[str, Any]
         found = largest_ellipsoid(measures.freedom.scaled(measures.limits.length, speeds), at.twist)
     except PkmExactError:
         return None
-    weights = _short_weights(found.weights)
+    weights = short_weights(found.weights)
     n = len(rows[0])
     scaled = [[n * w * x / b for x in row] for w, row, b in zip(weights, rows, bounds, strict=True)]
     dual = rational_matrix(rows).transpose() * rational_matrix(scaled)
@@ -187,7 +193,7 @@ def _ellipsoid(measures: Measures, speeds: Sequence[Fraction]) -> dict[str, Any]
     return {"weights": _texts(weights), "matrix": [_texts(row) for row in matrix]}
 
 
-def _short_weights(weights: Sequence[Fraction]) -> list[Fraction]:
+def short_weights(weights: Sequence[Fraction]) -> list[Fraction]:
     """The weights to 64 bits, with sum 1."""
     if all(weight.denominator < 1 << _BITS for weight in weights):
         return list(weights)

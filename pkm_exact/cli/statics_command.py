@@ -49,7 +49,7 @@ if TYPE_CHECKING:
     "--output",
     type=arguments.FilePath(),
     metavar="CERT.json",
-    help="Write a certificate of polytopes, ellipsoid and singular values, at an exact pose of legs.",
+    help="Write a certificate of polytopes, ellipsoid, singular values and, with --load, forces.",
 )
 @click.option(
     "--plot",
@@ -97,20 +97,21 @@ def statics(
         for name, value in (("--position", position), ("--configuration", configuration), ("--modes", modes)):
             if value is not None:
                 raise click.UsageError(f"{name}: is for a model file; of a certificate give --pose K.")
-        found, used = _at_certified_pose(source, number, model), None
-        if found is None:
+        certified, used = _at_certified_pose(source, number, model), None
+        if certified is None:
             return ExitCode.REJECTED
+        found, solution = certified
     else:
         if model is not None:
             raise click.UsageError("--model: is for a certificate.")
-        found, used = _at_pose_of_model(source, number, given, configuration, modes)
-    from pkm_exact.cli import statics_report
+        (found, used), solution = _at_pose_of_model(source, number, given, configuration, modes), None
+    from pkm_exact.cli import statics_output, statics_report
     from pkm_exact.cli.statics_answers import answers
 
     extra = answers(found, load, load_at, limits, stiffness)
     drawn = None if picture is None else _drawn(picture, extra)
     if output is not None:
-        _write(output, source, extra)
+        statics_output.write_certificate(output, (source, model), extra, solution)
     if picture is not None and drawn is not None:
         arguments.write_output(picture, drawn)
     if layout == "json":
@@ -160,18 +161,6 @@ def _drawn(picture: str, extra: StaticsAnswers) -> bytes:
     except InputError as error:
         raise InputError(f"--plot: {error}") from None
     return figure_bytes(figure, picture_format(Path(picture)))
-
-
-def _write(output: str, source: str, extra: StaticsAnswers) -> None:
-    """Write a certificate of what was asked."""
-    from pkm_exact.certify.statics_build import statics_certificate_bytes
-    from pkm_exact.interactive.robots import read_robot  # it was announced when it was read first
-
-    arguments.require_other_file(Path(output), source, "-o")
-    arguments.require_writable(Path(output), "-o")
-    if extra.measures is None or _is_certificate(source):
-        raise InputError("-o: is for an exact pose of a model, at which there is a J; give --position and a rotation")
-    arguments.write_output(output, statics_certificate_bytes(read_robot(source), extra.measures))
 
 
 def _is_certificate(source: str) -> bool:
@@ -235,8 +224,8 @@ def _chosen(number: int | None, count: int) -> int:
     return number
 
 
-def _at_certified_pose(source: str, number: int | None, model: str | None) -> AtPose | None:
-    """The machine at a pose of an accepted certificate; None if it is rejected."""
+def _at_certified_pose(source: str, number: int | None, model: str | None) -> tuple[AtPose, dict[str, Any]] | None:
+    """The machine at a pose of an accepted certificate, and which pose that is; None if it is rejected."""
     from pkm_exact.certify.statics_of_poses import at_certified_poses
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.pictures.scene import RejectedError, accepted_document
@@ -257,6 +246,6 @@ def _at_certified_pose(source: str, number: int | None, model: str | None) -> At
         raise InputError(f"{source}: {error}") from None
     machine = None if model is None else announced_model(model)
     try:
-        return at_certified_poses(document, machine, [place])[0]
+        return at_certified_poses(document, machine, [place])[0], {"digest": document["digest"], "pose": place + 1}
     except InputError as error:
         raise InputError(f"{model or source}: {error}") from None

@@ -46,6 +46,8 @@ class StaticsAnswers:
         None if not asked for, or refused.
     failures : dict
         r^2 by sets of failed actuators.
+    load : list or None
+        What the forces bear.
     """
 
     measures: Measures | None
@@ -56,6 +58,7 @@ class StaticsAnswers:
     forces: Forces | None = None
     stiffness: EnclosedMatrix | None = None
     failures: dict[tuple[int, ...], Any] | None = None
+    load: Sequence[Any] | None = None
 
     @property
     def _is_partial(self) -> bool:
@@ -175,6 +178,7 @@ def asked_answers(
         None if load is None else forces(at, load),
         None if stiffness is None else stiffness_matrix(measures.freedom, stiffness),
         _tried("failures", refused, lambda: _failures(measures)),
+        load,
     )
 
 

@@ -89,7 +89,7 @@ def largest_ellipsoid(rows: arb_mat, names: Sequence[str]) -> LargestEllipsoid:
     0.500000000000000 1.000000000000000 True
     """
     with working_precision(BITS):
-        weights = _proposed(rows)
+        weights = proposed_weights(rows)
         found = _proved(rows, weights, names)
         simple = _simple(weights)
         if simple is None:
@@ -127,7 +127,7 @@ def _proved(rows: arb_mat, weights: Sequence[Fraction], names: Sequence[str]) ->
     )
 
 
-def _proposed(rows: arb_mat) -> list[Fraction]:
+def proposed_weights(rows: arb_mat) -> list[Fraction]:
     """Weights with sum 1 that nearly prove the largest one: multiplicative steps, then Newton's."""
     count, n = rows.nrows(), rows.ncols()
     a = np.array([float(entry.mid()) for entry in rows.entries()]).reshape(count, n)
@@ -135,7 +135,11 @@ def _proposed(rows: arb_mat) -> list[Fraction]:
         raise InputError("ellipsoid: the polytope is or may be unbounded; give a regular pose")
     weights = np.full(count, 1 / count)
     for _ in range(_STEPS):
-        reach = np.einsum("ij,jk,ik->i", a, np.linalg.inv(a.T @ (weights[:, None] * a)), a)
+        try:
+            inverse = np.linalg.inv(a.T @ (weights[:, None] * a))
+        except np.linalg.LinAlgError:
+            raise InputError("ellipsoid: the polytope is or may be unbounded; give a regular pose") from None
+        reach = np.einsum("ij,jk,ik->i", a, inverse, a)
         weights = weights * reach / n
         if reach.max() < n * (1 + 1e-9):
             break

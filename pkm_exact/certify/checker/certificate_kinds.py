@@ -26,6 +26,8 @@ from pkm_exact.certify.checker.region_document import read_region
 from pkm_exact.certify.checker.region_document_2 import read_region_2
 from pkm_exact.certify.checker.region_paving_check import check_region
 from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
+from pkm_exact.certify.checker.statics_box_checks import check_box_statics
+from pkm_exact.certify.checker.statics_box_document import read_box_statics
 from pkm_exact.certify.checker.statics_checks import check_statics
 from pkm_exact.certify.checker.statics_document import FORMAT as STATICS
 from pkm_exact.certify.checker.statics_document import read_statics
@@ -110,4 +112,5 @@ KINDS: Final = (
     CertificateKind(REGIONS, 2, lambda body: check_region(read_region_2(body))),
     CertificateKind(LINKS, 1, lambda body: check_links(read_links(body))),
     CertificateKind(STATICS, 1, lambda body: check_statics(read_statics(body))),
+    CertificateKind(STATICS, 2, lambda body: check_box_statics(read_box_statics(body))),
 )
