@@ -228,9 +228,9 @@ def test_drives_that_stand_elsewhere_perturb_the_forces() -> None:
     corners = [[Fraction(0), Fraction(0)], [Fraction(1), Fraction(0)], [Fraction(1, 2), Fraction(1, 2)]]
     pose = {"position": ["1/2", "1/6"], "half_tangent": 0}
 
-    def placed(which: int, shift: Fraction) -> AtPose:
+    def placed(which: int, shift: Fraction, axis: int = 0) -> AtPose:
         moved = [list(corner) for corner in corners]
-        moved[which][0] += shift
+        moved[which][axis] += shift
         legs = [Distance(vector(x, y, 0), vector(0, 0, 0), Fraction(1), f"leg {k}") for k, (x, y) in enumerate(moved)]
         return Mechanism("RP/2RPR", "1", "made up", tuple(legs), tuple(leg.name for leg in legs), PLANAR, (1, 3, 1)).at(
             pose
@@ -240,6 +240,8 @@ def test_drives_that_stand_elsewhere_perturb_the_forces() -> None:
         nominal, real = placed(which, Fraction(0)), placed(which, Fraction(1, 20))
         found = perturbation_norm(*(_translations(found) for found in (nominal, real)), (1, 2))
         assert round(float(found), 5) == wanted
+    along = [_translations(placed(2, shift, 1)) for shift in (Fraction(0), Fraction(1, 20))]
+    assert perturbation_norm(*along, (1, 2)).hi < Fraction(1, 10**30)  # along its own leg: nothing
 
 
 def _translations(found: AtPose) -> AtPose:

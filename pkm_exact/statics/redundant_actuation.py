@@ -53,7 +53,7 @@ def perturbation_norm(nominal: AtPose, real: AtPose, independent: Sequence[int])
         if values is None:
             raise InputError("perturbation: the poses are not enclosed narrowly enough")
         largest = values[-1]
-        return interval_of(largest.max(largest * 0).sqrt())
+        return interval_of(largest.nonnegative_part().sqrt())
 
 
 def _from_independent(jacobian: arb_mat, independent: Sequence[int]) -> arb_mat:

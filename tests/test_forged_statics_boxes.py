@@ -2,7 +2,7 @@
 
 import pytest
 from certificate_tools import both
-from forged_boxes import ROWS
+from forged_statics_boxes import ROWS
 
 from pkm_exact.certify.build import canonical_bytes, sealed
 
