@@ -14,6 +14,7 @@ QUICK = (
     "eight_poses_of_the_h4",
     "errors_of_the_linapod",
     "how_it_moves",
+    "tensions_of_the_robocrane",
     "wrenches_of_planar_machines",
 )
 EACH = [pytest.param(path, id=path.stem, marks=() if path.stem in QUICK else pytest.mark.slow) for path in NOTEBOOKS]

@@ -106,6 +106,11 @@ def size(value: Interval) -> Interval:
     return Interval(least, value.largest(), P)
 
 
+def squared(value: Interval) -> Interval:
+    """The squares."""
+    return size(value) * size(value)
+
+
 def lies_in(value: Interval, ends: Ends) -> bool:
     """Whether all its numbers are between two rational ones."""
     low, high = ends
@@ -411,7 +416,7 @@ def leg_row(leg: tuple[Row, Row, Row | None], number: int, h: Line, machine: Mac
     start = [x * interval(y) for x, y in zip(h, base, strict=True)]
     d = [c + x - y for c, x, y in zip(machine.position, a, start, strict=True)]
     if direction is None:
-        square = total(x.square() for x in d)
+        square = total(squared(x) for x in d)
         pure.require(square.low > 0, f"legs[{number}]: its length may be 0")
         p = square.root()
     else:
@@ -548,7 +553,7 @@ def check_ellipsoid(listed: Listed, q: Row, weights: Row, matrix: list[Row], gap
         pure.require(reach.high <= interval(speed * speed).low, "ellipsoid: may leave the velocity polytope")
     parts = [interval(w / (speed * speed)) for w, speed in zip(weights, q, strict=True)]
     dual = total(
-        times([determinant([p[k] for k in chosen]).square(), *(parts[k] for k in chosen)])
+        times([squared(determinant([p[k] for k in chosen])), *(parts[k] for k in chosen)])
         for chosen in combinations(range(len(p)), f)
     )
     exact = pure_statics.determinant([list(line) for line in matrix])
