@@ -99,7 +99,7 @@ figure.colorbar(drawn, ax=axes[0])
 axes[0].set_title("two legs: T, base 60 mm")
 across = np.linspace(-0.45, 0.45, 181)
 for strut in (1.0, 1.1, 1.1556, 1.2):
-    # Slides at -1/2 and 1/2; (k, 1) are the rows, k the slope of a strut. The height does not matter, as the chapter says.
+    # Slides at -1/2 and 1/2; rows (k, 1), k the slope of a strut. The height does not matter, as the chapter says.
     k1, k2 = ((across - side) / np.sqrt(strut**2 - (across - side) ** 2) for side in (0.5, -0.5))
     axes[1].plot(across, 2 * np.abs(k1 - k2) / (k1**2 + k2**2 + 2), label=f"L2 = {strut}")
 axes[1].legend()
