@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from math import isqrt
 from pathlib import Path
 from random import Random
 from types import FunctionType, ModuleType
@@ -417,7 +418,8 @@ def test_residues(prime: int) -> None:
     product = (ring.element(a) * ring.element(b)).polynomial()
     assert product == pure.divided(pure.product(a, b, prime), pure.reduced(g, prime), prime)[1]
     inverse = pure.inverse_modulo(a, g, prime)
-    assert inverse is not None
+    with pytest.raises(ValueError, match="invertible"):
+        pure.inverse_modulo(g, pure.product(g, a, prime), prime)
     assert (ring.element(a) * ring.element(inverse)).polynomial() == [1]
 
 
@@ -429,6 +431,13 @@ def test_its_primes_are_primes() -> None:
         for _ in range(n - 2):
             s = (s * s - 2) % ((1 << n) - 1)
         assert s == 0
+
+
+def test_its_largest_primes_have_no_small_factors() -> None:
+    """They are known; those of 2^n - 1, for a prime n, are 1 modulo 2 n."""
+    for n in pure.MERSENNE:
+        assert all(n % k for k in range(2, isqrt(n) + 1))
+        assert all(pow(2, n, 2 * k * n + 1) != 1 for k in range(1, 1000) if 2 * k * n + 1 < (1 << n) - 1)
 
 
 @pytest.mark.parametrize("power", [22, 30, 95])

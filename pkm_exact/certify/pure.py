@@ -2149,7 +2149,7 @@ def quotient_algebra(elimination: Elimination, basis: list[Monomial]) -> Algebra
     return algebra if commute and algebra.vanish(elimination.elements) else None
 
 
-Powers: TypeAlias = Callable[[Sequence[int], int], list[list[int]] | None]
+Powers: TypeAlias = Callable[[Sequence[int], int], list[list[int]]]
 
 
 def multiplicity_polynomial(
@@ -2177,9 +2177,9 @@ def multiplicity_polynomial(
     for n, weight in ((n, weight) for n in MERSENNE if bound >> n == 0 for weight in (3, 5, 7)):
         p = (1 << n) - 1
         weights = [pow(weight, power, p) for power in range(number)]
-        powers = powers_of(weights, p)
-        sums = power_sums(algebra, traces, weights, p, len(h0) - 1)
-        if powers is None or sums is None:
+        try:
+            powers, sums = powers_of(weights, p), power_sums(algebra, traces, weights, p, len(h0) - 1)
+        except ValueError:  # p divides a denominator
             continue
         solved = solved_modulo(
             [dict(enumerate([*power, total])) for power, total in zip(powers, sums, strict=True)],
@@ -2202,8 +2202,8 @@ def inner(vector: Vector, values: Sequence[int], scale: int) -> Fraction:
 
 def powers_modulo(
     representation: Representation, g: Metric, places: Sequence[int], weights: Sequence[int], p: int
-) -> list[list[int]] | None:
-    """1, u, .., u^(D - 1) as polynomials in T modulo p and h0; None if p is not suitable.
+) -> list[list[int]]:
+    """1, u, .., u^(D - 1) as polynomials in T modulo p and h0; ValueError if p is not suitable.
 
     It is above the leading coefficient of h0.
     """
@@ -2212,21 +2212,18 @@ def powers_modulo(
     return powers_of_quotient(combination(weights, [ordered[place] for place in places]), placed.norm)
 
 
-def powers_of_quotient(numerator: Residue, denominator: Residue) -> list[list[int]] | None:
-    """1, u, .., u^(D - 1) for a quotient u of residues; None if the denominator is no unit."""
+def powers_of_quotient(numerator: Residue, denominator: Residue) -> list[list[int]]:
+    """1, u, .., u^(D - 1) for a quotient u of residues; ValueError if the denominator is no unit."""
     ring = numerator.ring
-    inverse = inverse_modulo(denominator.polynomial(), ring.g, ring.m)
-    if inverse is None:
-        return None
-    u = numerator * ring.element(inverse)
+    u = numerator * ring.element(inverse_modulo(denominator.polynomial(), ring.g, ring.m))
     powers = [ring.element([1])]
     for _ in range(ring.degree - 1):
         powers.append(powers[-1] * u)
     return [power.value for power in powers]
 
 
-def inverse_modulo(a: Polynomial, g: Polynomial, p: int) -> Polynomial | None:
-    """The inverse modulo g and a prime; None if there is none. Each remainder of Euclid's algorithm is c a modulo g."""
+def inverse_modulo(a: Polynomial, g: Polynomial, p: int) -> Polynomial:
+    """The inverse modulo g and a prime; ValueError without one. Remainders of Euclid's algorithm are c a modulo g."""
     older: tuple[Polynomial, Polynomial] = (reduced(g, p), [])
     newer: tuple[Polynomial, Polynomial] = (a, [1])
     while len(newer[0]) > 1:
@@ -2235,7 +2232,8 @@ def inverse_modulo(a: Polynomial, g: Polynomial, p: int) -> Polynomial | None:
         length = max(len(step), len(older[1]))
         c = [x - y for x, y in zip(padded(older[1], length), padded(step, length), strict=True)]
         older, newer = newer, (rest, reduced(c, p))
-    return [c * pow(newer[0][0], -1, p) % p for c in newer[1]] if newer[0] else None
+    inverse = pow(sum(newer[0]), -1, p)  # of a constant, or of 0
+    return [c * inverse % p for c in newer[1]]
 
 
 def padded(polynomial: Polynomial, length: int) -> list[int]:
@@ -2243,23 +2241,18 @@ def padded(polynomial: Polynomial, length: int) -> list[int]:
     return [*polynomial, *[0] * (length - len(polynomial))]
 
 
-def power_sums(
-    algebra: Algebra, traces: Sequence[Fraction], weights: Sequence[int], p: int, number: int
-) -> list[int] | None:
-    """Tr(1), Tr(u), .. modulo p; None if p divides a denominator."""
+def power_sums(algebra: Algebra, traces: Sequence[Fraction], weights: Sequence[int], p: int, number: int) -> list[int]:
+    """Tr(1), Tr(u), .. modulo p; ValueError if that divides a denominator."""
     vectors = [row for rows in algebra.unknowns for row in rows]
     bits, each = p.bit_length(), max(most_bits([v.denominator, *v.numerators]) for v in vectors)
     cost = 300 + product_cost(bits, max(bits, each)) + division_cost(max(bits, each), bits)
     spend((len(vectors) + number + 1) * (len(traces) * cost + bits * bits // 8))
     matrix = [[0] * len(traces) for _ in traces]
-    try:
-        tau = [trace.numerator * pow(trace.denominator, -1, p) % p for trace in traces]
-        for weight, rows in zip(weights, algebra.unknowns, strict=True):
-            for target, row in zip(matrix, rows, strict=True):
-                factor = weight * pow(row.denominator, -1, p)
-                target[:] = [(x + factor * y) % p for x, y in zip(target, row.numerators, strict=True)]
-    except ValueError:  # there is no such inverse
-        return None
+    tau = [trace.numerator * pow(trace.denominator, -1, p) % p for trace in traces]
+    for weight, rows in zip(weights, algebra.unknowns, strict=True):
+        for target, row in zip(matrix, rows, strict=True):
+            factor = weight * pow(row.denominator, -1, p)
+            target[:] = [(x + factor * y) % p for x, y in zip(target, row.numerators, strict=True)]
     vector = [1] + [0] * (len(tau) - 1)
     sums = []
     for _ in range(number):

@@ -549,8 +549,9 @@ def ranks_modulo(slopes: Slopes, g: Polynomial, p: int) -> list[Part]:
             if row is None:
                 continue
             entry = rows[row][column].polynomial()
-            inverse = pure.inverse_modulo(entry, ring.g, p)
-            if inverse is None:
+            try:
+                inverse = pure.inverse_modulo(entry, ring.g, p)
+            except ValueError:
                 split = pure.common_divisor(ring.g, entry, p)
                 break
             rows[start], rows[row] = rows[row], rows[start]
@@ -1408,8 +1409,8 @@ def proved_by_elimination(
     return Proved("complete", "exact-elimination", len(basis), found, room_for(len(basis)))
 
 
-def powers_modulo(representation: pure.Representation, weights: Sequence[int], p: int) -> list[list[int]] | None:
-    """1, u, .., u^(D - 1) modulo p and h0, for the combination u of the variables; None if p is not suitable.
+def powers_modulo(representation: pure.Representation, weights: Sequence[int], p: int) -> list[list[int]]:
+    """1, u, .., u^(D - 1) modulo p and h0, for the combination u of the variables; ValueError if p is not suitable.
 
     It is above the leading coefficient.
     """
