@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any
 
 from forged_representations import fit_real_poses, representation_through, set_representation
-from handmade_systems import Content, complete, listed, represented
+from handmade_systems import Content, complete, listed, represented, system_content
 from held_mechanisms import Pose, listing
 
 from pkm_exact.constraints.constraint import Constraint
@@ -79,7 +79,7 @@ FILLED: dict[str, Case] = {
 
 # Polynomials with other leading monomials modulo a prime: both rows of the echelon form begin with x^2 there
 
-ROOT = 1 << 100
+ROOT = 3**70
 CONSTANT = ROOT * (PRIME * ROOT + 1)
 LEADING: dict[str, Case] = {
     f"p x^2 + {one}, p x^2 + {other} with p = 2^127 - 1": (
@@ -94,6 +94,25 @@ LEADING: dict[str, Case] = {
         ACCEPTED,
     )
     for one, other in ("xy", "yx")
+}
+
+# Polynomials that are dependent modulo a prime, the last or the first of them of the others
+
+A, B = 3**100, 5**70
+ONE, OTHER = f"x*y-{A}*x+{A - 1}", f"x*y-{B}*y+{B - 1}"
+THIRD = f"{B}*y-{A}*x+{PRIME}*z+{A - B - PRIME}"
+DEPENDENT: dict[str, Case] = {
+    f"polynomials that are dependent modulo 2^127 - 1, the {name} of the others": (
+        lambda texts=texts: system_content(  # type: ignore[misc]
+            "x,y,z",
+            texts,
+            claim="positive-dimensional-proved",
+            representation=represented([(1, 1, 1)], (1, 0, 0)),
+            witness={"cause": "fewer-polynomials", "forms": [], "slices": []},
+        ),
+        REJECTED,
+    )
+    for name, texts in (("last", (ONE, OTHER, THIRD)), ("first", (THIRD, ONE, OTHER)))
 }
 
 # Steps that name an unknown that there is not
@@ -158,4 +177,4 @@ MULTIPLE: dict[str, Case] = {
     },
 }
 
-ALGEBRAS: dict[str, Case] = {**COMMUTING, **FILLED, **LEADING, **STEPS, **HEIGHTS, **MULTIPLE}
+ALGEBRAS: dict[str, Case] = {**COMMUTING, **FILLED, **LEADING, **DEPENDENT, **STEPS, **HEIGHTS, **MULTIPLE}
