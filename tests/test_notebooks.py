@@ -13,6 +13,7 @@ QUICK = (
     "derive_displacement",
     "eight_poses_of_the_h4",
     "errors_of_the_linapod",
+    "forces_of_a_grasp",
     "how_it_moves",
     "tensions_of_the_robocrane",
     "wrenches_of_planar_machines",

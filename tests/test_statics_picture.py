@@ -4,9 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from certificate_tools import golden
 from samples import model, solved
 from test_statics import at
 
+from pkm_exact.certify.statics_of_poses import at_certified_poses
 from pkm_exact.cli.main import main
 from pkm_exact.errors import InputError
 from pkm_exact.statics.machine_at_pose import machine_at
@@ -54,6 +56,20 @@ def test_the_ellipsoid_of_a_planar_machine_is_drawn_without_its_length() -> None
     assert shapes[0].names == ("vx", "vy", "wz")
     assert np.allclose(shapes[0].ellipsoid, shapes[1].ellipsoid)
     assert np.einsum("ij,jk,ik->i", rows, shapes[0].ellipsoid, rows) == pytest.approx(1)  # three sides: it touches all
+
+
+def test_the_ellipsoid_where_constraints_are_not_actuated_is_in_the_free_components() -> None:
+    """Of a 3-RPS robot: three sides, which it touches; whatever turns are multiplied by."""
+    found = at_certified_poses(golden("3-rps"), model("3-rps"), [1])[0]
+    for length in (1, 3):
+        measures = found.measures(speeds=2, length=length)
+        ellipsoid = found.ellipsoid(2, length)
+        assert ellipsoid.matrix.rows == measures.freedom.components == ("vz", "wx", "wy")
+        rows = np.array([[float(x.mid()) for x in row] for row in measures.freedom.free_jacobian.tolist()])
+        (panel,) = statics_panels(measures, ellipsoid)
+        assert panel.names == ("vz", "wx", "wy")
+        assert np.einsum("ij,jk,ik->i", rows, panel.ellipsoid, rows) == pytest.approx(4)
+        assert len(statics_figure(measures, ellipsoid).axes[0].collections) == 2  # faces, and the wire frame in them
 
 
 def test_an_enclosed_pose_has_the_sections_too() -> None:

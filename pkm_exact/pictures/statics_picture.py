@@ -71,8 +71,7 @@ def statics_panels(measures: Measures, ellipsoid: LargestEllipsoid | None = None
             lambda: velocity_section(freedom, speeds, kept) if is_section else velocity_polytope(freedom, speeds)
         )
         title = "velocities without turning" if is_section else "velocities"
-        has_shape = ellipsoid is not None and not measures.freedom.at.held.structural
-        shape = ellipsoid_matrix(measures, ellipsoid, kept) if ellipsoid is not None and has_shape else None
+        shape = None if ellipsoid is None else ellipsoid_matrix(measures, ellipsoid, kept)
         found.append(StaticsPanel(title, _names(measures, TWIST, kept), polytope, shape))
     if limits.forces is not None:
         low, high = limits.force_ends or ((), ())
@@ -90,7 +89,9 @@ def statics_panels(measures: Measures, ellipsoid: LargestEllipsoid | None = None
 def ellipsoid_matrix(measures: Measures, ellipsoid: LargestEllipsoid, kept: list[int]) -> Any:
     """S of the section of the ellipsoid at the kept components, turns no longer multiplied by the length."""
     length = measures.limits.length or Fraction(1)
-    factors = np.array([1.0 if k < 3 else float(length) for k in measures.freedom.at.motion.twist])
+    freedom = measures.freedom
+    twist = [freedom.at.motion.twist[place] for place in freedom.free.places]
+    factors = np.array([1.0 if k < 3 else float(length) for k in twist])
     inverse = np.linalg.inv(ellipsoid.matrix.to_numpy()) * np.outer(factors, factors)
     return np.linalg.inv(inverse[np.ix_(kept, kept)])
 

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from flint import arb_mat
+
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.inverse import Matrix
 from pkm_exact.geometry.rational import parse_rational
@@ -79,11 +81,19 @@ class AtPose(PoseRows):
         return wrench_polytope(measures.freedom, low, high)
 
     def ellipsoid(self, speeds: Any, length: Any = None) -> LargestEllipsoid:
-        """The largest ellipsoid of twists in the velocity polytope, turns multiplied by the length."""
+        """The largest ellipsoid of twists in the velocity polytope, turns multiplied by the length.
+
+        Its half axes are those among the twists that constraints allow; its matrix is in the free components.
+        """
         measures = self.measures(**{"speeds": speeds} | ({} if length is None else {"length": length}))
         measures.require_norms()
-        rows = measures.freedom.scaled(measures.limits.length, measures.known("speeds"))
-        return largest_ellipsoid(rows, self.twist)
+        freedom, size = measures.freedom, measures.limits.length
+        rows = freedom.scaled(size, measures.known("speeds"))
+        if not self.held.structural:
+            return largest_ellipsoid(rows, self.twist)
+        basis = freedom.basis(size).tolist()
+        free = arb_mat([basis[place] for place in freedom.free.places])
+        return largest_ellipsoid(rows, freedom.components, free)
 
     def forces(self, load: Sequence[Any]) -> Forces:
         """The actuator forces that bear a load on the platform, about its origin (``statics.forces``)."""

@@ -103,13 +103,21 @@ class Freedom:
             rows.append(entries)
         return ball_kernel(rows, count)
 
+    def basis(self, length: Fraction | None) -> arb_mat:
+        """An orthonormal basis of the allowed twists as columns, turns times the length: they are (v, L w)."""
+        with working_precision(BITS):
+            factors = self._factors(length)
+            vectors = _orthonormal([[x * f for x, f in zip(v, factors, strict=True)] for v in self._allowed])
+            return arb_mat([[v[j] for v in vectors] for j in range(len(factors))])
+
+    def _factors(self, length: Fraction | None) -> list[arb]:
+        return [arb(1) if k < 3 or length is None else ball_of(length) for k in self.at.motion.twist]
+
     def scaled(self, length: Fraction | None, speeds: Sequence[Fraction] | None = None) -> arb_mat:
         """J on an orthonormal basis of the allowed twists, turns times the length, rows by greatest speeds."""
         with working_precision(BITS):
-            factors = [arb(1) if k < 3 or length is None else ball_of(length) for k in self.at.motion.twist]
-            basis = _orthonormal([[x * f for x, f in zip(v, factors, strict=True)] for v in self._allowed])
-            columns = arb_mat([[v[j] / factors[j] for v in basis] for j in range(len(factors))])
-            found = self.ball_jacobian * columns
+            rows = zip(self.basis(length).tolist(), self._factors(length), strict=True)
+            found = self.ball_jacobian * arb_mat([[x / factor for x in row] for row, factor in rows])
             if speeds is None:
                 return found
             return arb_mat(

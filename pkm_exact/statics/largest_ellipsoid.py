@@ -49,7 +49,7 @@ class LargestEllipsoid:
     half_axes : tuple of Interval
         Of the largest ellipsoid, in increasing order.
     matrix : EnclosedMatrix
-        M^-1 / (1 + d): an ellipsoid that is in the polytope.
+        M^-1 / (1 + d): an ellipsoid that is in the polytope; in the coordinates that were asked for.
     touching : tuple of int
         Indices of the sides whose weight is not 0.
     """
@@ -67,7 +67,7 @@ class LargestEllipsoid:
         return Interval(max(Fraction(1), high.lo / low.hi), high.hi / low.lo) if low.lo > 0 else high
 
 
-def largest_ellipsoid(rows: arb_mat, names: Sequence[str]) -> LargestEllipsoid:
+def largest_ellipsoid(rows: arb_mat, names: Sequence[str], shown: arb_mat | None = None) -> LargestEllipsoid:
     """The largest ellipsoid in {x : |rows x| <= 1}, about the origin.
 
     Parameters
@@ -76,6 +76,8 @@ def largest_ellipsoid(rows: arb_mat, names: Sequence[str]) -> LargestEllipsoid:
         At least as many as columns, of full rank.
     names : sequence of str
         Of the coordinates.
+    shown : arb_mat, optional
+        Coordinates y = shown x in which the matrix is wanted, and which the names are of; by default x.
 
     Raises
     ------
@@ -90,15 +92,17 @@ def largest_ellipsoid(rows: arb_mat, names: Sequence[str]) -> LargestEllipsoid:
     """
     with working_precision(BITS):
         weights = proposed_weights(rows)
-        found = _proved(rows, weights, names)
+        found = _proved(rows, weights, names, shown)
         simple = _simple(weights)
         if simple is None:
             return found
-        other = _proved(rows, simple, names)
+        other = _proved(rows, simple, names, shown)
         return other if other.gap.hi <= found.gap.hi else found
 
 
-def _proved(rows: arb_mat, weights: Sequence[Fraction], names: Sequence[str]) -> LargestEllipsoid:
+def _proved(
+    rows: arb_mat, weights: Sequence[Fraction], names: Sequence[str], shown: arb_mat | None
+) -> LargestEllipsoid:
     """What the weights prove."""
     count, n = rows.nrows(), rows.ncols()
     weighted = arb_mat([[n * ball_of(weights[i]) * rows[i, j] for j in range(n)] for i in range(count)])
@@ -118,6 +122,8 @@ def _proved(rows: arb_mat, weights: Sequence[Fraction], names: Sequence[str]) ->
     below, above = 1 - (2 * bound).sqrt(), 1 + bound + (bound * bound + 2 * bound).sqrt()
     factor = below.max(arb(0)).union(above)
     shrunk = inverse / (1 + gap)
+    if shown is not None:
+        shrunk = shown * shrunk * shown.transpose()
     return LargestEllipsoid(
         tuple(weights),
         interval_of(gap),
