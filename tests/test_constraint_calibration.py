@@ -225,7 +225,10 @@ def test_poses_need_lengths_and_joints_that_fit(tmp_path: Path, capsys: Capture)
     plan = tmp_path / "plan.csv"
     plan.write_text("x,y,half_tangent\n5,4,0\n")
     assert main(["identify", "models/3-rpr-merlet-p.toml", str(plan), "--zeros"]) == 2
-    assert "pose 1: 'leg 1': has the length sqrt(41) at the pose, not rational" in capsys.readouterr().err
+    assert "lengths are irrational at the poses" in capsys.readouterr().err
+    robot = read_robot("models/3-rpr-merlet-p.toml")
+    with pytest.raises(InputError, match=r"'leg 1': has the length sqrt\(41\) at the pose, not rational"):
+        geometric_rows(robot, plan_from_csv(plan.read_text(), robot)[0].pose, zeros=True)
     assert main(["identify", "models/3-rpr-merlet-p.toml", str(plan), "--known", "arm"]) == 2
     assert "--known: no parameter begins with 'arm'" in capsys.readouterr().err
     plan.write_text("x,y,z,q0,q1,q2,q3\n0,0,1,1,0,0,0\n1/10,0,1,1,0,0,0\n")

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.mechanism import Mechanism
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.identification.observation import Identification, Plan
+    from pkm_exact.identification.root_rows import RootRow
     from pkm_exact.screws.exact_matrix import Row
 
 
@@ -46,10 +47,9 @@ def identify(model: str, plan: str, zeros: bool, known: tuple[str, ...], as_json
     """
     from pkm_exact.cli.model_reading import announced_model
     from pkm_exact.geometry.path_reader import path_text
-    from pkm_exact.identification.constraint_calibration import geometric_parameters, geometric_rows
+    from pkm_exact.identification.constraint_calibration import geometric_parameters, geometric_root_rows
     from pkm_exact.identification.measurement_plan import plan_from_csv
-    from pkm_exact.identification.observation import identify as identified
-    from pkm_exact.identification.observation import minimal_plan
+    from pkm_exact.identification.root_rows import identified_with_plan
 
     robot = announced_model(model)
     names = geometric_parameters(robot, zeros=zeros)
@@ -57,30 +57,29 @@ def identify(model: str, plan: str, zeros: bool, known: tuple[str, ...], as_json
     for word in known:
         if not any(name.startswith(word) for name in names):
             raise InputError(f"--known: no parameter begins with {shown(word)}; they begin with {shown(names[0])}, ..")
-    groups: list[list[Row]] = []
+    groups: list[list[RootRow]] = []
     try:
         for place, measured in enumerate(plan_from_csv(path_text(plan), robot), 1):
-            rows = _rows(geometric_rows, robot, measured, place, zeros=zeros)
+            rows = _rows(geometric_root_rows, robot, measured, place, zeros=zeros)
             groups.append([tuple(row[k] for k in kept) for row in rows])
+        found, fewest = identified_with_plan(groups, [names[k] for k in kept])
     except InputError as error:
         raise InputError(f"{printable(plan)}: {error}") from None
-    found = identified([row for group in groups for row in group], [names[k] for k in kept])
-    fewest = minimal_plan(groups, len(kept))
     if as_json:
         sys.stdout.write(json.dumps(_object(robot, found, fewest, groups), indent=1) + "\n")
         return
     sys.stdout.write("".join(f"{line}\n" for line in _lines(robot, found, fewest, groups)))
 
 
-def _rows(rows: Any, robot: Robot | Mechanism, measured: Any, place: int, *, zeros: bool) -> tuple[Row, ...]:
+def _rows(rows: Any, robot: Robot | Mechanism, measured: Any, place: int, *, zeros: bool) -> tuple[RootRow, ...]:
     try:
-        found: tuple[Row, ...] = rows(robot, measured.pose, measured.values, zeros=zeros)
+        found: tuple[RootRow, ...] = rows(robot, measured.pose, measured.values, zeros=zeros)
     except InputError as error:
         raise InputError(f"pose {place}: {error}") from None
     return found
 
 
-def _lines(robot: Robot | Mechanism, found: Identification, fewest: Plan, groups: Sequence[list[Row]]) -> list[str]:
+def _lines(robot: Robot | Mechanism, found: Identification, fewest: Plan, groups: Sequence[list[RootRow]]) -> list[str]:
     """The answer as lines of a text."""
     count = len(found.parameters)
     equations = sum(map(len, groups))
@@ -107,7 +106,7 @@ def _lines(robot: Robot | Mechanism, found: Identification, fewest: Plan, groups
 
 
 def _object(
-    robot: Robot | Mechanism, found: Identification, fewest: Plan, groups: Sequence[list[Row]]
+    robot: Robot | Mechanism, found: Identification, fewest: Plan, groups: Sequence[list[RootRow]]
 ) -> dict[str, Any]:
     """The answer as a JSON object."""
 

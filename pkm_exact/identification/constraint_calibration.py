@@ -23,9 +23,9 @@ from pkm_exact.geometry.chains import Crank, JointValue
 from pkm_exact.geometry.drives import Drive, Part
 from pkm_exact.geometry.inverse import Matrix, Metric, dot
 from pkm_exact.geometry.mechanism import Mechanism, is_square
-from pkm_exact.geometry.rational import rational_root
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.working_modes import platform_point
+from pkm_exact.radicals import Number, RootSum
 from pkm_exact.screws.exact_matrix import Row
 from pkm_exact.wording import shown
 
@@ -52,7 +52,7 @@ class _Parameter:
     name: str
     enters: tuple[str, ...]
     more: _Change
-    factor: Fraction = Fraction(1)
+    factor: Number = Fraction(1)
 
 
 def as_mechanism(robot: Robot | Mechanism) -> Mechanism:
@@ -96,7 +96,7 @@ def geometric_parameters(machine: Robot | Mechanism, *, zeros: bool) -> tuple[st
 def geometric_rows(
     machine: Robot | Mechanism, pose: Pose, values: Mapping[str, JointValue] | None = None, *, zeros: bool
 ) -> tuple[Row, ...]:
-    """The derivatives of all constraints at a pose by the parameters, a row for each equation.
+    """The derivatives of all constraints at a pose by the parameters, a row for each equation, where all are rational.
 
     Parameters
     ----------
@@ -124,10 +124,38 @@ def geometric_rows(
     >>> [str(x) for x in rows[0][:4]]
     ['-10', '-9', '10', '9']
     """
+    rows = geometric_root_rows(machine, pose, values, zeros=zeros)
+    names = geometric_parameters(machine, zeros=zeros)
+    for row in rows:
+        for name, value in zip(names, row, strict=True):
+            if not RootSum.of(value).is_rational:
+                root = RootSum.of(value) * Fraction(1, 2)
+                raise InputError(
+                    f"{shown(name.removesuffix(' zero'))}: has the length {abs(root)} at the pose, not rational; take "
+                    "another"
+                )
+    return tuple(tuple(RootSum.of(value).rational or Fraction(0) for value in row) for row in rows)
+
+
+def geometric_root_rows(
+    machine: Robot | Mechanism, pose: Pose, values: Mapping[str, JointValue] | None = None, *, zeros: bool
+) -> tuple[tuple[Number, ...], ...]:
+    """The same rows with square roots, for actuators whose lengths are irrational at the pose.
+
+    Examples
+    --------
+    >>> from pkm_exact.geometry.inverse import rotation_of
+    >>> from pkm_exact.geometry.reader import read_robot
+    >>> one, zero = Fraction(1), Fraction(0)
+    >>> pose = (Fraction(1), Fraction(1), zero), rotation_of((one, zero, zero, zero))
+    >>> rows = geometric_root_rows(read_robot("models/3-rpr-merlet-p.toml"), pose, zeros=True)
+    >>> print(rows[0][12])
+    -2*sqrt(2)
+    """
     mechanism = as_mechanism(machine)
     parts = _locked(mechanism, pose, values or {})
     parameters = list(_parameters(mechanism, parts, zeros=zeros))
-    rows: list[Row] = []
+    rows: list[tuple[Number, ...]] = []
     for name in parts.constraints:
         columns = [
             _derivative(mechanism.metric, parts, name, parameter, pose) if name in parameter.enters else None
@@ -243,17 +271,15 @@ def _zero(mechanism: Mechanism, name: str, parts: _Parts | None) -> _Parameter:
             return replace(parts, values={**parts.values, name: new})
 
         return _Parameter(f"{name} zero", enters, turned)
-    field, factor = mechanism.value_field(name), Fraction(1)
+    field = mechanism.value_field(name)
+    factor: Number = Fraction(1)
     if parts is not None and is_square(field):
         square = getattr(parts.constraints[name], field)
-        root = rational_root(square)
-        if root is None:
-            raise InputError(f"{shown(name)}: has the length sqrt({square}) at the pose, not rational; take another")
-        factor = 2 * root
+        factor = RootSum.root(square) * 2
     return _Parameter(f"{name} zero", (name,), _field_change(name, field, None), factor)
 
 
-def _derivative(metric: Metric, parts: _Parts, name: str, parameter: _Parameter, pose: Pose) -> list[Fraction]:
+def _derivative(metric: Metric, parts: _Parts, name: str, parameter: _Parameter, pose: Pose) -> list[Number]:
     ends = [
         _residuals(_moved(parameter.more(parts, Fraction(step)))[name], pose, metric, parts.constraints[name])
         for step in (1, -1)
