@@ -72,7 +72,8 @@ def accepted_with_lines(path: Path, *, formats: Collection[str] = OF_POSES) -> t
         document = json.loads(data)
         if document["format"] not in formats:
             raise InputError(
-                f"{name}: is not a certificate about poses of a robot; give one, or ask check what this says"
+                f"{name}: format: {shown(document['format'])} lists no poses of a robot; give a certificate that does, "
+                "or ask check what this says"
             )
         return document, verdict.lines
     reason = f"{name}: the certificate is {verdict.status} ({verdict.lines[-1]})"
