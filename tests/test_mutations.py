@@ -42,6 +42,14 @@ def test_certificates_are_accepted_unchanged(name: str) -> None:
     assert SUBJECTS[name].quick == 0 or pure.check_bytes(data).lines == verdict.lines
 
 
+@pytest.mark.parametrize("what", ["first dropped", "first instead of last"])
+def test_too_few_independent_constraints_are_refused_at_once_by_both(what: str) -> None:
+    """Before the costly parts: the rank over Q at all solutions, and that the section is finite."""
+    name, path = "spatial-2, 3-RPS", ("robot", "constraints")
+    wanted = [each for each in mutations.mutations(subject(name)) if (each.path, each.what) == (path, what)]
+    assert [outcome(name, each) for each in wanted] == ["rejected"]
+
+
 # What is free
 
 

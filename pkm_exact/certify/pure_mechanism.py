@@ -1001,10 +1001,10 @@ def check_infinity(infinity: PointsAtInfinity, robot: Robot, weight: int) -> Ite
     count = degree + singular
     pure.require(infinity.multiplicity == count, f"infinity: multiplicity {infinity.multiplicity}, proved is {count}")
     yield f"infinity: {degree} points, {singular} of them singular on the motions, count {count}"
-    pure.require(is_finite(robot), "section: not proved finite")
-    yield "section: finite, points at infinity included"
     full = weight + count == DEGREE
     pure.require(full, f"infinity: {weight} solutions and {count} at infinity are not {DEGREE}")
+    pure.require(is_finite(robot), "section: not proved finite")
+    yield "section: finite, points at infinity included"
 
 
 def check_points(infinity: PointsAtInfinity) -> None:

@@ -136,7 +136,7 @@ def are_regular(factor: fmpz_poly, representation: Representation, mechanism: Me
 def irregular_factors(representation: Representation, mechanism: Mechanism) -> list[fmpz_poly]:
     """The irreducible factors of h at whose roots the rows have not full rank, exactly over Q; at others they have."""
     factors = irreducible_factors(primitive_part(representation.eliminant))
-    if len(mechanism.linear) + len(mechanism.quadrics) < mechanism.group.dimension:
+    if mechanism.rank + len(mechanism.quadrics) < mechanism.group.dimension:
         return factors
     doubtful = [factor for factor in factors if not are_regular(factor, representation, mechanism)]
     return [factor for factor in doubtful if _rank(factor, representation, mechanism) < mechanism.group.dimension]
