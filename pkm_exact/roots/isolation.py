@@ -21,6 +21,8 @@ from pkm_exact.roots.interval import Interval
 
 COARSEST_EXPONENT = 32
 """Intervals are at most 2^-32 wide."""
+MOST_COMPLEX_ROOTS = 64
+"""Degree up to which all complex roots are enclosed; it takes the time of the degree's third power, or more."""
 
 
 @dataclass(frozen=True)
@@ -68,12 +70,12 @@ def isolated_and_enclosed(polynomial: fmpz_poly) -> tuple[tuple[RealRoot, arb], 
     """The same, each with a ball around it that has about as many bits as were needed."""
     precision = 256
     exponent = COARSEST_EXPONENT
-    enclosures = real_root_enclosures(polynomial, precision)
+    enclosures = _enclosures(polynomial, precision)
     while True:
         cells = [_cell(polynomial, ball, exponent) for ball in enclosures]
         if None in cells:
             precision *= 2
-            enclosures = real_root_enclosures(polynomial, precision)
+            enclosures = _enclosures(polynomial, precision)
             continue
         roots = tuple(RealRoot(cell[0], exponent, cell[1]) for cell in cells if cell is not None)
         if all(
@@ -86,6 +88,21 @@ def isolated_and_enclosed(polynomial: fmpz_poly) -> tuple[tuple[RealRoot, arb], 
         if not _is_isolating(polynomial, root):
             raise InternalContradictionError("an enclosure of a real root is not confirmed by a change of sign")
     return tuple(zip(roots, enclosures, strict=True))
+
+
+def _enclosures(polynomial: fmpz_poly, precision: int) -> list[arb]:
+    """One ball around each real root, increasing: by all complex roots, or where these are many by Descartes' rule."""
+    found = None
+    if is_counted_once(polynomial):
+        from pkm_exact.roots.descartes import descartes_enclosures
+
+        found = descartes_enclosures(polynomial, precision // 2)
+    return real_root_enclosures(polynomial, precision) if found is None else found
+
+
+def is_counted_once(polynomial: fmpz_poly) -> bool:
+    """Whether Descartes' rule finds the roots, as the degree is great; otherwise it counts them a second time."""
+    return bool(polynomial.degree() > MOST_COMPLEX_ROOTS)
 
 
 def _cell(polynomial: fmpz_poly, ball: arb, exponent: int) -> tuple[int, bool] | None:
