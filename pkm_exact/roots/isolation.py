@@ -94,7 +94,7 @@ def _enclosures(polynomial: fmpz_poly, precision: int) -> list[arb]:
     """One ball around each real root, increasing: by all complex roots, or where these are many by Descartes' rule."""
     found = None
     if is_counted_once(polynomial):
-        from pkm_exact.roots.descartes import descartes_enclosures
+        from pkm_exact.roots.sign_changes import descartes_enclosures
 
         found = descartes_enclosures(polynomial, precision // 2)
     return real_root_enclosures(polynomial, precision) if found is None else found

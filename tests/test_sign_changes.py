@@ -11,8 +11,8 @@ from flint import fmpq, fmpz_poly
 
 from pkm_exact.precision import working_precision
 from pkm_exact.roots import isolation
-from pkm_exact.roots.descartes import descartes_enclosures
 from pkm_exact.roots.isolation import isolate_real_roots
+from pkm_exact.roots.sign_changes import descartes_enclosures
 
 BITS = 64
 
