@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 from random import Random
 
 from flint import fmpq_mat, fmpq_poly, fmpz_poly
 from forged_infinity import eliminant_of, infinity_of, isotropic_points
-from forged_margins import NO_POSE, REJECTED, Case
+from forged_margins import ACCEPTED, NO_POSE, REJECTED, Case
 from held_mechanisms import Content, mechanism
-from mechanism_certificates import mechanism_content
-from mechanisms import vector
+from mechanism_certificates import made, mechanism_content
+from mechanisms import pssc, vector
 
 from pkm_exact.certify.build_constraints import constraint_entry
 from pkm_exact.constraints.axis_distance import AxisDistance
+from pkm_exact.constraints.constraint import Constraint
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.linear import LinearForm
 
 Values = Sequence[complex]
@@ -166,7 +170,24 @@ def _of_two_powers(constant: fmpz_poly) -> tuple[fmpz_poly, fmpq_poly]:
     return h, fmpq_poly([0, 1]) ** 10 * inverse % fmpq_poly(h)
 
 
+def _in_a_small_unit() -> Content:
+    """An honest certificate of a mechanism whose lengths are multiples of a prime, and so are those at infinity."""
+    unit = (1 << 61) - 1
+    problem = pssc((Fraction(0), Fraction(1, 2), Fraction(-1, 4)))
+    constraints: list[Constraint] = []
+    for constraint in problem.constraints:
+        if isinstance(constraint, Distance):
+            ends = (vector(*(unit * x for x in side)) for side in (constraint.base, constraint.platform))
+            constraints.append(Distance(*ends, unit**2 * constraint.length_squared))
+        else:
+            constraints.append(constraint)
+    content: Content = json.loads(made(lambda: replace(problem, constraints=tuple(constraints))))
+    del content["digest"]
+    return content
+
+
 AT_INFINITY: dict[str, Case] = {
+    "points at infinity in a unit that a prime is of": (_in_a_small_unit, ACCEPTED),
     **{
         f"points of two lines at infinity, singular: {is_singular}, {number} forms": (
             partial(_beside_lines, number, is_singular=is_singular),

@@ -10,7 +10,7 @@ from typing import Any
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz_poly
 from forged_completions import without_factor
 from forged_infinity import infinity_of
-from held_mechanisms import KEYS, Content
+from held_mechanisms import KEYS, Content, Pose, listing
 from mechanism_certificates import mechanism_content
 from spherical_nets import triple_and_double
 
@@ -103,6 +103,20 @@ MULTIPLE: dict[str, Case] = {
         for m in (1, 3)
     },
 }
+
+
+def _touched_all_round() -> Content:
+    """A point on six cylinders that all have one tangent there; their equations are no basis of what follows."""
+    at = Pose((1, 0, 0, 0), (0, 1, 2, 5))
+    across = (((1, 0), (0, 1, 1)), ((0, 1), (1, 0, 2)), ((1, 1), (1, -1, 1)), ((1, -1), (1, 1, -1)))
+    across += (((2, 1), (1, -2, 3)), ((1, 2), (2, -1, -1)))
+    x, y, z = at.quantities()[0]
+    cylinders = [at.axis_distance((x - a, y - b, z), v, (0, 0, 0)) for (a, b), v in across]
+    content = listing("translation", [at], list(cylinders), 2, 2)
+    return content | {"claim": "complete", "completeness_route": "exact-elimination", "elimination": []}
+
+
+MULTIPLE["six cylinders that touch in a point, said to be all by an elimination"] = (_touched_all_round, REJECTED)
 
 
 # Points at infinity

@@ -13,7 +13,7 @@ from forged_completions import without_factor
 from forged_poses import POSES
 from forgeries import BOXES as AT_INFINITY
 from forgeries import CLAIMS, DETECTED, NOTHING, OPEN, POLYNOMIALS
-from held_mechanisms import KEYS, PLACED, Content, Pose, listing, mechanism
+from held_mechanisms import KEYS, PLACED, Content, Pose, listing, mechanism, moving
 from mechanism_certificates import mechanism_content
 from mechanisms import vector
 
@@ -189,6 +189,80 @@ CLAIMED: dict[str, Case] = {
             ("beside a motion that is proved", lambda: _of("parallelogram")),
             ("of an H4", lambda: _of("H4, boxes")),
         )
+    },
+    **{
+        f"both counts {step} off, of boxes beside a motion that is {what}": (
+            lambda step=step, make=make: (  # type: ignore[misc]
+                lambda c: c | {key: c[key] + step for key in ("complex_solutions", "distinct_solutions")}
+            )(make()),
+            REJECTED,
+        )
+        for step in (1, -1)
+        for what, make in (("detected", _with_boxes), ("proved", lambda: _of("parallelogram")))
+    },
+    "boxes by the method krawczyk beside a motion that is detected": (
+        lambda: _with_boxes(method="krawczyk"),
+        REJECTED,
+    ),
+    "complex boxes by the method krawczyk beside a motion that is detected, none counted": (
+        lambda: _of(
+            "planar lines, boxes", **DETECTED, completeness_route=None, complex_solutions=0, distinct_solutions=0
+        ),
+        REJECTED,
+    ),
+    "no boxes by the method krawczyk beside a motion that is proved in slices": (
+        lambda: _of(
+            "slices", **NOTHING, method="krawczyk", krawczyk={"chart": [1, 0, 0, 0], "real": [], "complex": []}
+        ),
+        REJECTED,
+    ),
+    "no boxes by the method krawczyk beside an elimination that leaves two monomials": (
+        lambda: _of(
+            "planar lines, boxes",
+            claim="inconsistent",
+            completeness_route="exact-elimination",
+            elimination=[],
+            complex_solutions=0,
+            distinct_solutions=0,
+            krawczyk={"chart": [1, 0, 0, 0], "real": [], "complex": []},
+        ),
+        REJECTED,
+    ),
+    **{
+        f"{len(normals)} planes that hold a platform which turns about one axis, said to be alike along one": (
+            lambda normals=normals: moving(  # type: ignore[misc]
+                listing(
+                    "schoenflies",
+                    [KINDS["schoenflies"]],
+                    [KINDS["schoenflies"].in_plane(n, (k, 2 - k, 2)) for k, n in enumerate(normals)],
+                    None,
+                ),
+                "symmetry",
+            ),
+            said,
+        )
+        for normals, said in (
+            (((1, 0, 0), (0, 1, 0)), ACCEPTED),
+            (((1, 0, 0), (0, 1, 0), (0, 0, 1)), REJECTED),
+        )
+    },
+    "points at infinity beside a motion that is detected": (
+        lambda: _of(
+            "contradictory leg",
+            **DETECTED,
+            completeness_route=None,
+            infinity=mechanism_content("3-PSS+C, general")["infinity"],
+        ),
+        REJECTED,
+    ),
+    **{
+        f"a motion of dependent constraints beside {key}": (
+            lambda key=key: (  # type: ignore[misc]
+                lambda c: c | {"self_motion": c["self_motion"] | {key: mechanism_content("slices")["self_motion"][key]}}
+            )(_of("few legs")),
+            REJECTED,
+        )
+        for key in ("forms", "slices")
     },
     **{
         f"multiplicities {here}, of boxes beside a motion that is {what}": (

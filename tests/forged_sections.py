@@ -134,6 +134,16 @@ def _free_in_the_plane() -> Content:
     return moving(listing("planar", [at], [at.linear(UPRIGHT)], None), "dependent-forms")
 
 
+def _free_in_a_slice() -> Content:
+    """Three planar motions; what they are held by, and what is joined to it, holds for all planar motions."""
+    poses = [Pose((1, 0, 0, 0), (0, n, n * n, 0)) for n in range(3)]
+    shown = listing("planar", poses, [poses[0].linear([int(place == 3) for place in range(16)])], None)
+    content = moving(shown, "more-poses-than-bound", real=False)
+    slices = [{"constant": "0", "representation": shown["representation"]}]
+    motion = content["self_motion"] | {"forms": [[*map(str, UPRIGHT), "0"]], "slices": slices}
+    return content | {"representation": None, "self_motion": motion}
+
+
 def _vector(texts: Sequence[str]) -> Vector:
     x, y, z = map(Fraction, texts)
     return x, y, z
@@ -205,6 +215,7 @@ SECTIONS: dict[str, Case] = {
     "boxes of a robot with a constraint too few": (_boxes_of_fewer, REJECTED),
     "a pose beside the point where it is held": (_beside_a_point, REJECTED),
     "a representation that is not in lowest terms": (_doubled, REJECTED),
+    "a constraint that holds for all motions, in a slice that is all of them": (_free_in_a_slice, ACCEPTED),
     "a constraint that holds for all motions": (_free_in_the_plane, ACCEPTED),
     "a line beside the axis of a cylinder, at another distance": (
         lambda: _without_pose("translation", lambda at: _along_an_axis(at, 7)),

@@ -434,3 +434,8 @@ def test_a_point_that_is_none_is_not_hidden_by_its_size(metric: pure.Metric, pla
     point = pure_mechanism.PointsAtInfinity((0,) * 16, (0,) * 16, [0, 1], numerators, 1)
     with pytest.raises(pure.Refusal, match="limit of rigid motions"):
         pure_mechanism.check_points_on_motions(point, metric)
+
+
+def test_a_common_factor_modulo_a_prime_is_none_of_the_eliminant() -> None:
+    """T divides T + p modulo p = 2^61 - 1, the first prime that is tried, alone."""
+    assert pure_mechanism.degree_of_common_roots([(1 << 61) - 1, 1], [[0, 1]]) == 0

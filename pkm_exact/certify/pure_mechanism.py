@@ -1405,7 +1405,7 @@ def check_positive_dimension(certificate: Certificate) -> Iterator[str]:
         check_simple(certificate, number)
         yield f"isolated: {number} solutions lie on no curve of poses"
     else:
-        nothing = not (number or any(certificate.counts) or certificate.poses)
+        nothing = not (number or any(certificate.counts))
         pure.require(nothing, "claim: beside positive dimension, isolated solutions are claimed without boxes")
     if certificate.self_motion is not None:
         yield from check_self_motion(certificate, certificate.self_motion)
@@ -1506,7 +1506,7 @@ def proved_by_elimination(certificate: Certificate, listed: Listed, claim: str) 
         return pure.Proved(claim, "exact-elimination", len(basis), not simple, weights)
     representation = certificate.representation
     line = f"elimination: it leaves {len(basis)} monomials, the solutions are not proved to fill them"
-    if representation is None or simple or not basis:
+    if representation is None or simple:
         raise pure.Refusal("rejected", line)
     algebra = pure.quotient_algebra(elimination, basis)
     powers = partial(pure.powers_modulo, representation, certificate.robot.metric, elimination.places)
