@@ -11,7 +11,7 @@ from typing import Any
 from certificate_subjects import Content, subject
 from flint import fmpq_poly, fmpz_poly
 from forged_mechanisms import as_version_2
-from forged_neighbours import ANY, TURNED, _circle, _near, _robot_1, _turned
+from forged_neighbours import ANY, TURNED, _circle, _near, _turned, witness_of
 from forged_poses import held, single
 from forged_representations import fit_real_poses, representation_through, set_representation, sliding
 from forgeries import DETECTED, TRIANGLE, UNTURNED, on_circle
@@ -229,11 +229,16 @@ POWERS: dict[str, Case] = {
 # Boxes that differ in one coordinate alone
 
 
-def _boxed(
-    poses: Sequence[Pose], chart: Sequence[int], bits: int = 24, to_grid: Callable[[Fraction], int] = round
+def boxed(
+    poses: Sequence[Pose],
+    chart: Sequence[int],
+    bits: int = 24,
+    to_grid: Callable[[Fraction], int] = round,
+    legs: Sequence[Distance] = (),
+    exponent: int = 31,
 ) -> Content:
-    """Boxes around the poses of a planar robot with legs through both."""
-    legs = [leg_through(poses, b, a) for b, a in zip(PLATFORMS, BASES, strict=True)]
+    """Boxes around the poses of a robot with these legs, or of a planar one with legs through both."""
+    legs = legs or [leg_through(poses, b, a) for b, a in zip(PLATFORMS, BASES, strict=True)]
     content = in_version_1(subject("nothing known") | {"robot": {"metric": ["1", "1", "1"]}}, legs)
     scale = next(k for k in range(4) if chart[k])
     real = []
@@ -242,18 +247,18 @@ def _boxed(
         real.append({"exponents": [bits, bits], "centre": [hex(to_grid(v * (1 << bits))) for v in x]})
     content["krawczyk"] = {"chart": list(chart), "real": real, "complex": []}
     metric, base, platform = pure.a_robot(content["robot"], "robot")
-    read = tuple(map(pure.Leg, base, platform, pure.a_configuration(content["configuration"], 3)))
+    read = tuple(map(pure.Leg, base, platform, pure.a_configuration(content["configuration"], len(legs))))
     boxes = pure.a_list_of_boxes(content["krawczyk"], "krawczyk")
     system = pure.chart_system(read, metric, boxes.w)
     listed = []
     for box, entry in zip(boxes.real, real, strict=True):
-        cells = pure.cells_of(partial(pure.at_solution, system, metric, system.restricted(box)), 31)
+        cells = pure.cells_of(partial(pure.at_solution, system, metric, system.restricted(box)), exponent)
         listed.append((cells, entry))
     listed.sort(key=lambda pair: pair[0])
     content["krawczyk"]["real"] = [entry for _, entry in listed]
-    content["poses"] = [_pose([list(pure.ends(a, b, 31)) for a, b in cells]) for cells, _ in listed]
+    content["poses"] = [_pose([list(pure.ends(a, b, exponent)) for a, b in cells]) for cells, _ in listed]
     counts = dict.fromkeys(("complex_solutions", "distinct_solutions", "real_poses"), len(real))
-    return {**content, **counts, "box_exponent": 31, "method": "krawczyk"}
+    return {**content, **counts, "box_exponent": exponent, "method": "krawczyk"}
 
 
 def _pose(ends: list[Any]) -> Content:
@@ -266,21 +271,21 @@ def _pose(ends: list[Any]) -> Content:
     }
 
 
-def _off(coordinate: str, parts: Fraction, sign: int) -> Content:
+def off(coordinate: str, parts: Fraction, sign: int) -> Content:
     """A centre beside the nearest grid point: the solution is 1/2 + ``parts`` 2^-20 units away from it."""
     distance = sign * (Fraction(1, 2) + parts / (1 << 20)) / (1 << 24)
     to_grid = floor if sign > 0 else ceil
     if coordinate == "e0":
         e = (1 + distance) * 2
-        return _boxed([Pose((e, 0, 0, 2), (0, 4, 6, 0)), Pose((6, 0, 0, 2), (0, 4, 6, 0))], (0, 0, 0, 1), 24, to_grid)
+        return boxed([Pose((e, 0, 0, 2), (0, 4, 6, 0)), Pose((6, 0, 0, 2), (0, 4, 6, 0))], (0, 0, 0, 1), 24, to_grid)
     poses = [Pose((2, 0, 0, 1), (0, 1, 2 * (3 + distance), 0)), Pose((2, 0, 0, 1), (0, 1, 14, 0))]
-    return _boxed(poses, (1, 0, 0, 0), 24, to_grid)
+    return boxed(poses, (1, 0, 0, 0), 24, to_grid)
 
 
 SINGLE: dict[str, Case] = {
     **{
         f"{coordinate} is {sign} (1/2 + {parts} 2^-20) units from the centre": (
-            partial(_off, coordinate, parts, sign),
+            partial(off, coordinate, parts, sign),
             status,
         )
         for coordinate in ("e0", "f2")
@@ -292,11 +297,11 @@ SINGLE: dict[str, Case] = {
         )
     },
     "boxes that differ in e0 alone": (
-        lambda: _boxed([Pose((1, 0, 0, 2), (0, 4, 6, 0)), Pose((3, 0, 0, 2), (0, 4, 6, 0))], (0, 0, 0, 1)),
+        lambda: boxed([Pose((1, 0, 0, 2), (0, 4, 6, 0)), Pose((3, 0, 0, 2), (0, 4, 6, 0))], (0, 0, 0, 1)),
         ACCEPTED,
     ),
     "boxes that differ in f2 alone": (
-        lambda: _boxed([Pose((2, 0, 0, 1), (0, 1, 3, 0)), Pose((2, 0, 0, 1), (0, 1, 7, 0))], (1, 0, 0, 0)),
+        lambda: boxed([Pose((2, 0, 0, 1), (0, 1, 3, 0)), Pose((2, 0, 0, 1), (0, 1, 7, 0))], (1, 0, 0, 0)),
         ACCEPTED,
     ),
 }
@@ -312,7 +317,7 @@ def _alike(number: int, first: int, second: int) -> Content:
     base, platform = ([(x, y, 0 if flat else z) for x, y, z in side[:number]] for side in (ANY, (*ANY[1:], (3, 1, 4))))
     base[first], platform[first] = (0, 0, 0), (-1, 3, 0 if flat else 5)
     base[second], platform[second] = (p, 2 * p, 0), (2 * p - 1, 3 - p, 0 if flat else 5)
-    return _robot_1(pose, base, platform)
+    return witness_of(pose, base, platform)
 
 
 MODULO: dict[str, Case] = {
@@ -353,11 +358,11 @@ MOVING: dict[str, Case] = {
         REJECTED,
     ),
     "joints in a point, and two legs are one": (
-        lambda: _robot_1(TURNED["a general pose"], [(1, 2, 0), (1, 2, 0), (5, -3, 0)], [(3, 1, 0)] * 3),
+        lambda: witness_of(TURNED["a general pose"], [(1, 2, 0), (1, 2, 0), (5, -3, 0)], [(3, 1, 0)] * 3),
         ACCEPTED,
     ),
     "joints on a line, and two legs are one": (
-        lambda: _robot_1(PLACED, [*ANY[:5], ANY[0]], [(n, 2 * n, 3 * n) for n in (1, 2, 4, 7, 9, 1)]),
+        lambda: witness_of(PLACED, [*ANY[:5], ANY[0]], [(n, 2 * n, 3 * n) for n in (1, 2, 4, 7, 9, 1)]),
         ACCEPTED,
     ),
 }

@@ -190,7 +190,7 @@ TOLERANCES: dict[str, Case] = {
 ANY: list[Numbers] = [(7, 1, 2), (-3, 5, 1), (-6, -2, 3), (1, -7, -2), (2, 6, -4), (5, -3, 6)]
 
 
-def _robot_1(pose: Pose, base: Sequence[Numbers], platform: Sequence[Numbers]) -> Content:
+def witness_of(pose: Pose, base: Sequence[Numbers], platform: Sequence[Numbers]) -> Content:
     """Witnesses of a motion of a robot of version 1: one pose."""
     legs = [pose.distance(a, b) for a, b in zip(base, platform, strict=True)]
     planar = len(legs) == 3
@@ -214,7 +214,7 @@ def _equal(place: int, k: int) -> Content:
     """All legs are the same vector, but for one, of the same length."""
     vectors = [[-x if n == place and j == k else x for j, x in enumerate(D)] for n in range(6)]
     base = [[b - d for b, d in zip(joint, vector, strict=True)] for joint, vector in zip(ANY, vectors, strict=True)]
-    return _robot_1(IDENTITY, base, ANY)
+    return witness_of(IDENTITY, base, ANY)
 
 
 TURNED = {
@@ -252,19 +252,19 @@ LEGS: dict[str, Case] = {
     },
     **{
         f"three planar legs that are dependent but for {column}": (
-            lambda column=column: _robot_1(*_almost_dependent(column)),  # type: ignore[misc]
+            lambda column=column: witness_of(*_almost_dependent(column)),  # type: ignore[misc]
             REJECTED,
         )
         for column in ("C1", "C2", "u1", "u2")
     },
     "two of three planar legs are one": (
-        lambda: _robot_1(
+        lambda: witness_of(
             TURNED["a general pose"], [(1, 2, 0), (1, 2, 0), (5, -3, 0)], [(3, 1, 0), (3, 1, 0), (-2, 4, 0)]
         ),
         ACCEPTED,
     ),
-    "two of six legs are one": (lambda: _robot_1(PLACED, [*ANY[:5], ANY[0]], [*ANY[1:], ANY[1]]), ACCEPTED),
-    "six legs": (lambda: _robot_1(PLACED, ANY, [*ANY[1:], ANY[0]]), REJECTED),
+    "two of six legs are one": (lambda: witness_of(PLACED, [*ANY[:5], ANY[0]], [*ANY[1:], ANY[1]]), ACCEPTED),
+    "six legs": (lambda: witness_of(PLACED, ANY, [*ANY[1:], ANY[0]]), REJECTED),
 }
 
 NEIGHBOURS: dict[str, Case] = {**CLOSE, **ROOTS, **LISTED, **TOLERANCES, **LEGS}
