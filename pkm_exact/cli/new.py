@@ -29,6 +29,10 @@ _BAD_CONDITION: Final = 1000
 _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table == "cranks")
 
 
+CHAIN_NAMES: Final = ("3-PPRR", "Sarrus", "seven-link", "5-RRR(RR)", "3-PRRR", "3-UPU")
+"""What ``--chains`` takes (``templates.chain_templates``)."""
+
+
 @click.command()
 @click.option(
     "--kind",
@@ -84,6 +88,13 @@ _CRANKED: Final = tuple(code for code, kind in KINDS.items() if kind.chain_table
 @click.option(
     "--bodies", is_flag=True, help="With --urdf: bodies and joints, also of a robot that is recognised by its six legs."
 )
+@click.option(
+    "--chains",
+    type=click.Choice(CHAIN_NAMES, case_sensitive=False),
+    metavar="NAME",
+    help=f"Instead: a mechanism of bodies and joints for mobility: {', '.join(CHAIN_NAMES)}; its dimensions by "
+    "--dimension, examples of the others.",
+)
 @click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
 @click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
 @click.option("--rod", metavar="L", help="Instead of --height: length of all rods, for 6-RUS and 6-PUS.")
@@ -116,6 +127,7 @@ def new(
     csv: str | None,
     dimensions: tuple[str, ...],
     urdf: str | None,
+    chains: str | None,
     platform: str | None,
     bodies: bool,
     **given: Any,
@@ -133,20 +145,16 @@ def new(
       certify-poses new --kind 3-RPR --base-sides 6,5,5 --platform-sides 1.6,1,1 --height 3 --unit m -o planar.toml
       certify-poses new --kind delta --dimension arm=120 --dimension rod=300 -o delta.toml
       certify-poses new --urdf models/chains/sarrus.urdf -o sarrus.toml
+      certify-poses new --chains 3-UPU --dimension height=100 -o three-rods.toml
     """
     _checked_output(output, force)
     if urdf is None and (bodies or platform is not None):
         raise click.UsageError(f"--{'bodies' if bodies else 'platform'}: belongs to --urdf, give that as well.")
-    if urdf is not None:
-        from pkm_exact.cli.new_from_urdf import write_from_urdf
-
-        return write_from_urdf(
-            urdf, output, platform, given | {"csv": csv, "name": name, "dimension": dimensions}, bodies=bodies
-        )
-    if csv is not None:
-        from pkm_exact.cli.new_from_csv import write_from_csv
-
-        return write_from_csv(csv, output, name, given)
+    written = _from_elsewhere(
+        output, name, given, csv=csv, urdf=urdf, chains=chains, platform=platform, bodies=bodies, words=dimensions
+    )
+    if written is not None:
+        return written
     if given["kind"] in MACHINES:
         return _new_machine(output, name, dimensions, given)
     if dimensions:
@@ -177,6 +185,35 @@ def new(
     click.echo(f"{printable(output)}: {design.kind}, home: {found}")
     click.echo(f"next: {PROGRAM} solve {printable(shlex.quote(output))}")
     return ExitCode.DONE
+
+
+def _from_elsewhere(
+    output: str | None,
+    name: str | None,
+    given: dict[str, Any],
+    *,
+    csv: str | None,
+    urdf: str | None,
+    chains: str | None,
+    platform: str | None,
+    bodies: bool,
+    words: tuple[str, ...],
+) -> int | None:
+    """The model of a file or of a template of bodies and joints, if one is named."""
+    if urdf is not None:
+        from pkm_exact.cli.new_from_urdf import write_from_urdf
+
+        others = {"csv": csv, "chains": chains, "name": name, "dimension": words}
+        return write_from_urdf(urdf, output, platform, given | others, bodies=bodies)
+    if chains is not None:
+        from pkm_exact.cli.new_chains import write_chains
+
+        return write_chains(chains, output, name, words, given | {"csv": csv})
+    if csv is not None:
+        from pkm_exact.cli.new_from_csv import write_from_csv
+
+        return write_from_csv(csv, output, name, given)
+    return None
 
 
 def _new_machine(output: str | None, name: str | None, dimensions: tuple[str, ...], given: dict[str, Any]) -> int:
