@@ -219,6 +219,16 @@ HONEST: dict[str, tuple[Content, str]] = {
         ),
         "everywhere: rank 1 at most",
     ),
+    "legs equal in the plane, by a grid": (
+        certificate(
+            [leg((0, 0, 0), (0, 0, 0)), leg((0, 0, 2), (0, 0, 5))],
+            [],
+            "planar",
+            None,
+            ((3, 1, 0), LEVEL, "grid", []),
+        ),
+        "everywhere: rank 1 at most",
+    ),
     "aligned hexagons": (
         certificate(SIX, range(6), "spatial", (FAR, TURN), (FAR, TURN, "combination", [[1, -1, 1, -1, 1, -1]]), G3),
         "everywhere: rank 5 at most",

@@ -103,6 +103,58 @@ SCREWS = certificate(
 )
 
 
+def held(axis: Any, before: Any = (), behind: Any = ()) -> Content:
+    """A body between a hinge and a slide along one axis, which hold it, and loops before and behind."""
+    pair = [joint("h", "R", "base", "held", O, [axis]), joint("g", "P", "held", "base", O, [axis])]
+    return certificate([*before, *pair, *behind], [], [])
+
+
+LINE_OF_THREE = [2, -3, 1]
+HELD = {axis: held(axis, behind=hinges(0, 1, 3)) for axis in (X, Y, Z)}
+HELD_LAST = {axis: held(axis, before=hinges(0, 1, 3)) for axis in (X, Z)}
+TWICE = certificate(
+    [
+        *(joint(f"h{k}", "R", "base", f"held {k}", O, [X]) for k in range(2)),
+        *(joint(f"g{k}", "P", f"held {k}", "base", O, [X]) for k in range(2)),
+        *hinges(0, 1, 3),
+    ],
+    [],
+    [],
+)
+TURNED_SCREWS = certificate(
+    [joint(f"s{k}", "H", *("base", "top")[:: 1 - 2 * k], O, [Z], pitch="-1/3") for k in range(2)], [], []
+)
+SLIDES = certificate(legs([("P", O, [X]), ("P", O, [Y])]), [], [])
+LONG_LOOP = certificate(ring([(k, k * k, 0) for k in range(60)], [Z] * 60), [], [])
+HUGE = 10**599 + 7
+
+
+def _along(kind: str, axis: Any, curve: Any) -> tuple[Content, Content]:
+    return certificate([joint("a", kind, "base", "top", O, [axis])], [], []), bounds(
+        (1, 1), (1, 1), below=("curve", [], [], [], curve)
+    )
+
+
+SLIDING = [
+    certificate(
+        [
+            joint("g", "P", "base", "top", O, [(side, 0, 0)]),
+            joint("j0", "R", "top", "b", O, [Z]),
+            joint("j1", "R", "b", "base", (0, 1, 0), [Z]),
+        ],
+        [],
+        [],
+    )
+    for side in (1, -1)
+]
+"""Two hinges and a slide across their line: speeds whose sum is not 0."""
+ACROSS = ["0", "0", "0", "0", "-1", "0"]
+FOLDED = certificate(hinges(0, 1, 4, 3, axes=(Y, Z)), [], [])
+"""Four universal joints, folded back: forms in four motions."""
+SHARED = [[1, 0, -1, 1], [-1, 0, 1, 1]]
+"""On the motions z1, z2 of these, the forms are multiples of (z1 + z2)^2 and of z1^2 - z2^2."""
+
+
 TRUE: dict[str, tuple[Content, Content]] = {
     "a stretched triangle": (TRIANGLE, bounds((0, 0), (0, 0), [FIRST], DEFINITE)),
     "a stretched triangle, its cone": (TRIANGLE, bounds((0, 0), (0, 0), [FIRST], ("cone", [[1]], 2))),
@@ -163,6 +215,38 @@ TRUE: dict[str, tuple[Content, Content]] = {
         bounds((1, 1), (1, 1), below=("curve", [], [], [], [[[0, -1, 1], [1, 1, -2]], *TURN[1:]])),
     ),
     "a hinge along a curve": (OPEN, bounds((1, 1), (1, 1), below=("curve", [], [], [], [[[0, 1, 7], [3]]]))),
+    "a stretched triangle, the other way": (TRIANGLE, bounds((0, 0), (0, 0), [LESS], ("order", [], 2, [[2, -3, 1]]))),
+    "a stretched triangle, slowly": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [FIRST], ("order", [], 4, [[0] * 3, LINE_OF_THREE, [0] * 3])),
+    ),
+    "three loops": (TWICE, bounds((0, 0), (0, 0), [["0"] * 12 + FIRST], DEFINITE)),
+    "a body held, and a triangle": (
+        HELD[X],
+        bounds((0, 0), (0, 0), [["0"] * 6 + FIRST], ("order", [], 2, [[0, 0, *LINE_OF_THREE]])),
+    ),
+    "Bennett's linkage, denominators below 0": (
+        BENNETT,
+        bounds((1, 1), (1, 1), below=("curve", [], [], [], [[[0, 1], [-1, -2]], [[0, -1], [-1]]] * 2)),
+    ),
+    "a slide at rest and one that moves": (
+        SLIDES,
+        bounds((1, 2), (1, 2), below=("curve", [], [], [], [[[0], [1]], [[0, 1], [1]]])),
+    ),
+    "a turn about the first axis": _along("R", X, [[[0, 1], [1]]]),
+    "a slide along the last axis": _along("P", Z, [[[0, 1], [1]]]),
+    "a slide back": _along("P", Y, [[[0, -1], [1]]]),
+    "rods in a line, cut obliquely": (RODS, bounds((0, 0), (0, 0), [FIRST, ROLL], ("cone", [[1, 1], [0, 1]], 3))),
+    "a stretched triangle, a small form": (
+        TRIANGLE,
+        bounds((0, 0), (0, 0), [["0", "0", "0", "-1/100", "0", "0"]], DEFINITE),
+    ),
+    "a flat parallelogram, small values": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], [["0", "1/10"], ["1/5", "-3/10"]])),
+    ),
+    "a slide across two hinges": (SLIDING[0], bounds((0, 0), (0, 0), [ACROSS], DEFINITE)),
+    "a slide across two hinges, the other way": (SLIDING[1], bounds((0, 0), (0, 0), [ACROSS], DEFINITE)),
     "hinges that cannot move": (TIGHT, bounds((0, 0), (0, 0), [ROLL])),
     "hinges that cannot move, without a dependency": (TIGHT, bounds((0, 0), (0, 0), below=None)),
     "a triangle, regular when it is held": (
@@ -209,7 +293,74 @@ HIGHER: dict[str, tuple[Content, Content, str, str]] = {
     "the third order leaves one": (FIVE, _order([FOLLOWS], 3, TERMS, 1), "rejected", MOST),
     "a short term": (FIVE, _order([FOLLOWS], 3, [TERMS[0], TERMS[1][:4]]), "malformed", ORDER + "not a number"),
     "a long term": (FIVE, _order([FOLLOWS], 3, [[*TERMS[0], 0], TERMS[1]]), "malformed", ORDER + "not a number"),
-    "terms that begin with 0": (FIVE, _order([FOLLOWS], 3, [[0] * 5, TERMS[0]]), "rejected", ORDER + "begins with 0"),
+    "terms that begin with 0": (FIVE, _order([FOLLOWS], 3, [[0] * 5, TERMS[0]]), "rejected", SOLUTION),
+    "terms of nothing": (FIVE, _order([FOLLOWS], 3, [[0] * 5, [0] * 5]), "rejected", SOLUTION),
+    "two motions, in one of which it is rigid": (
+        FLAT,
+        _order([FIRST], 2, [[2, -3, 0, 1]]),
+        "rejected",
+        ABOVE + "the mobility is not 1",
+    ),
+    **{
+        f"a {kind} of what is held along {axis}, {step}": (
+            HELD[axis],
+            _order(
+                [["0"] * 6 + FIRST], 2, [[*(step * (kind == known) for known in ("turn", "slide")), *LINE_OF_THREE]]
+            ),
+            "rejected",
+            ORDER + "does not close",
+        )
+        for axis in HELD
+        for kind in ("turn", "slide")
+        for step in (1, -1)
+    },
+    **{
+        f"the last body turns about {axis} or slides, {slide}": (
+            HELD_LAST[axis],
+            _order([FIRST + ["0"] * 6], 2, [[*LINE_OF_THREE, 1 - slide, slide]]),
+            "rejected",
+            ORDER + "does not close",
+        )
+        for axis in HELD_LAST
+        for slide in (0, 1)
+    },
+    "an equation of some of the freedoms": (
+        HELD[X],
+        _order([["1"] + ["0"] * 5 + FIRST], 2, [[0, 0, *LINE_OF_THREE]]),
+        "rejected",
+        KNOWN + "not one of",
+    ),
+    "a curve that begins later": (
+        BENNETT,
+        _curve([[[-1, -1], [3, 2]], [[1, 1], [1]]] * 2),
+        "rejected",
+        CURVE + "does not begin",
+    ),
+    **{
+        f"a slide that begins elsewhere, {k}": (
+            SLIDES,
+            bounds((1, 2), (1, 2), below=("curve", [], [], [], pairs)),
+            "rejected",
+            CURVE + "does not begin",
+        )
+        for k, pairs in enumerate(
+            [
+                [[[1], [1]], [[0, 1], [1]]],
+                [[[0, 1], [1]], [[1], [1]]],
+                [[[-1], [1]], [[0, 1], [1]]],
+                [[[0, 1], [1]], [[0, 1], [0, 1]]],
+                [[[0, 1], [0, 1]], [[0, 1], [1]]],
+            ]
+        )
+    },
+    "a curve of screws that close": (SCREWS, _curve([[[0, 1], [1]], [[0, -1], [1]]]), "rejected", "finite: a screw"),
+    "a curve of other screws": (TURNED_SCREWS, _curve([[[0, 1], [1]], [[0, -1], [1]]]), "rejected", "finite: a screw"),
+    "a long loop of long numbers": (
+        LONG_LOOP,
+        bounds((1, 57), (1, 6), below=("curve", [], [], [], [[[0, HUGE, HUGE], [1, HUGE]]] * 60)),
+        "too-large",
+        "work: ",
+    ),
     "a first term that is none": (
         FIVE,
         _order([FOLLOWS], 3, [[1, *TERMS[0][1:]], TERMS[1]]),
@@ -473,6 +624,38 @@ FALSE: dict[str, tuple[Content, Content, str, str]] = {
         "malformed",
         "finite.above",
     ),
+    "a section where two forms share a zero": (
+        FOLDED,
+        bounds((0, 2), (0, 2), [FIRST, ROLL], ("cone", SHARED, 3)),
+        "rejected",
+        SECTION,
+    ),
+    "too many monomials of degree 2": (
+        LONG_LOOP,
+        bounds((0, 25), (0, 6), [ROLL], ("cone", [[int(i == j) for j in range(57)] for i in range(32)], 2)),
+        "too-large",
+        ABOVE + "more than 500",
+    ),
+    "both signs, the first of three numbers": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], [[0, 1, 0], [2, -3]])),
+        "malformed",
+        "finite.below.vectors: not a number",
+    ),
+    "both signs, the first of one number": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], [[1], [2, -3]])),
+        "malformed",
+        "finite.below.vectors: not a number",
+    ),
+    "both signs, the last of one number": (
+        FLAT,
+        bounds((1, 2), (0, 2), [FIRST], below=("indefinite", [], [], [[0, 1], [2]])),
+        "malformed",
+        "finite.below.vectors: not a number",
+    ),
+    "less than follows": (OPEN, bounds((0, 1), (1, 1), below=("regular",)), "rejected", LEAST),
+    "less of the platform than follows": (OPEN, bounds((1, 1), (0, 1), below=("regular",)), "rejected", LOW),
     "something below from nothing": (TRIANGLE, bounds((1, 1), (0, 1)), "rejected", LEAST),
     "something of the platform from nothing": (TRIANGLE, bounds((0, 1), (1, 1)), "rejected", LOW),
     "more of the platform": (TRIANGLE, bounds((0, 1), (0, 2)), "rejected", HIGH),

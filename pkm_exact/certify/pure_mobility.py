@@ -671,7 +671,7 @@ def check_bounds(
     m, p = matrices
     for u in bounds.dependencies:
         pure.well_formed(len(u) == len(m), "finite.dependencies: not a number for each equation")
-        columns = [list(column) for column in zip(*m, strict=True)] if m else []
+        columns = [list(column) for column in zip(*m, strict=True)]
         pure.require(not any(applied(columns, u)), "finite.dependencies: not one of the equations")
     forms = [form_of(mechanism, loops, u, motions) for u in bounds.dependencies]
     if bounds.above == "order":
@@ -769,9 +769,8 @@ def check_order(mechanism: Mechanism, loops: Sequence[Way], bounds: Bounds, mobi
     size, k = len(mechanism.freedoms), bounds.degree
     fits = all(len(term) == size for term in bounds.series)
     pure.well_formed(fits, "finite.above.series: not a number for each freedom")
-    pure.require(any(bounds.series[0]), "finite.above.series: begins with 0")
     halves = [([Fraction(0), *(term[i] for term in bounds.series)], [Fraction(1)]) for i in range(size)]
-    parts = [[*part, *[Fraction(0)] * k] for part in closures(mechanism, loops, halves, k)]
+    parts = closures(mechanism, loops, halves, k)
     closed = not any(any(part[:k]) for part in parts)
     pure.require(closed, "finite.above.series: does not close the loops to its order")
     left = [part[k] for part in parts]

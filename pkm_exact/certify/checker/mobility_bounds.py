@@ -40,7 +40,7 @@ def _dependencies(claim: SecondOrder, machine: Machine) -> Rows:
     vectors = [[exact(x) for x in u] for u in claim.dependencies]
     if any(len(u) != len(machine.matrix) for u in vectors):
         raise malformed("finite.dependencies: not a number for each equation")
-    if vectors and vectors[0]:
+    if vectors:
         columns = [list(column) for column in zip(*machine.matrix, strict=True)]
         if any(map(any, times(columns, vectors))):
             raise rejected("finite.dependencies: not one of the equations")

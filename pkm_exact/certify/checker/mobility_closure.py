@@ -22,8 +22,6 @@ def check_order(claim: SecondOrder, machine: Machine, dependencies: Rows, motion
         raise rejected("finite.above: the mobility is not 1")
     if any(len(term) != len(machine.twists) for term in claim.series):
         raise malformed("finite.above.series: not a number for each freedom")
-    if not any(claim.series[0]):
-        raise rejected("finite.above.series: begins with 0")
     terms = [[exact(x) for x in term] for term in claim.series]
     halves = [(fmpq_poly([0, *(term[k] for term in terms)]), fmpq_poly([1])) for k in range(len(machine.twists))]
     parts = _closures(machine, halves, claim.degree)
@@ -81,7 +79,7 @@ def _charge(product: Sequence[fmpq_poly], numerator: fmpq_poly, denominator: fmp
         )
         for parts in (product, (numerator, denominator))
     ]
-    charge(100_000 + 40 * polynomials_cost(terms, 2 * terms * limbs(sum(bits))))
+    charge(100_000 + 40 * polynomials_cost(terms, 1 + limbs(sum(bits))))
 
 
 def _times_twist(p: Sequence[fmpq_poly], twist: Sequence[fmpq]) -> list[fmpq_poly]:
