@@ -244,6 +244,16 @@ LEGS: dict[str, Row] = {
         "rejected",
         CROSS,
     ),
+    "a line in a cut leg that has it in neither part": (
+        certificate(
+            legs([PX, PY], [PX, PZ], [BALL, ("C", (0, 0, 1), [Y])]),
+            [],
+            [],
+            subgroups(("a1 a2", 0), ("b1 b2", 0), ("c1 c2", 3)),
+        ),
+        "rejected",
+        CROSS,
+    ),
     "a chain of leaps": (
         certificate(
             [
