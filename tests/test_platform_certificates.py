@@ -52,7 +52,7 @@ def test_what_is_written_is_accepted_and_comes_out_again(
     assert main(["check", "--recompute", str(path)]) == 0
     capsys.readouterr()
     assert main(["report", str(path), "-o", str(tmp_path / "page.html")]) == 2
-    assert "not a certificate about poses of a robot" in capsys.readouterr().err
+    assert "lists no poses of a robot" in capsys.readouterr().err
 
 
 @pytest.mark.slow
