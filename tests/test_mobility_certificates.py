@@ -286,7 +286,7 @@ def test_the_command_writes_a_certificate(tmp_path: Path, capsys: pytest.Capture
     for command, output in (("report", "page.html"), ("plot", "picture.svg")):
         capsys.readouterr()
         assert main([command, str(path), "-o", str(tmp_path / output)]) == 2
-        assert "not a certificate about poses of a robot" in capsys.readouterr().err
+        assert "lists no poses of a robot" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
