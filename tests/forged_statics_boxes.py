@@ -9,7 +9,7 @@ from random import Random
 from typing import Any
 
 import numpy as np
-from handmade_boxes import Content, around, claims, ellipsoid, leg, machine
+from handmade_boxes import Content, around, claims, ellipsoid, leg, machine, wrench_polytope
 from tables_of_rows import merged, put
 
 Row = tuple[Content, str, str]
@@ -92,6 +92,10 @@ WEIGHTS = {
     "a square cut": ([HALF, HALF, 0], 1e-3),
     "a plane": ([THIRD, THIRD, THIRD], 1e-3),
 }
+BARE["a plane, no length"] = _planar() | {"length": None}
+BARE["slides at speeds of 1"] = machine(
+    FLAT, [], legs=[leg([-1, 0, 0], direction=[1, 0, 0]), leg([0, -1, 0], direction=[0, -1, 0])]
+)
 HONEST = {name: claims(content) for name, content in BARE.items()}
 HONEST |= {name: ellipsoid(HONEST[name], weights, gap) for name, (weights, gap) in WEIGHTS.items()}
 LINE, SQUARE, CUT, PLANE = (HONEST[name] for name in ("a line", "a square", "a square cut", "a plane"))
@@ -311,9 +315,13 @@ ELLIPSOIDS: dict[str, Row] = {
         "rejected",
         SMALL,
     ),
-    "one leg outside": (_round("a square", [["9/10", "0"], ["0", "101/100"]]), "rejected", "ellipsoid: may leave"),
+    "one leg outside": (
+        _round("a square", [["9/10", "0"], ["0", "11/10"]], None, "1/2"),
+        "rejected",
+        "ellipsoid: may leave",
+    ),
     "the other leg outside": (
-        _round("a square", [["101/100", "0"], ["0", "9/10"]]),
+        _round("a square", [["11/10", "0"], ["0", "9/10"]], None, "1/2"),
         "rejected",
         "ellipsoid: may leave",
     ),
@@ -360,6 +368,48 @@ INDICES: dict[str, Row] = {
     "sigma_max at the value, above": (_bounds(sigma_max=["1/2", "1"]), "rejected", "indices: sigma_max may be above"),
     **{f"turns times {x}": (PLANE | {"length": x}, "rejected", "indices: ") for x in ("1", "199/100", "201/100", "3")},
     "turns times nothing": (PLANE | {"length": None}, "rejected", "indices: "),
+}
+
+# Numbers that are exact: bounds that are met, pivots and products that are 0
+
+
+def _exact(content: Content, rows: list[list[int]]) -> Content:
+    """With exactly these rows, and nothing claimed."""
+    table = [[[str(x)] * 2 for x in row] for row in rows]
+    unit = [[[str(int(i == j))] * 2 for j in range(len(rows[0]))] for i in range(len(rows[0]))]
+    return _only(content) | {"jacobian": table, "expansion": unit}
+
+
+SHARP = _exact(SQUARE, [[1, 0], [0, 1]])
+UNIT = {"weights": ["1/2", "1/2"], "matrix": [["1", "0"], ["0", "1"]], "gap": "0"}
+LOOSE = {"sigma_min": ["1/2", "2"], "sigma_max": ["1/2", "2"], "condition": ["0", "9"]}
+BODY = machine([0, 1, 2], [(1, 0, 0), (0, 1, 0), (0, 0, 1)])
+MINORS = {"weights": ["1/3"] * 3, "matrix": [["0", "0", "1"], ["0", "-1", "0"], ["1", "0", "0"]], "gap": "1/2"}
+ALIKE = machine(FLAT, [(1, 0, 0), (1, 0, 0), (0, 1, 0)])
+ALIKE |= {"wrench_polytope": wrench_polytope(ALIKE)}
+"""Two legs in one line, of which one is said to be at the end where a product of -1 puts it."""
+SHARP_ALIKE = _exact(ALIKE, [[1, 0], [1, 0], [0, 1]]) | {"wrench_polytope": ALIKE["wrench_polytope"]}
+MET: dict[str, Row] = {
+    "a disc, exactly": (SHARP | {"ellipsoid": UNIT}, "accepted", "ellipsoid"),
+    "a disc, hardly too wide": (
+        SHARP | {"ellipsoid": UNIT | {"matrix": [["1", "0"], ["0", "1" + 30 * "0" + "1/1" + 31 * "0"]]}},
+        "rejected",
+        "ellipsoid: may leave",
+    ),
+    "minors of 0": (BODY | {"ellipsoid": MINORS}, "rejected", POSITIVE),
+    **{
+        f"{name}, {key} {end}": (
+            content | {"indices": LOOSE | {key: ["1", "2"] if end == "below" else ["1/2", "1"]}},
+            "rejected",
+            f"indices: {key} may be {end}",
+        )
+        for name, content in (("exactly", SHARP), ("nearly", _only(SQUARE)))
+        for key in ("sigma_min", "sigma_max")
+        for end in ("below", "above")
+    },
+    "loose bounds": (SHARP | {"indices": LOOSE}, "accepted", "indices"),
+    "legs in one line, nearly": (ALIKE, "rejected", "wrench_polytope: more legs"),
+    "legs in one line, exactly": (SHARP_ALIKE, "rejected", "wrench_polytope: more legs"),
 }
 
 # The format
@@ -493,4 +543,4 @@ FORMAT: dict[str, Row] = {
     "a negative bound": _with("malformed", ["-1", "2"], "indices", "sigma_min"),
     "an index of three": _with("malformed", ["1", "2", "3"], "indices", "condition"),
 }
-ROWS = merged(BOUNDS, LISTS, WIDE, ELLIPSOIDS, INDICES, FORMAT)
+ROWS = merged(BOUNDS, LISTS, WIDE, ELLIPSOIDS, INDICES, MET, FORMAT)

@@ -112,7 +112,7 @@ def claims(content: Content, **gap: float) -> Content:
     q = np.array([float(Fraction(x)) for x in content["speeds"]])
     found = content | {
         "velocity_polytope": _velocity(p, q),
-        "wrench_polytope": _wrench(p, np.array([[float(Fraction(x)) for x in pair] for pair in content["forces"]])),
+        "wrench_polytope": wrench_polytope(content),
         "indices": _indices(content, p, e),
     }
     if content["load"] is not None:
@@ -120,6 +120,12 @@ def claims(content: Content, **gap: float) -> Content:
         forces = p @ np.linalg.solve(p.T @ p, load)
         found["actuator_forces"] = [around(x, ROOM) for x in forces]
     return found
+
+
+def wrench_polytope(content: Content) -> Content:
+    """That of forces alone."""
+    p, _ = rows_of(content)
+    return _wrench(p, np.array([[float(Fraction(x)) for x in pair] for pair in content["forces"]]))
 
 
 def _velocity(p: Any, q: Any) -> Content:

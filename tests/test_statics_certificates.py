@@ -215,7 +215,11 @@ def test_the_command_writes_what_the_checkers_accept(tmp_path: Path, capsys: Cap
     measures = machine_at(model("3-rpr-merlet-p"), POSES["3-rpr-merlet-p"]).measures(speeds=1, forces=2, length=3)
     assert target.read_bytes() == canonical_bytes(statics_certificate(model("3-rpr-merlet-p"), measures))
     assert main(["check", str(target)]) == 0
-    assert "and no others" in capsys.readouterr().out
+    printed = capsys.readouterr()
+    assert "and no others" in printed.out
+    assert "does not have" not in printed.err
+    assert main([*words, "--limits", "speeds=1"]) == 0
+    assert "does not have indices: singular values need a length" in capsys.readouterr().err
     with pytest.raises(InputError, match="exact poses of machines of legs"):
         statics_certificate(model("3-rrr"), measures)
 

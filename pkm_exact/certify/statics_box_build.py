@@ -35,6 +35,12 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.statics.at_pose import AtPose
 
+_NOT_CERTIFIED: Final = {
+    "wrench_polytope": ("forces", "it has no interior, or a leg exerts nothing"),
+    "ellipsoid": ("speeds", "none is proved to be nearly the largest"),
+    "indices": ("", "singular values need a length where translations and turns mix, and a regular pose"),
+}
+"""Parts that version 1 may lack although their limits are given, and why."""
 FORMAT: Final = "pkm_exact statics certificate"
 VERSION: Final = 2
 
@@ -119,7 +125,10 @@ def any_statics_certificate(
     """Version 1 at an exact pose of legs alone, else version 2, and why parts of it are not there."""
     if machine is None or not is_for_legs_alone(machine, measures.freedom.at):
         return statics_box_certificate(measures, load, solution)
-    content, left_out = statics_certificate(machine, measures), {}
+    content, left_out = statics_certificate(machine, measures), dict[str, str]()
+    for name, (limit, reason) in _NOT_CERTIFIED.items():
+        if content[name] is None and (limit == "" or content[limit] is not None):
+            left_out[name] = reason
     if load is not None:
         left_out["actuator_forces"] = "at an exact pose of legs alone they are exact as they are printed"
     return content, left_out

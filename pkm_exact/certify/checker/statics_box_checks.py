@@ -233,7 +233,7 @@ def _check_wrench(box: _Listed, forces: Sequence[Ends], claim: BoxWrench) -> Non
         raise rejected("wrench_polytope: not all facets are listed, or others are")
     cells: set[tuple[int, ...]] = set()
     for facet in claim.facets:
-        cell = _check_facet(box, forces, facet) | dict.fromkeys(facet.legs, 0)
+        cell = _check_facet(box, forces, facet)
         for ends_of in product((-1, 1), repeat=len(facet.legs)):
             cell |= zip(facet.legs, ends_of, strict=True)
             cells.add(tuple(cell[k] for k in range(box.m)))
@@ -265,8 +265,6 @@ def _check_facet(box: _Listed, forces: Sequence[Ends], facet: BoxFacet) -> dict[
 
 
 def _vector_product(box: _Listed, chosen: Sequence[int]) -> list[arb]:
-    if not chosen:
-        return [arb(1)]
     found = []
     for j in range(box.f):
         minor = arb_mat([[box.rows[k, i] for i in range(box.f) if i != j] for k in chosen]).det()
