@@ -81,7 +81,7 @@ class _Roots:
             charge(2000 * len(left) * (1 + bits // 64))
             with ctx.workprec(bits):
                 total = sum((_ball(c) * _ball(q).sqrt() for c, q in left), arb(0))
-            if total > 0 or total < 0:
+            if not total.contains(0):
                 return 1 if total > 0 else -1
             bits *= 2
 
