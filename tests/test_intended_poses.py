@@ -51,6 +51,7 @@ def test_a_path_through_a_singularity_parts_from_what_is_meant(tmp_path: Path, c
     assert "they part after row 3" in out
     found = json.loads(target.read_text())["intended"]
     assert found["parted_at_row"] == 4
+    assert found["compared"] == "rows"
     assert [row["within"] for row in found["rows"]] == ["yes"] * 3 + ["no"] * 2
     samples = json.loads(target.read_text())["samples"]
     for row, sample, x in zip(found["rows"], samples, PLACES, strict=True):
@@ -63,7 +64,9 @@ def test_a_path_beside_the_singularity_is_what_is_meant(tmp_path: Path, capsys: 
     path, poses = _files(tmp_path, PLACES[:3])
     command = ["track", str(FILES["3-rpr-merlet-p"]), path, "--start", "2", "-o", str(tmp_path / "out.csv")]
     assert main([*command, "--intended", poses, "--within", "0.001,0.01"]) == 0
-    assert "intended: at every row within 0.001 and 0.01 degrees; at most" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert "intended: at every row within 0.001 and 0.01 degrees; at most" in out
+    assert "degrees off; between rows nothing is compared\n" in out
     assert main([*command, "--intended", poses, "--within", "1e-11,1e-11"]) == 3
     assert "not decided at rows 1, 2, 3" in capsys.readouterr().out
     code, _ = _track(tmp_path, 1)

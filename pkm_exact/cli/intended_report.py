@@ -104,6 +104,7 @@ def compared(wanted: Intended, records: Sequence[dict[str, Any]]) -> dict[str, A
             parted = record["row"]
     return {
         "within": [str(wanted.distance), str(wanted.degrees)],
+        "compared": "rows",
         "parted_at_row": parted,
         "undecided_rows": undecided,
         "rows": rows,
@@ -129,4 +130,7 @@ def said(wanted: Intended, found: dict[str, Any]) -> str:
         rows = ", ".join(map(str, found["undecided_rows"]))
         return f"intended: not decided at rows {rows} whether the branch is within {allowed}; give a smaller --width"
     far, turned = (rounded_up(max(Fraction(row[key][1]) for row in found["rows"])) for key in ("distance", "degrees"))
-    return f"intended: at every row within {allowed}; at most {far}{unit} and {turned} degrees off"
+    return (
+        f"intended: at every row within {allowed}; at most {far}{unit} and {turned} degrees off; between rows nothing "
+        "is compared"
+    )
