@@ -332,6 +332,12 @@ APART = second(
 )
 SLIDES = leg((0, 0, 0), (0, 3, 5), None, direction=(0, 1, 0), rod=25)
 SLIDING = second(region([SLIDES], modes=[1], conditions=["reachable"]), leg_axes=[[0, 0, 1]])
+HEAVY = leg((0, 0, 0), (0, 0, 0), None, u=(-1, 0, 0), v=(0, 0, 2), weight=4, rod=4)
+CRANKED_ALONG = second(
+    region([leg((0, 0, 0), (0, 0, 9), None, u=(1, 0, 0), v=(0, 1, 0), rod=9)], modes=[1], conditions=["reachable"])
+    | {"axes": [0]},
+    leg_axes=[[0, 0, 1]],
+)
 SHARED = {
     "platform": second(region([leg((0, 0, 0), (0, 0, 0)), leg((0, 9, 0), (0, 0, 0))], modes=[0, 0]), leg_distance=8),
     "base": second(region([leg((0, 0, 0), (0, 9, 0)), leg((0, 0, 0), (0, 0, 0))], modes=[0, 0]), leg_distance=8),
@@ -389,6 +395,49 @@ WHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
     "a curve without a variable": (LINE, ("chart", "variables"), ["x"], "malformed", ""),
     "a variable without a curve": (LINE, ("chart", "path"), None, "malformed", ""),
     "a curve of a plane": (LINE, ("robot", "motion"), "planar", "accepted", GOOD),
+    "a curve that leaves the plane": (
+        changed(LINE, "planar", "robot", "motion"),
+        ("chart", "path", 3),
+        ["0", "1"],
+        "malformed",
+        "chart.path: leaves",
+    ),
+    "a curve that leaves a plane of a robot that may": (
+        changed(LINE, "schoenflies", "robot", "motion"),
+        ("chart", "path", 3),
+        ["0", "1/9"],
+        "rejected",
+        INSIDE,
+    ),
+    "joint values of a crank of weight 4": (
+        second(region([HEAVY], modes=[1], conditions=["reachable"], box=[[1, 2]]), joints=[[0, 180]]),
+        ("joints", 0, 1),
+        "270",
+        "malformed",
+        "joints: limits of a crank",
+    ),
+    "an axis across one axis of a crank": (
+        CRANKED_ALONG,
+        ("robot", "legs", 0, "axis"),
+        ["0", "1", "1"],
+        "malformed",
+        "",
+    ),
+    "an axis across the other axis of a crank": (
+        CRANKED_ALONG,
+        ("robot", "legs", 0, "axis"),
+        ["1", "0", "1"],
+        "malformed",
+        "robot.legs: a slide or crank",
+    ),
+    "an axis across both axes of a crank": (CRANKED_ALONG, ("modes",), [-1], "accepted", GOOD),
+    "an axis beside cones of the platform": (
+        SLIDING,
+        ("robot", "platform_cones"),
+        [{"axis": ["0", "0", "1"], "degrees": "180"}],
+        "malformed",
+        "robot.legs: a rod along",
+    ),
     "a curve of a sphere": (LINE, ("robot", "motion"), "spherical", "malformed", ""),
     "joint values of two legs": (BETWEEN, ("joints",), [["5", "8"]] * 2, "malformed", "joints: not as many"),
     "joint values out of order": (BETWEEN, ("joints",), [["8", "5"]], "malformed", ""),
@@ -512,6 +561,20 @@ SIGNS = second(
     parameters={"base.joints.1.1": ["-1/4", "1/4"]},
 )
 """The determinant of the three rods is 1 + x - p1 at (x, 0, 0)."""
+ASIDE = {
+    f"{side}.joints.1.{k}": second(
+        region([leg((0, 0, 0), (0, 0, 0), (2, 6))]), parameters={f"{side}.joints.1.{k}": [0, 8]}
+    )
+    for side in ("base", "platform")
+    for k in (2, 3)
+}
+"""A leg from the origin to (x, p1, 0), or turned round, x from 3 to 4."""
+WIDER = second(region([leg((0, 0, 0), (1, 0, 0), (2, 6))], box=[[3, 4]]), parameters={"platform.scale": [1, 3]})
+"""A leg that is x + p1 long."""
+FOUR = second(
+    region([UPRIGHT, leg((0, 0, 0), (0, 0, 0), (2, 6))], modes=[0, 0]),
+    parameters={f"{side}.joints.{k}.3": [0, 1] for side in ("base", "platform") for k in (1, 2)},
+)
 DESIGNS: dict[str, tuple[Content, str, tuple[int, int], str, str]] = {
     # From 1 to 2, to 3, to 5.
     "a scale": (SCALED, "ssyiuu", (1, 2), "accepted", "claim: what the boxes"),
@@ -544,6 +607,12 @@ DESIGNS: dict[str, tuple[Content, str, tuple[int, int], str, str]] = {
     "a long rod": (LONG, "ssuyiyi", (2, 1), "accepted", "claim: what the boxes"),
     "a short rod": (LONG, "sssnsxouuyi", (1, 2), "accepted", "claim: what the boxes"),
     "a rod that is not long enough": (LONG, "syiyi", (2, 0), "rejected", "paving: what letter 3 says"),
+    **{f"to the side, {key}": (found, "syiu", (1, 1), "accepted", "claim: what") for key, found in ASIDE.items()},
+    **{f"too far, {key}": (found, "syiyi", (2, 0), "rejected", "paving: what") for key, found in ASIDE.items()},
+    "a scale of the platform": (WIDER, "syiu", (1, 1), "accepted", "claim: what"),
+    "a scale of the platform that is too large": (WIDER, "syiyi", (2, 0), "rejected", "paving: what letter 5"),
+    "four parameters": (FOUR, "yi", (1, 0), "accepted", "claim: what"),
+    "four parameters, one after another": (FOUR, "ssssuuuuu", (0, 5), "accepted", "claim: what"),
     "two signs": (SIGNS, "nsss-xxsx+", (0, 0), "accepted", "claim: what the boxes"),
     "one sign twice": (SIGNS, "nssxxsx+", (0, 0), "rejected", "paving: the designs of letter 1"),
     "the other sign twice": (SIGNS, "nsss-xxx", (0, 0), "rejected", "paving: the designs of letter 1"),
@@ -655,11 +724,19 @@ ELSEWHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
 }
 
 
+NEAR = APART_BY | {"paving": "yi", "inside": 1, "undecided": 0}
+FAR = changed(NEAR, ["9/10", "1"], "chart", "box", 1) | {"member": ["7/2", "1", "9"]}
+
+
 def design_rows() -> Iterator[tuple[str, Row]]:
     """Words about designs, and certificates of designs with one entry changed."""
     for name, (content, word, (good, undecided), status, line) in DESIGNS.items():
         found = content | {"paving": word, "inside": good, "undecided": undecided}
         yield f"designs: {name}", (found, status, line)
+    yield "designs: legs that are scaled towards each other", (NEAR, "rejected", "paving: what letter 2")
+    yield "designs: legs that are scaled a little", (FAR, "accepted", "claim: what")
+    exactly = FAR | {"directions": [None]}
+    yield "designs: legs that are scaled a little, exactly", (exactly, "accepted", "claim: what")
     for name, (content, where, value, status, line) in ELSEWHERE.items():
         yield f"designs: {name}", (changed(content, value, *where), status, line)
 
