@@ -9,7 +9,21 @@ from math import prod, sqrt
 from random import Random
 from typing import Any
 
-from forged_regions import BEYOND, BROKEN, COPLANAR, GOOD, INSIDE, NO_FAILURE, OUTSIDE, PUSHED, Row, as_map, pointed
+from forged_regions import (
+    BEYOND,
+    BROKEN,
+    COPLANAR,
+    CRANK,
+    FREE,
+    GOOD,
+    INSIDE,
+    NO_FAILURE,
+    OUTSIDE,
+    PUSHED,
+    Row,
+    as_map,
+    pointed,
+)
 from handmade_regions import (
     CIRCLES,
     Content,
@@ -338,6 +352,18 @@ CRANKED_ALONG = second(
     | {"axes": [0]},
     leg_axes=[[0, 0, 1]],
 )
+AWAY = _as_map(second(region(box=[[-2, 9]]), tube=TUBE), "u") | {"undecided": 1, "measure": ["0", "11"]}
+NINTH = second(
+    region(variables=["x", "y"], place=["x", "y", 0], box=[["-1/3", 2], [-2, 7]], metric=[9, 1, 1]),
+    tube={"corners": texts([[0, 0, 0], [0, 5, 0]]), "radius": "1"},
+)
+NINTH = _as_map(NINTH, "u") | {"undecided": 1, "measure": ["0", "21"]}
+MIXED = second(
+    region([DRIVEN, leg((0, 0, 0), (0, 9, 0))], modes=[1, 0], paving="u", claim="undecided"), leg_distance="1/2"
+)
+TURNED_ROUND = second(
+    region([leg((0, 0, 0), (0, 9, 0)), DRIVEN], modes=[0, 1], paving="u", claim="undecided"), leg_distance="1/2"
+)
 SHARED = {
     "platform": second(region([leg((0, 0, 0), (0, 0, 0)), leg((0, 9, 0), (0, 0, 0))], modes=[0, 0]), leg_distance=8),
     "base": second(region([leg((0, 0, 0), (0, 9, 0)), leg((0, 0, 0), (0, 0, 0))], modes=[0, 0]), leg_distance=8),
@@ -395,6 +421,68 @@ WHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
     "a curve without a variable": (LINE, ("chart", "variables"), ["x"], "malformed", ""),
     "a variable without a curve": (LINE, ("chart", "path"), None, "malformed", ""),
     "a curve of a plane": (LINE, ("robot", "motion"), "planar", "accepted", GOOD),
+    "a curve over nothing": (LINE, ("chart", "path", 0), [], "malformed", "chart.path: not 1 to 5"),
+    "a curve of six powers of z": (LINE, ("chart", "path", 3), ["0"] * 6, "malformed", "chart.path: not 1 to 5"),
+    "a curve beside a first coordinate": (LINE, ("chart", "position", 0), "1", "malformed", "chart.path: there is"),
+    "a curve beside a last coordinate": (LINE, ("chart", "position", 2), "1", "malformed", "chart.path: there is"),
+    "a curve beside a coordinate below 0": (LINE, ("chart", "position", 1), "-1", "malformed", "chart.path: there is"),
+    "a tube with two neighbours that are one": (
+        WIDE,
+        ("tube", "corners"),
+        [["-1", "0", "0"], ["-1", "0", "0"], ["7", "0", "0"]],
+        "malformed",
+        "tube.corners: fewer",
+    ),
+    "a tube that leaves where y is fixed, below": (
+        WIDE,
+        ("tube", "corners", 0, 1),
+        "-1",
+        "malformed",
+        "tube.corners: one",
+    ),
+    "a tube in another box": (AWAY, ("chart", "box", 0), ["20", "30"], "rejected", "tube: the box does not hold it"),
+    "a tube beside a box, by less than 1": (
+        NINTH,
+        ("chart", "box", 0, 0),
+        "9/10",
+        "rejected",
+        "tube: the box does not",
+    ),
+    "a tube within a box": (NINTH, ("chart", "box", 0, 0), "-1/3", "accepted", "measure"),
+    "a tube of radius 2": (changed(AWAY, "2", "tube", "radius"), ("chart", "box", 0, 0), "-3", "rejected", "measure"),
+    "a wider tube of radius 2": (
+        changed(AWAY, "2", "tube", "radius"),
+        ("chart", "box", 0, 0),
+        "-5/2",
+        "rejected",
+        "tube: the box does not hold it",
+    ),
+    "joint values of one leg of two": (
+        second(region([DRIVEN, DRIVEN], modes=[1, 1], conditions=["reachable"]), joints=[[5, 8]] * 2),
+        ("joints",),
+        [["5", "8"]],
+        "malformed",
+        "joints: not as many",
+    ),
+    "a slide of no mode": (
+        second(region([DRIVEN], modes=[1], conditions=["reachable"])),
+        ("modes",),
+        [0],
+        "accepted",
+        GOOD,
+    ),
+    "two rods on one guide, the first of no mode": (ON_ONE, ("modes",), [0, 1], "malformed", "modes: a working mode"),
+    "a short direction": (APART, ("directions", 0), ["0", "1/2", "0", "1/2"], "accepted", GOOD),
+    "a slide and a leg at one place": (MIXED, ("directions",), [None], "accepted", "claim: none"),
+    "a slide and a leg at one place, not compared": (MIXED, ("directions",), [], "malformed", "directions: not one"),
+    "a leg and a slide at one place, not compared": (TURNED_ROUND, ("directions",), [], "malformed", "directions: not"),
+    "an axis that leans to the other side": (
+        SLIDING,
+        ("robot", "legs", 0, "axis"),
+        ["0", "-1", "1"],
+        "malformed",
+        "robot.legs: a slide",
+    ),
     "a curve that leaves the plane": (
         changed(LINE, "planar", "robot", "motion"),
         ("chart", "path", 3),
@@ -571,10 +659,18 @@ ASIDE = {
 """A leg from the origin to (x, p1, 0), or turned round, x from 3 to 4."""
 WIDER = second(region([leg((0, 0, 0), (1, 0, 0), (2, 6))], box=[[3, 4]]), parameters={"platform.scale": [1, 3]})
 """A leg that is x + p1 long."""
+PLACES = tuple((side, k, 3) for side in ("base", "platform") for k in (1, 2))
+UNSAID: Content = {"paving": "u", "inside": 0, "undecided": 1}
 FOUR = second(
     region([UPRIGHT, leg((0, 0, 0), (0, 0, 0), (2, 6))], modes=[0, 0]),
-    parameters={f"{side}.joints.{k}.3": [0, 1] for side in ("base", "platform") for k in (1, 2)},
+    parameters={f"{side}.joints.{k}.{axis}": [0, 1] for side, k, axis in PLACES},
 )
+SHAPED = second(
+    region([leg((1, 0, 0), (0, 0, 0), (2, 3))], box=[[4, 5]], shape=[part("9/2", (-1, 0, 0))]),
+    parameters={"base.scale": [1, "3/2"]},
+    axes=[0, 0],
+)
+"""Longer than 3 for x above 4 and 3/4 only, and that is not in the region."""
 DESIGNS: dict[str, tuple[Content, str, tuple[int, int], str, str]] = {
     # From 1 to 2, to 3, to 5.
     "a scale": (SCALED, "ssyiuu", (1, 2), "accepted", "claim: what the boxes"),
@@ -613,6 +709,11 @@ DESIGNS: dict[str, tuple[Content, str, tuple[int, int], str, str]] = {
     "a scale of the platform that is too large": (WIDER, "syiyi", (2, 0), "rejected", "paving: what letter 5"),
     "four parameters": (FOUR, "yi", (1, 0), "accepted", "claim: what"),
     "four parameters, one after another": (FOUR, "ssssuuuuu", (0, 5), "accepted", "claim: what"),
+    "a good box of which nothing is said": (SCALED, "ssyxuu", (1, 2), "rejected", "paving: letter 4 does not belong"),
+    "a bad box that is called good": (SCALED, "ssyiusuyo", (2, 2), "rejected", "paving: letter 9 does not belong"),
+    "a sign without a determinant": (SCALED, "ssyiusunsx+", (1, 2), "rejected", "paving: what letter 11 says"),
+    "bad beyond the region": (SHAPED, "nsxsxo", (0, 0), "rejected", "paving: what letter 6 says"),
+    "a minus where there is none, and a plus": (SIGNS, "nssx-sx+", (0, 0), "rejected", "paving: what letter 5 says"),
     "two signs": (SIGNS, "nsss-xxsx+", (0, 0), "accepted", "claim: what the boxes"),
     "one sign twice": (SIGNS, "nssxxsx+", (0, 0), "rejected", "paving: the designs of letter 1"),
     "the other sign twice": (SIGNS, "nsss-xxx", (0, 0), "rejected", "paving: the designs of letter 1"),
@@ -724,6 +825,20 @@ ELSEWHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
 }
 
 
+FREELY = second(
+    region([leg((0, 0, 0), (0, 0, 2), **CRANK, rod=5), leg((0, 0, 50), (0, 0, 60))], **(FREE | {"modes": [1, 0]})),
+    leg_distance=1,
+    directions=[["0", "0", "1", "1"]],
+)
+"""A crank that turns freely has no place, and so no distance from another leg."""
+FIVE = second(
+    region([UPRIGHT, leg((0, 0, 0), (0, 0, 0), (2, 6))], modes=[0, 0]),
+    parameters={f"{side}.joints.{k}.{axis}": [0, 1] for side, k, axis in (*PLACES, ("base", 1, 2))},
+    **UNSAID,
+)
+NINE = second(
+    region([UPRIGHT] * 9, modes=[0] * 9), parameters={f"platform.joints.9.{k}": [0, 1] for k in (1, 2, 3)}, **UNSAID
+)
 NEAR = APART_BY | {"paving": "yi", "inside": 1, "undecided": 0}
 FAR = changed(NEAR, ["9/10", "1"], "chart", "box", 1) | {"member": ["7/2", "1", "9"]}
 
@@ -733,6 +848,10 @@ def design_rows() -> Iterator[tuple[str, Row]]:
     for name, (content, word, (good, undecided), status, line) in DESIGNS.items():
         found = content | {"paving": word, "inside": good, "undecided": undecided}
         yield f"designs: {name}", (found, status, line)
+    yield "designs: five of them", (FIVE, "malformed", "chart.parameters: more than 4")
+    yield "designs: of nine legs", (NINE, "accepted", "claim: what")
+    yield "a crank that turns freely beside a leg", (FREELY, "rejected", INSIDE)
+    yield "a crank that turns freely beside a leg, exactly", (FREELY | {"directions": [None]}, "rejected", INSIDE)
     yield "designs: legs that are scaled towards each other", (NEAR, "rejected", "paving: what letter 2")
     yield "designs: legs that are scaled a little", (FAR, "accepted", "claim: what")
     exactly = FAR | {"directions": [None]}
