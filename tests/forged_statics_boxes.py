@@ -92,6 +92,9 @@ WEIGHTS = {
     "a square cut": ([HALF, HALF, 0], 1e-3),
     "a plane": ([THIRD, THIRD, THIRD], 1e-3),
 }
+BARE["a square cut, four legs"] = machine(
+    FLAT, [(1, 0, 0), (0, 1, 0), (1, 1, 0), (1, -1, 0)], speeds=["1", "1", "6/5", "9"]
+)
 BARE["a plane, no length"] = _planar() | {"length": None}
 BARE["slides at speeds of 1"] = machine(
     FLAT, [], legs=[leg([-1, 0, 0], direction=[1, 0, 0]), leg([0, -1, 0], direction=[0, -1, 0])]
@@ -238,6 +241,8 @@ def _only(content: Content, *kept: str) -> Content:
 
 LEAN = [["-1", "1"], ["-1", "1"], ["0", "0"]]
 """Positions so far apart that the legs of the square may have any direction."""
+PULLED = _only(SQUARE) | {"load": ["1", "0"]}
+"""A leg of 1/p bears it: from 5/7 to 5/3."""
 WIDE: dict[str, Row] = {
     **{
         f"any leg, {key}": (_wide(_only(SQUARE, key, *more), "jacobian", (0, 0), ["-1", "2"]), "rejected", line)
@@ -249,6 +254,26 @@ WIDE: dict[str, Row] = {
             ("indices", "indices: sigma_min may be below", ()),
         )
     },
+    "any leg, any force": (
+        _wide(_only(SQUARE, "load"), "jacobian", (0, 0), ["-1", "2"], actuator_forces=[["-1000", "1000"]] * 2),
+        "rejected",
+        "actuator_forces: not decided",
+    ),
+    "a leg of 3/5 to 7/5": (
+        _wide(PULLED, "jacobian", (0, 0), ["3/5", "7/5"], actuator_forces=[["-3/2", "0"], ["-1", "1"]]),
+        "rejected",
+        "actuator_forces: one is not",
+    ),
+    "a leg of 3/5 to 7/5, wide bounds": (
+        _wide(PULLED, "jacobian", (0, 0), ["3/5", "7/5"], actuator_forces=[["-9", "9"], ["-9", "9"]]),
+        "accepted",
+        "forces",
+    ),
+    "a leg of 3/5 to 7/5, nearly": (
+        _wide(PULLED, "jacobian", (0, 0), ["3/5", "7/5"], actuator_forces=[["-8/5", "9"], ["-9", "9"]]),
+        "rejected",
+        "actuator_forces: one is not",
+    ),
     "any leg, nothing claimed": (_wide(_only(SQUARE), "jacobian", (0, 0), ["-1", "2"]), "accepted", "machine"),
     "any position": (_only(SQUARE) | {"position": LEAN}, "rejected", "legs[1]: its length may be 0"),
     "no length": (_only(put(SQUARE, ["0", "0", "0"], "legs", 0, "base")), "rejected", "legs[1]: its length may be 0"),
@@ -389,7 +414,31 @@ ALIKE = machine(FLAT, [(1, 0, 0), (1, 0, 0), (0, 1, 0)])
 ALIKE |= {"wrench_polytope": wrench_polytope(ALIKE)}
 """Two legs in one line, of which one is said to be at the end where a product of -1 puts it."""
 SHARP_ALIKE = _exact(ALIKE, [[1, 0], [1, 0], [0, 1]]) | {"wrench_polytope": ALIKE["wrench_polytope"]}
+SINGLE = machine([0], [(1, 0, 0)])
+SHARP_SINGLE = _exact(SINGLE, [[1]])
+CORNER = machine(FLAT, [(1, 0, 0), (0, 1, 0), (3, 4, 0)], speeds=["1", "1", "7/5"])
+"""The third side goes through two corners of the square."""
+TWO = [{"sides": [[1, s], [2, -s]], "at": [[str(s - 1), str(s + 1)], [str(-s - 1), str(-s + 1)]]} for s in (1, -1)]
+REST = {"facets": [[1, 1], [1, -1], [2, 1], [2, -1]], "vertices": TWO, "volume": None}
+SLANTED = machine(
+    FLAT,
+    [],
+    legs=[leg([-1, 0, 0]), leg([0, -1, 0]), leg([-1, -1, 0], direction=[1, 0, 0])],
+    speeds=["1", "1", "2"],
+)
+WHETHER = "velocity_polytope: whether there is"
 MET: dict[str, Row] = {
+    "corners on a side, dropped": (CORNER | {"velocity_polytope": REST}, "rejected", WHETHER),
+    "corners on a side, dropped, exactly": (
+        _exact(SLANTED, [[1, 0], [0, 1], [1, 1]]) | {"velocity_polytope": REST},
+        "rejected",
+        WHETHER,
+    ),
+    "corners that a side may cut off, dropped": (
+        _wide(CORNER | {"velocity_polytope": REST}, "jacobian", (2, 0), ["1/2", "7/10"]),
+        "rejected",
+        WHETHER,
+    ),
     "a disc, exactly": (SHARP | {"ellipsoid": UNIT}, "accepted", "ellipsoid"),
     "a disc, hardly too wide": (
         SHARP | {"ellipsoid": UNIT | {"matrix": [["1", "0"], ["0", "1" + 30 * "0" + "1/1" + 31 * "0"]]}},
@@ -403,7 +452,12 @@ MET: dict[str, Row] = {
             "rejected",
             f"indices: {key} may be {end}",
         )
-        for name, content in (("exactly", SHARP), ("nearly", _only(SQUARE)))
+        for name, content in (
+            ("exactly", SHARP),
+            ("nearly", _only(SQUARE)),
+            ("exactly one", SHARP_SINGLE),
+            ("nearly one", SINGLE),
+        )
         for key in ("sigma_min", "sigma_max")
         for end in ("below", "above")
     },

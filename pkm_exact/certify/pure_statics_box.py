@@ -101,14 +101,8 @@ def negative(value: Interval) -> Interval:
 
 
 def size(value: Interval) -> Interval:
-    """The absolute values."""
-    least = 0 if value.contains_zero() else min(abs(value.low), abs(value.high))
-    return Interval(least, value.largest(), P)
-
-
-def squared(value: Interval) -> Interval:
-    """The squares."""
-    return size(value) * size(value)
+    """The absolute values of numbers that have one sign."""
+    return value if value.low > 0 else negative(value)
 
 
 def lies_in(value: Interval, ends: Ends) -> bool:
@@ -416,7 +410,7 @@ def leg_row(leg: tuple[Row, Row, Row | None], number: int, h: Line, machine: Mac
     start = [x * interval(y) for x, y in zip(h, base, strict=True)]
     d = [c + x - y for c, x, y in zip(machine.position, a, start, strict=True)]
     if direction is None:
-        square = total(squared(x) for x in d)
+        square = scalar(d, d)
         pure.require(square.low > 0, f"legs[{number}]: its length may be 0")
         p = square.root()
     else:
@@ -468,11 +462,11 @@ def check_velocity(
         for signs in product((-1, 1), repeat=f):
             right = [interval(side * q[k]) for side, k in zip(signs, chosen, strict=True)]
             s = [scalar(row, right) for row in inverse]
-            speeds = {k: size(scalar(row, s)) for k, row in enumerate(p) if k not in chosen}
-            if all(speed.high < interval(q[k]).low for k, speed in speeds.items()):
+            speeds = [(scalar(row, s), interval(q[k])) for k, row in enumerate(p) if k not in chosen]
+            if all(-most.low < speed.low and speed.high < most.low for speed, most in speeds):
                 found[tuple(zip(chosen, signs, strict=True))] = s
                 continue
-            outside = any(speed.low > interval(q[k]).high for k, speed in speeds.items())
+            outside = any(speed.low > most.high or speed.high < -most.high for speed, most in speeds)
             pure.require(outside, "velocity_polytope: whether there is a vertex is not decided in this box")
     points = dict(vertices)
     pure.require(len(points) == len(vertices), "velocity_polytope: a vertex is listed twice")
@@ -553,7 +547,7 @@ def check_ellipsoid(listed: Listed, q: Row, weights: Row, matrix: list[Row], gap
         pure.require(reach.high <= interval(speed * speed).low, "ellipsoid: may leave the velocity polytope")
     parts = [interval(w / (speed * speed)) for w, speed in zip(weights, q, strict=True)]
     dual = total(
-        times([squared(determinant([p[k] for k in chosen])), *(parts[k] for k in chosen)])
+        times([*[determinant([p[k] for k in chosen])] * 2, *(parts[k] for k in chosen)])
         for chosen in combinations(range(len(p)), f)
     )
     exact = pure_statics.determinant([list(line) for line in matrix])
