@@ -41,6 +41,8 @@ ENLARGEMENTS: Final = 16
 """Boxes tried one after another, each somewhat larger than the image of the one before."""
 GROWTH: Final = 1.125
 """By how much a box is larger than the image that should lie in it."""
+NARROWINGS: Final = 6
+"""Times that a box is replaced by what may hold its solutions. Checkers do so oftener."""
 NEWTON_STEPS: Final = 40
 SETTLED_BITS: Final = 30
 """The last step is this many bits smaller than a unit of the grid: which grid point is nearest is then certain."""
@@ -263,15 +265,30 @@ def is_proved(near: Linearisation, errors: DataErrors | None, radii: Sequence[ar
 
 
 def has_at_most_one(near: Linearisation, errors: DataErrors | None, radii: Sequence[arb]) -> bool:
-    """Whether F' is regular all over the box for every robot, and N(e) is not 0 in it.
+    """Whether no robot has two solutions in the box, and N(e) is not 0 in it.
 
-    Then there is one solution at most: F(x) - F(y) = F'((x + y) / 2) (x - y). Of complex numbers, the bounds are those
-    of absolute values.
+    Where F' is regular all over a box there is one solution at most: F(x) - F(y) = F'((x + y) / 2) (x - y). Where that
+    is not proved, a narrower box holds all solutions of the box: x - m = (x - m) - Y F(x) lies in the image of X. Of
+    complex numbers, the bounds are those of absolute values.
     """
-    left = contraction(near.with_errors(errors), around_zero(near, radii))
-    if sum_of_powers(arb_mat([[value.abs_upper() for value in row] for row in left.tolist()])) is None:
+    if quantities_at(near.around(radii), near.robot.problem.motion)[NORM].contains(0):
         return False
-    return not quantities_at(near.around(radii), near.robot.problem.motion)[NORM].contains(0)
+    equations = near.with_errors(errors)
+    for _ in range(NARROWINGS + 1):
+        if _is_regular(equations, around_zero(near, radii)):
+            return True
+        image = krawczyk(Slopes(equations), around_zero(near, radii)).moved.entries()
+        sizes = [abs(value.real).max(abs(value.imag)).upper() for value in image]
+        if not any(size < radius for size, radius in zip(sizes, radii, strict=True)):
+            return False
+        radii = [radius.min(size).upper() for size, radius in zip(sizes, radii, strict=True)]
+    return False
+
+
+def _is_regular(equations: Linearisation | TolerantEquations, box: Balls) -> bool:
+    """Whether F' is regular all over a box, given moved to 0, for every robot."""
+    left = contraction(equations, box)
+    return sum_of_powers(arb_mat([[value.abs_upper() for value in row] for row in left.tolist()])) is not None
 
 
 def up(value: arb, exponent: int) -> arb:

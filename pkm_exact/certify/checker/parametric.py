@@ -25,6 +25,8 @@ COUNT = 18
 """N, R (9), C (3), R^-1 C (3), |C|^2 and Study's condition."""
 NARROWINGS = 8
 """Times that the derivatives are taken on a narrower enclosure of the nominal solution, and their widths squared."""
+SHRINKINGS = 8
+"""Times that a box is replaced by what may hold its solutions."""
 IMAGES = 2
 """Images with the same derivatives."""
 ROTATION, POSITION, TURNED, SQUARE = 1, 10, 13, 16
@@ -246,6 +248,27 @@ def is_regular(at: Expansion, radii: Sequence[arb], *, real: bool) -> bool:
     images = (bounds * vector).entries()
     shrinks = all(v > 0 and image < v for v, image in zip(vector.entries(), images, strict=True))
     return shrinks and not _norm(at, box).contains(0)
+
+
+def holds_at_most_one(at: Expansion, radii: Sequence[arb], *, real: bool) -> bool:
+    """Whether no robot has two solutions in the box with these radii, and N(e) is not 0 in it.
+
+    A solution x in the box has x - m = (x - m) - Y F(x), which lies in the image of the box: what the image leaves of
+    it holds the same solutions, again and again, until F' is proved regular there.
+    """
+    if _norm(at, box_around(radii, real=real)).contains(0):
+        return False
+    right = at.inverse * (at.residual + acb_mat(len(radii), 1, at.on_legs(at.changes)))
+    for _ in range(SHRINKINGS):
+        if is_regular(at, radii, real=real):
+            return True
+        box = box_around(radii, real=real)
+        image = (at.defect(box / 2, uncertain=True) * box - right).entries()
+        sizes = [abs(value.real).max(abs(value.imag)).upper() for value in image]
+        if not any(size < radius for size, radius in zip(sizes, radii, strict=True)):
+            return False
+        radii = [radius.min(size).upper() for size, radius in zip(sizes, radii, strict=True)]
+    return is_regular(at, radii, real=real)
 
 
 def _is_inside(image: acb_mat, radii: Sequence[arb], *, real: bool) -> bool:

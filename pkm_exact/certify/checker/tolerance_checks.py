@@ -15,6 +15,7 @@ from flint import acb, acb_mat, arb, ctx
 from pkm_exact.certify.checker.budget import ball_cost, charge, limbs
 from pkm_exact.certify.checker.parametric import (
     ROTATION,
+    SHRINKINGS,
     TURNED,
     Expansion,
     Robot,
@@ -25,6 +26,7 @@ from pkm_exact.certify.checker.parametric import (
     expand,
     greatest_length,
     holds_a_solution,
+    holds_at_most_one,
     is_contraction,
     is_regular,
     is_within,
@@ -37,9 +39,11 @@ from pkm_exact.certify.checker.tolerance_document import DEGREES, Place, PoseBox
 from pkm_exact.certify.checker.verdict import rejected
 
 GUARD_BITS: Final = 128
+"""Bits beyond those of the grid, and beyond half as many: no more are lost, as Y is at most 2^(k/2) by the core."""
 _PRODUCTS: Final = 30000
 """More than the products of balls for one solution."""
-"""Bits beyond those of the grid, and beyond half as many: no more are lost, as Y is at most 2^(k/2) by the core."""
+_SHRUNK: Final = 10000
+"""More than those for a narrower box that holds the same solutions."""
 NEAREST: Final = arb(1) / 2 + arb(2) ** -20
 """A centre is no farther from the nominal solution than this, in units of the grid."""
 
@@ -121,7 +125,10 @@ def _check_place(expansion: Expansion, document: ToleranceDocument, place: Place
         raise rejected(f"{name}: not proved to hold a solution of the nominal robot")
     if not is_within(expansion, cores, NEAREST * _on_grid(1, document), real=real):
         raise rejected(f"{name}: its centre is not the grid point nearest to the nominal solution")
-    if not is_regular(expansion, outer, real=real):
+    if is_regular(expansion, outer, real=real):
+        return
+    charge(SHRINKINGS * _SHRUNK * ball_cost(limbs(ctx.prec)))
+    if not holds_at_most_one(expansion, outer, real=real):
         raise rejected(f"{name}: not proved to hold at most one solution of every robot within tolerance")
 
 
