@@ -151,7 +151,7 @@ SUBJECTS = {
     "planar, multiple solutions": Subject(partial(golden, "3-rpr-triple")),
     "planar, boxes": Subject(partial(boxed_certificate, "3-rpr-merlet-p")),
     "tolerance, planar, complete": Subject(partial(tolerant_certificate, "3-rpr-merlet-p", "1/100000")),
-    "tolerance-open, planar": Subject(partial(_open, "3-rrr", "1/100"), complete=1500),
+    "tolerance-open, planar": Subject(partial(_open, "3-rrr", "1/75"), complete=1500),
     "tolerance, spatial, complete": Subject(partial(tolerant_certificate, "mourrain-l", "1/1000000000000"), 4, 200),
     "tolerance, Rolland, complete": Subject(partial(tolerant_certificate, "rolland-6-6", "1/1000000000000000"), 0, 60),
     "moving, congruent hexagons": Subject(_congruent),
