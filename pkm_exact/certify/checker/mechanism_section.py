@@ -247,7 +247,7 @@ def _next(lower: Sequence[nmod_mat], size: int, p: int) -> list[nmod_mat]:
     width = size * dimension
     count = before * size * (size - 1) // 2
     charge(_ENTRY * count * width * min(count, width))
-    columns = [list(map(list, zip(*map(_row_of, matrix.table()), strict=True))) if before else [] for matrix in lower]
+    columns = [list(map(list, zip(*map(_row_of, matrix.table()), strict=True))) for matrix in lower]
     flat: list[int] = []
     for i, j in combinations(range(size), 2):
         for c in range(before):
