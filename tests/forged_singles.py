@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from fractions import Fraction
 from functools import partial
 from typing import Any
 
+from certificate_subjects import subject
+from certificate_tools import tolerant_certificate
 from flint import fmpz_poly
 from forged_neighbours import _turned
 from forged_primes import Case
@@ -87,6 +90,31 @@ def _nothing_multiplied() -> Content:
 
 
 T, LONG = fmpz_poly([0, 1]), 3**4000
+PLANAR, COARSE = (
+    partial(subject, "tolerance, planar, complete"),
+    partial(tolerant_certificate, "3-rpr-merlet-p", "1/100"),
+)
+NO_SOLUTION, TWO, BOUND = "not proved to hold a solution", "not proved to hold at most one", "a bound of the pose"
+OTHER_RADII = (
+    (PLANAR, "pairs", 0, "outer", (1,), Fraction(1024, 3), f"pair 1: {NO_SOLUTION}"),
+    (PLANAR, "pairs", 0, "outer", (2,), Fraction(1024, 24), f"pair 1: {NO_SOLUTION}"),
+    (PLANAR, "pairs", 0, "outer", (3,), Fraction(1024, 32), f"pair 1: {NO_SOLUTION}"),
+    (PLANAR, "boxes", 0, "inner", (2,), Fraction(1024, 880), f"box of pose 1: {BOUND}"),
+    (PLANAR, "boxes", 1, "inner", (2,), Fraction(1024, 1023), "box of pose 2: the inner box is not contained"),
+    (PLANAR, "boxes", 1, "inner", (3,), Fraction(1024, 1023), "box of pose 2: the inner box is not contained"),
+    (COARSE, "boxes", 0, "outer", (0, 1, 2, 3), Fraction(1024, 414), f"box of pose 1: {TWO}"),
+)
+"""Radii of tolerance certificates that are a little too large, each by a factor; what is true of smaller ones."""
+
+
+def _with_radii(make: Any, part: str, number: int, key: str, places: tuple[int, ...], factor: Fraction) -> Content:
+    content: Content = deepcopy(make())
+    radii = content[part][number][key]
+    for place in places:
+        radii[place] = hex(int(int(radii[place], 16) * factor))
+    return content
+
+
 MEET = "boxes: complex box 1 and complex box 2 meet"
 SINGLES: dict[str, Case] = {
     "four legs of a platform that does not turn": (_four_legs, "accepted", ""),
@@ -108,6 +136,14 @@ SINGLES: dict[str, Case] = {
         for m in (1, 2, 3)
     },
     "one unknown, and an element by itself": (_nothing_multiplied, "accepted", ""),
+    **{
+        f"{part} {number} {key}, {places}, {factor} times as large": (
+            partial(_with_radii, make, part, number, key, places, factor),
+            "rejected",
+            reason,
+        )
+        for make, part, number, key, places, factor, reason in OTHER_RADII
+    },
     "a root 3/8 of a polynomial with long coefficients": (
         lambda: _turned((8 * T - 3) * (LONG * T - 2 * LONG - 1)),
         "accepted",
