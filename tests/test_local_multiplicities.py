@@ -13,6 +13,8 @@ from pkm_exact import solve_system
 from pkm_exact.certify import pure, pure_system
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.certify.checker import system_verdicts
+from pkm_exact.systems import local_multiplicity, no_more_solutions
+from pkm_exact.systems.system_claims import BEYOND_CHECKERS_NOTE
 
 SINGULARITIES: dict[str, tuple[tuple[str, ...], int]] = {
     "A5": (("x^5", "y"), 5),
@@ -92,6 +94,16 @@ def test_an_algebra_tells_multiplicities_too(number: int, monkeypatch: pytest.Mo
     data = sealed_bytes(handmade()["algebra"] | {"complex_solutions": number})
     for verdict in (check_bytes(data), pure.check_bytes(data)):
         assert str(verdict.status) == "rejected"
+
+
+def test_what_checkers_could_not_afford_is_not_claimed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(local_multiplicity, "MOST_SOLUTIONS", 0)
+    texts = ["(x-1)^3", "x*y^2-y^2+y"]
+    assert str(solve_system(texts).claim) == "complete"
+    monkeypatch.setattr(no_more_solutions, "MOST_WORK", 1)
+    found = solve_system(texts)
+    assert (str(found.claim), found.notes) == ("not-proven-complete", (BEYOND_CHECKERS_NOTE,))
+    assert both(found.certificate().data).status == "accepted"
 
 
 def test_coefficients_that_are_0_modulo_the_first_prime() -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
+from typing import Final
 
 from pkm_exact.algebra.elimination_trace import Trace
 from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
@@ -18,6 +19,7 @@ from pkm_exact.algebra.modular_elimination import Elimination
 from pkm_exact.algebra.quotient import standard_monomials
 from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.algebra.system import PolynomialSystem
+from pkm_exact.errors import PkmExactError
 from pkm_exact.failures.contradiction import require
 from pkm_exact.policy import Policy
 from pkm_exact.stages import Watch
@@ -30,6 +32,9 @@ from pkm_exact.systems.shortened_elimination import with_basis_only, with_falls_
 from pkm_exact.systems.system_claims import SystemRoute
 from pkm_exact.systems.system_solution import ListProof, Steps
 from pkm_exact.systems.top_forms import elements_of, is_empty_in_space, number_of, room_for
+
+MOST_WORK: Final = 10**10
+"""Half of what checkers allow for any file (``docs/certificates.md``, "Work")."""
 
 
 @dataclass(frozen=True)
@@ -90,6 +95,8 @@ def prove_complete(
     ------
     UnluckyPrimeError
         If it is proved that there are more solutions.
+    BeyondCheckersError
+        If a proof was found that is too much work to check.
     """
     proof = prove_by_bounds(found, system, policy)
     return proof or prove_by_search(found, system, policy, watch)
@@ -166,6 +173,10 @@ def _by_elimination(
         return None
 
 
+class BeyondCheckersError(PkmExactError):
+    """The list could be proved complete, but by more work than checkers allow."""
+
+
 class MoreSolutionsError(UnluckyPrimeError):
     """It is proved that there are more solutions than those that were found."""
 
@@ -176,9 +187,12 @@ def _by_algebra(basis: ExactBasis, found: ListedSolutions, policy: Policy) -> Li
     left = standard_monomials(basis.ring, basis.leading_monomials, policy.dimension_limit)
     if left is None:
         return None
+    _require_affordable(len(left), 1)
     quotient = exact_quotient(basis, policy.dimension_limit)
     if quotient is None:
         return None
+    numbers = (value for matrix in quotient.unknowns for value in matrix.numer_denom()[0].entries())
+    _require_affordable(len(left), 1 + max((int(abs(value)).bit_length() for value in numbers), default=0) // 64)
     rank = quotient.distinct_solutions
     if rank > representation.degree:
         raise MoreSolutionsError(f"there are {rank} solutions, and {representation.degree} of them were found")
@@ -189,6 +203,15 @@ def _by_algebra(basis: ExactBasis, found: ListedSolutions, policy: Policy) -> Li
     total = total_weight(weights)
     require(total == len(left), "the multiplicities do not sum to the number of solutions", sum=total, left=len(left))
     return ListProof(SystemRoute.EXACT_ELIMINATION, total, weights, elimination=_steps(basis))
+
+
+def _require_affordable(size: int, words: int) -> None:
+    """An algebra of this dimension, with numbers of so many words, can be checked in half of the work that is allowed.
+
+    Its trace form takes a product of matrices for each element of the basis.
+    """
+    if size**4 * words * (30 + words // 8) > MOST_WORK:
+        raise BeyondCheckersError(f"an algebra of dimension {size} with numbers of {words} words")
 
 
 def _steps(basis: ExactBasis) -> Steps:

@@ -47,6 +47,10 @@ DETECTED_NOTE: Final = (
 MISSING_NOTE: Final = (
     "the oracle's list is not all: the system has more solutions, modulo a prime or provably; solve without the oracle"
 )
+BEYOND_CHECKERS_NOTE: Final = (
+    "that there is no other solution could be seen from the quotient algebra only, which takes more work than checkers "
+    "allow; it is not claimed"
+)
 NO_SOLUTION_NOTE: Final = (
     "there is no solution, real or complex, modulo two primes; that there is none over Q is not proved"
 )

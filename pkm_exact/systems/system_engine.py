@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final, TypeAlias
@@ -19,6 +18,7 @@ from pkm_exact.stages import Progress, Stages
 from pkm_exact.systems.infinitely_many import prove_infinite
 from pkm_exact.systems.modular_solutions import most_values
 from pkm_exact.systems.no_more_solutions import (
+    BeyondCheckersError,
     ListedSolutions,
     listed,
     prove_by_bounds,
@@ -28,7 +28,7 @@ from pkm_exact.systems.no_more_solutions import (
 )
 from pkm_exact.systems.real_boxes import real_solutions
 from pkm_exact.systems.solution_search import SolutionSearch, is_verified
-from pkm_exact.systems.system_claims import DETECTED_NOTE, MISSING_NOTE, NO_SOLUTION_NOTE
+from pkm_exact.systems.system_claims import BEYOND_CHECKERS_NOTE, DETECTED_NOTE, MISSING_NOTE, NO_SOLUTION_NOTE
 from pkm_exact.systems.system_solution import ListProof, SystemSolution
 
 SYSTEM_POLICY: Final = Policy(degree_limit=256)
@@ -123,9 +123,13 @@ class _Run:
         proof = prove_by_bounds(found, self.system, self.policy)
         if proof is None and self._has_more_modulo_a_prime(representation.degree):
             return self._boxed(found, None, (MISSING_NOTE,))
-        with suppress(UnluckyPrimeError):
+        try:
             proof = proof or prove_by_search(found, self.system, self.policy, self.stages.amount)
             return self._boxed(found, proof)
+        except UnluckyPrimeError:
+            pass
+        except BeyondCheckersError:
+            return self._boxed(found, None, (BEYOND_CHECKERS_NOTE,))
         return self._boxed(found, None, (MISSING_NOTE,))
 
     def _has_more_modulo_a_prime(self, degree: int) -> bool:
@@ -159,7 +163,10 @@ class _Run:
         """
         self.stages.enter("completeness")
         found = listed(representation, self.system, self.policy)
-        proof = prove_complete(found, self.system, self.policy, self.stages.amount)
+        try:
+            proof = prove_complete(found, self.system, self.policy, self.stages.amount)
+        except BeyondCheckersError:
+            return self._boxed(found, None, (BEYOND_CHECKERS_NOTE,))
         return self._boxed(found, proof)
 
     def _boxed(self, found: ListedSolutions, proof: ListProof | None, notes: tuple[str, ...] = ()) -> SystemSolution:

@@ -21,6 +21,8 @@ from pkm_exact.certify.checker.budget import charge, limbs
 _FIRST: Final = (1 << 63) - 25
 _COMBINATIONS: Final = 6
 """Combinations of the columns that are looked at for their denominators."""
+_REPAIRS: Final = 8
+"""Times that a factor is added to a denominator that an entry shows to lack it."""
 _BLOCK: Final = 8
 """Residues modulo so many primes are combined first."""
 _SLACK: Final = 16
@@ -72,9 +74,18 @@ class _Images:
         parts = [(p, [int(value) for value in part.entries()[: rank * size]]) for p, part in self.images]
         blocks = [_combined(parts[start : start + _BLOCK]) for start in range(0, len(parts), _BLOCK)]
         modulus, flat = _combined(blocks, denominator)
-        flat = [value - modulus if 2 * value > modulus else value for value in flat]
-        greatest = max(map(abs, flat), default=0)
-        if (rank * greatest + denominator) << bits >= modulus:
+        flat = _centred(flat, modulus)
+        for _ in range(_REPAIRS):
+            largest = max(flat, key=abs, default=0)
+            if (rank * abs(largest) + denominator) << bits < modulus:
+                break
+            further = _denominator(largest % modulus, modulus)
+            if further is None or further == 1:
+                return None
+            denominator *= further
+            charge(rank * size * (600 + 2 * words))
+            flat = _centred([value * further % modulus for value in flat], modulus)
+        else:
             return None
         numerators = [flat[start : start + size] for start in range(0, rank * size, size)] if size else [[]] * rank
         return Echelon(self.pivots or [], self.others, denominator, numerators)
@@ -102,10 +113,15 @@ class _Images:
         return denominator
 
 
+def _centred(values: Sequence[int], modulus: int) -> list[int]:
+    """The residues that are nearest to 0."""
+    return [value - modulus if 2 * value > modulus else value for value in values]
+
+
 def _combined(parts: Sequence[tuple[int, Sequence[int]]], factor: int = 1) -> tuple[int, list[int]]:
     """Residues modulo the product of coprime numbers, times a factor, from those modulo each (Chinese remainders)."""
     modulus = prod(p for p, _ in parts)
-    charge(len(parts) * 20 * limbs(modulus.bit_length()) ** 2)
+    charge(len(parts) * 8 * limbs(modulus.bit_length()) ** 2)
     total = [0] * len(parts[0][1])
     for p, values in parts:
         cofactor = modulus // p
