@@ -44,7 +44,7 @@ LONG = (
     "ipp",
     "virasoro",
 )
-"""Out of reach, or, virasoro, too much for checkers."""
+"""Out of reach, or, virasoro, not waited for."""
 
 BY_ORACLE = ("katsura-9",)
 MOST_FOR_THE_PLAIN_CHECKER = 163

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from pkm_exact.certify.checker import budget
+from pkm_exact.cli import roots_report
 from pkm_exact.cli.main import ROOTS, ExitCode, main
 from pkm_exact.cli.roots_commands import certify_roots
 
@@ -124,6 +126,19 @@ def test_bad_files_get_one_sentence(text: str, sentence: str, tmp_path: Path, ca
 def test_bad_words_get_one_sentence(words: list[str], sentence: str, circle: str, capsys: Capture) -> None:
     assert run(*(word.format(circle=circle) for word in words)) == ExitCode.BAD_INPUT
     assert sentence in capsys.readouterr().err
+
+
+def test_a_certificate_that_checkers_cannot_afford_is_not_written_without_a_word(
+    circle: str, tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = str(tmp_path / "cert.json")
+    monkeypatch.setattr(roots_report, "LEAST_IN_DOUBT", 0)
+    assert run(circle, "-o", path) == ExitCode.DONE
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(budget, "BASE", 0)
+    monkeypatch.setattr(budget, "PER_BYTE", 1)
+    assert run(circle, "-o", path) == ExitCode.DONE
+    assert f"{path}: to check it takes more work than checkers allow" in capsys.readouterr().err
 
 
 def test_limits_end_in_a_sentence(circle: str, capsys: Capture) -> None:

@@ -133,11 +133,14 @@ def solve(
         solver = partial(solve_within_limits, seconds=time_limit, megabytes=memory)
     with Progress(verbose=verbose) as progress:
         solution = solver(system, width=width, oracle=oracle, progress=progress)
-    if output is not None:
-        arguments.write_output(output, solution.certificate(Path(file).name).data)
-    from pkm_exact.cli.roots_report import report_roots
+    data = None if output is None else solution.certificate(Path(file).name).data
+    if output is not None and data is not None:
+        arguments.write_output(output, data)
+    from pkm_exact.cli.roots_report import is_beyond_checkers, report_roots
 
     report_roots(Path(file).name, solution, layout, only_real=only == "real", verbose=verbose)
+    if data is not None and is_beyond_checkers(solution, data):
+        click.echo(f"{output}: to check it takes more work than checkers allow; they will call it too-large", err=True)
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM
 
 

@@ -25,6 +25,10 @@ SHIFT: Final = fmpz_poly([1, 1])
 GUARD: Final = 64
 """Bits beyond those asked for that Newton's operator begins with."""
 
+FIRST_STEP: Final = 3
+LAST_STEP: Final = 48
+"""Exponents of how much narrower an interval is tried to be made at once."""
+
 
 class RealRoot:
     """A root of a squarefree h: ``low`` itself if that is ``high``, otherwise the only one strictly between them."""
@@ -38,6 +42,8 @@ class RealRoot:
         charge(3 * value_cost(*self._size, _words(low) + _words(high)))
         self._rises = bool((h(low) or self._slope(low)) < 0)
         self._bits = GUARD
+        self._guess = (low + high) / 2
+        self._step = FIRST_STEP
 
     def narrow(self, bits: int) -> None:
         """Make the interval no wider than 2^-bits."""
@@ -45,7 +51,20 @@ class RealRoot:
         self._bits = max(self._bits, bits + GUARD)
         while self.high - self.low > width:
             if not self._newton():
-                self._split((self.low + self.high) / 2)
+                self._approach()
+
+    def _approach(self) -> None:
+        """Cut closely around where Newton's method points to, more closely each time it is right; or else in halves."""
+        before = self.high - self.low
+        reach = before / (1 << self._step)
+        for place in (self._guess - reach, self._guess + reach):
+            if self.low < place < self.high:
+                self._split(place)
+        if 2 * (self.high - self.low) <= before:
+            self._step = min(2 * self._step, LAST_STEP)
+        else:
+            self._step = FIRST_STEP
+            self._split((self.low + self.high) / 2)
 
     def ball(self, bits: int) -> arb:
         """An enclosure with a radius of about 2^-bits."""
@@ -71,7 +90,9 @@ class RealRoot:
         with ctx.workprec(self._bits):
             place = arb(self.low).union(arb(self.high))
             middle, slope = place.mid(), self._slope(place)
-            value, steepness = self._h(middle), abs(self._slope(middle))
+            value, there = self._h(middle), self._slope(middle)
+            steepness = abs(there)
+            self._guess = fmpq(*dyadic((middle if there.contains(0) else middle - value / there).mid()))
             if not 16 * value.rad() < steepness * place.rad():  # rounding, not the width, is in the way
                 self._bits *= 2
             if slope.contains(0):
