@@ -47,6 +47,27 @@ def _two_in_one() -> Content:
     return {**both, **one, "krawczyk": {**both["krawczyk"], "real": [{**coarse[0], "centre": rounded}]}}
 
 
+def _upright() -> Content:
+    """Two conjugate solutions at C = (4, +-2 i), R = 1: joints of a leg have the same second coordinate."""
+    base, platform = [(0, 1), (-3, 4), (1, -2)], [(0, 1), (1, 4), (4, -2)]
+    content = subject("planar, boxes")
+    sides = {"base": base, "platform": platform}
+    joints = {key: [[str(x), str(y), "0"] for x, y in side] for key, side in sides.items()}
+    squares = [str((4 + c - a) ** 2 - 4) for (a, _), (c, _) in zip(base, platform, strict=True)]
+    parts = ((1, 0), (0, 0), (0, 0), (0, 0), (0, 0), (4, 0), (0, 2), (0, 0))
+    box = {"exponents": [28, 28], "centre": [[hex(x << 28), hex(y << 28)] for x, y in parts]}
+    counts: Content = {"complex_solutions": 2, "distinct_solutions": 2, "real_poses": 0, "box_exponent": 0, "poses": []}
+    return {
+        **content,
+        **counts,
+        "robot": {**content["robot"], **joints},
+        "configuration": {"name": None, "lengths_squared": squares},
+        "claim": "not-proven-complete",
+        "completeness_route": None,
+        "krawczyk": {"chart": list(FIRST), "real": [], "complex": [box]},
+    }
+
+
 def _six_of_forty() -> Content:
     """As many solutions of a spatial robot as would be all of a planar one."""
     content = subject("general 6-6, boxes")
@@ -103,6 +124,7 @@ CHART_BOXES: dict[str, Case] = {
     },
     "a centre off by the limit exactly": (partial(beside, "e0", Fraction(1), 1), REJECTED),
     "two solutions in one box": (_two_in_one, REJECTED),
+    "solutions with real and imaginary coordinates": (_upright, ACCEPTED),
     **{
         f"a pose on the grid 2^-{exponent}": (
             partial(on_circle, [(Fraction(3, 5), Fraction(4, 5))], (0, 5, 0), exponent),
@@ -115,6 +137,16 @@ CHART_BOXES: dict[str, Case] = {
         REJECTED,
     ),
     "six solutions of a spatial robot": (_six_of_forty, ACCEPTED),
+    **{
+        f"boxes of 6 solutions, {total} in both counts": (
+            lambda total=total: {  # type: ignore[misc]
+                **subject("planar, boxes"),
+                **dict.fromkeys(("complex_solutions", "distinct_solutions"), total),
+            },
+            REJECTED,
+        )
+        for total in (5, 7)
+    },
     "all solutions in boxes, not called complete": (
         lambda: {**subject("planar, boxes"), "claim": "not-proven-complete", "completeness_route": None},
         REJECTED,
@@ -155,10 +187,10 @@ CHART_BOXES: dict[str, Case] = {
     },
     **{
         f"legs on lines along {base} and {platform}, turned by {name}": (
-            partial(_on_lines, Pose((e0, 0, 0, 1), (0, 3, 5, 0)), base, platform),
+            partial(_on_lines, Pose((*e,), (0, 3, 5, 0)), base, platform),
             REJECTED,
         )
-        for name, e0 in (("a right angle", 1), ("some angle", 2))
+        for name, e in (("a right angle", (1, 0, 0, 1)), ("some angle", (2, 0, 0, 1)), ("nothing", FIRST))
         for base in ((1, 0), (0, 1))
         for platform in ((1, 0), (0, 1))
     },
