@@ -353,6 +353,18 @@ HIGHER: dict[str, tuple[Content, Content, str, str]] = {
             ]
         )
     },
+    "a curve that turns what is held": (
+        held(X, behind=[joint("a", "P", "base", "top", O, [X])]),
+        _curve([[[0, 1], [1]], [[0], [1]], [[0, 1], [1]]]),
+        "rejected",
+        CURVE + "does not close",
+    ),
+    "a curve that slides what is held": (
+        held(Z, before=[joint("a", "P", "base", "top", O, [X])]),
+        _curve([[[0, 1], [1]], [[0], [1]], [[0, 1], [1]]]),
+        "rejected",
+        CURVE + "does not close",
+    ),
     "a curve of screws that close": (SCREWS, _curve([[[0, 1], [1]], [[0, -1], [1]]]), "rejected", "finite: a screw"),
     "a curve of other screws": (TURNED_SCREWS, _curve([[[0, 1], [1]], [[0, -1], [1]]]), "rejected", "finite: a screw"),
     "a long loop of long numbers": (
