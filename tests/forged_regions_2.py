@@ -772,6 +772,46 @@ ELSEWHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
         f"a parameter that is not quite one: {key}": (BESIDE, ("chart", "parameters"), [key], "malformed", "")
         for key in ("rods.scale", "base.joints.1", "base.joints.1.1.1", "top.joints.1.1", "base.joints.100.1")
     },
+    **{
+        f"an axis beside parameters, {axes}": (
+            second(
+                region([SLIDES, {**SLIDES}], modes=[1, 1], conditions=["reachable"], **UNSAID),
+                parameters={"base.scale": [1, 2]},
+                leg_axes=[[0, 0, 1] if axis else None for axis in axes],
+            ),
+            ("axes",),
+            [0],
+            "malformed",
+            "chart.parameters: there are forms",
+        )
+        for axes in ((1, 0), (0, 1))
+    },
+    "rods of some legs": (
+        second(region([ROD, UPRIGHT], modes=[1, 0], **UNSAID), parameters={"rods.length": [1, 2]}),
+        ("axes",),
+        [0],
+        "malformed",
+        "chart.parameters: a leg has no rod",
+    ),
+    "the tenth leg": (
+        second(region([UPRIGHT] * 10, modes=[0] * 10, **UNSAID), parameters={"base.joints.10.1": [0, 1]}),
+        ("axes",),
+        [0],
+        "accepted",
+        "claim: what",
+    ),
+    "the first of two legs alone": (
+        second(
+            region([UPRIGHT, leg((0, 0, 0), (0, 0, 0), (4, 5))], box=[[4, 5]], modes=[0, 0], paving="ssuyiu"),
+            parameters={"platform.joints.1.1": [-2, 2]},
+            inside=1,
+            undecided=2,
+        ),
+        ("axes",),
+        [0],
+        "accepted",
+        "claim: what",
+    ),
     "a coordinate of the first leg": (BESIDE, ("chart", "parameters"), ["base.joints.1.3"], "accepted", ""),
     "a coordinate of the second leg": (
         BESIDE,
