@@ -274,6 +274,11 @@ WIDE: dict[str, Row] = {
         "rejected",
         "actuator_forces: one is not",
     ),
+    "a leg of 3/5 to 7/5, more nearly": (
+        _wide(PULLED, "jacobian", (0, 0), ["3/5", "7/5"], actuator_forces=[["-13/8", "9"], ["-9", "9"]]),
+        "rejected",
+        "actuator_forces: one is not",
+    ),
     "any leg, nothing claimed": (_wide(_only(SQUARE), "jacobian", (0, 0), ["-1", "2"]), "accepted", "machine"),
     "any position": (_only(SQUARE) | {"position": LEAN}, "rejected", "legs[1]: its length may be 0"),
     "no length": (_only(put(SQUARE, ["0", "0", "0"], "legs", 0, "base")), "rejected", "legs[1]: its length may be 0"),
@@ -478,7 +483,42 @@ MANY = _only(machine([0], [(1, 0, 0)] * 12))
 FIVE = _only(GENERAL) | {"constraints": [["0"] * 17] * 6}
 PLANES = LINE["wrench_polytope"]["facets"]
 FACET, VERTEX = ("wrench_polytope", "facets", 0), ("velocity_polytope", "vertices", 0)
+NO_TWISTS = {"velocity_polytope": {"facets": [], "vertices": [], "volume": None}}
+NO_WRENCHES = {"wrench_polytope": {"facets": [], "vertices": [], "volume": ["0", "1"]}}
+
+
+@cache
+def _twelve(freedoms: int) -> Content:
+    """Twelve legs with arms."""
+    legs = [leg([k * k - 20, 3 * k - 40, 7], [k % 5, k % 3, k % 7]) for k in range(12)]
+    return _only(machine(range(freedoms), [], legs=legs))
+
+
+HELD = [{5: "1"}, {6: "1"}, {8: "1"}, {9: "1"}, {12: "1"}]
+"""Forms that hold all components of a twist but the first."""
 FORMAT: dict[str, Row] = {
+    "5 constraints": (
+        _only(
+            machine(
+                range(6),
+                [(1, 0, 0)],
+                constraints=[[form.get(k, "0") for k in range(17)] for form in HELD],
+                free=[0],
+            )
+        ),
+        "accepted",
+        "machine",
+    ),
+    "short legs": (_only(machine(FLAT, [(HALF, 0, 0), (0, HALF, 0)])), "accepted", "machine"),
+    "twists of 59136 choices": (_twelve(6) | NO_TWISTS, "too-large", "velocity_polytope: too many"),
+    "twists of 25344 choices": (_twelve(5) | NO_TWISTS, "too-large", "velocity_polytope: too many"),
+    "wrenches of 50688 choices": (_twelve(6) | NO_WRENCHES, "too-large", "wrench_polytope: too many"),
+    "wrenches of 15840 choices": (_twelve(5) | NO_WRENCHES, "rejected", "wrench_polytope"),
+    "the last forces of one": _with("malformed", ["1", "1"], "forces", 1),
+    "no speeds, for twists": (_only(SQUARE, "velocity_polytope") | {"speeds": None}, "malformed", ""),
+    "no forces, for wrenches": (_only(SQUARE, "wrench_polytope") | {"forces": None}, "malformed", ""),
+    "freedoms of 6, free": (_only(SQUARE) | {"freedoms": [0, 6], "free": [0, 6]}, "malformed", ""),
+    "freedoms of 0 and false": (_only(SQUARE) | {"freedoms": [False, 1], "free": [0, 1]}, "malformed", ""),
     "12 legs": (MANY, "accepted", "machine"),
     "13 legs": (_only(machine([0], [(1, 0, 0)] * 13)), "too-large", "legs"),
     "6 constraints": (FIVE, "too-large", "constraints"),
