@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
+from math import floor
 from typing import TypeAlias
 
 from flint import arb, arb_poly, fmpz_poly
@@ -175,11 +176,27 @@ def _grid_interval(value: arb, exponent: int, *, near_if_undecided: bool) -> Int
     nearest = (middle + (1 << GUARD_BITS - 1)) >> GUARD_BITS
     distance = abs(middle - (nearest << GUARD_BITS))
     # Of the three units one is the radius, and one each may have been lost by rounding and by the distance.
-    if distance + 3 < NEAR_LIMIT or (near_if_undecided and distance - 3 <= NEAR_LIMIT):
+    if distance + 3 < NEAR_LIMIT:
         return _cell(nearest - 1, nearest + 1, exponent)
     if distance - 3 > NEAR_LIMIT:
         return _cell(middle >> GUARD_BITS, (middle >> GUARD_BITS) + 1, exponent)
+    return _at_limit(value, exponent, nearest, near_if_undecided=near_if_undecided)
+
+
+def _at_limit(value: arb, exponent: int, nearest: int, *, near_if_undecided: bool) -> Interval | None:
+    """The same where units of 2^-48 do not tell: by the whole enclosure."""
+    middle, radius = (_exact(end) * (1 << exponent) for end in (value.mid(), value.rad()))
+    distance, limit = abs(middle - nearest), Fraction(1, 1 << NEAR_EXPONENT)
+    if distance + radius < limit or (near_if_undecided and distance - radius <= limit):
+        return _cell(nearest - 1, nearest + 1, exponent)
+    if distance - radius > limit:
+        return _cell(floor(middle), floor(middle) + 1, exponent)
     return None
+
+
+def _exact(value: arb) -> Fraction:
+    mantissa, power = map(int, value.man_exp())
+    return Fraction(mantissa) * (Fraction(1 << power) if power >= 0 else Fraction(1, 1 << -power))
 
 
 def _shifted(mantissa: int, shift: int) -> int:
