@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection
-from threading import Thread
+from threading import Thread, current_thread, main_thread
 from time import monotonic, sleep
 from typing import Any
 
@@ -80,6 +80,31 @@ def end_in_order() -> None:
     Where FLINT is at work, which cannot be interrupted, there are none, and it is killed after ``PATIENCE``.
     """
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+
+
+@contextmanager
+def signals_deferred() -> Iterator[None]:
+    """Signals that end this process take effect when the block is left: what it starts is known by then.
+
+    A program is started before ``Popen`` returns; a signal in between would leave it alone.
+    """
+    if current_thread() is not main_thread():  # signals are handled elsewhere
+        yield
+        return
+    caught: list[int] = []
+    before = {}
+    for number in (signal.SIGINT, signal.SIGTERM):
+        handler = signal.getsignal(number)
+        if callable(handler):
+            before[number] = handler
+            signal.signal(number, lambda number, _: caught.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for late in caught:
+            signal.raise_signal(late)
 
 
 @contextmanager

@@ -62,13 +62,13 @@ def test_every_command_that_reads_a_model_says_its_metric(command: str, tmp_path
 
 def test_no_command_reads_a_model_without_saying_so() -> None:
     """All of them read models by one module; completion shows names only, ``new`` reads
-    what it has written, and ``region`` the text of a model once more that it has read as all do."""
+    what it has written, of chains too, and ``region`` the text of a model once more that it has read as all do."""
     reading = {
         path.stem
         for path in (Path(__file__).parent.parent / "pkm_exact" / "cli").glob("*.py")
         if re.search(r"geometry\.reader import", path.read_text(encoding="utf-8"))
     }
-    assert reading == {"model_reading", "shell_completion", "new", "region"}
+    assert reading == {"model_reading", "shell_completion", "new", "new_chains", "region"}
 
 
 def test_ordinary_models_need_no_note(capsys: Capture) -> None:

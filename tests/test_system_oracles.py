@@ -1,6 +1,7 @@
 """Oracles that lie: a factor dropped, a root added, coefficients off by one. And a program that says nothing useful."""
 
 import os
+import signal
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -17,6 +18,7 @@ from pkm_exact.claim import Claim
 from pkm_exact.errors import InputError
 from pkm_exact.interactive.limited_solve import solve_within_limits
 from pkm_exact.interactive.system_answers import solve_system
+from pkm_exact.processes import signals_deferred
 from pkm_exact.systems.solution_search import SolutionSearch
 from pkm_exact.systems.system_engine import SYSTEM_POLICY, OracleError, solved_system
 from pkm_exact.systems.system_sources import polynomial_system
@@ -190,3 +192,18 @@ def test_a_program_that_is_asked_ends_with_us(tmp_path: Path, monkeypatch: pytes
         )
     assert any(_is_gone(int(note.read_text())) for _ in range(6000))
     assert not list(folder.iterdir())
+
+
+def test_a_signal_waits_until_what_is_started_is_known() -> None:
+    """Between the start of a program and the moment we know it, an interrupt would leave it alone."""
+    reached = []
+
+    def started() -> None:
+        with signals_deferred():
+            signal.raise_signal(signal.SIGINT)
+            reached.append(True)
+
+    with pytest.raises(KeyboardInterrupt):
+        started()
+    assert reached == [True]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

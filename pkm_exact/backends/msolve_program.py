@@ -22,6 +22,7 @@ from typing import TypeAlias
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.errors import PkmExactError
 from pkm_exact.poses.pose import Interval
+from pkm_exact.processes import signals_deferred
 
 Tree: TypeAlias = "str | list[Tree]"
 
@@ -97,12 +98,28 @@ def msolve_output(
         source.write_text(msolve_input(system), encoding="ascii")
         command = msolve_command(program, source, target, is_isolating=is_isolating)
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)  # noqa: S603
+            code, said = _ended(command, seconds)
         except subprocess.TimeoutExpired as error:
             raise MsolveError(f"msolve did not end within {seconds} seconds") from error
-        if done.returncode or not target.is_file():
-            raise MsolveError(_failure(done.returncode, done.stderr.strip()[:200]))
+        if code or not target.is_file():
+            raise MsolveError(_failure(code, said.strip()[:200]))
         return target.read_text(encoding="ascii")
+
+
+def _ended(command: list[str], seconds: float | None) -> tuple[int, str]:
+    """The exit code of a program, and what it said of errors. It ends with us, whenever that is."""
+    process: subprocess.Popen[str] | None = None
+    try:
+        with signals_deferred():
+            process = subprocess.Popen(  # noqa: S603
+                command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+            )
+        _, said = process.communicate(timeout=seconds)
+        return process.returncode, said
+    finally:
+        if process is not None and process.poll() is None:
+            process.kill()
+            process.wait()
 
 
 def _failure(code: int, said: str) -> str:
