@@ -283,7 +283,7 @@ def outcome(name: str, mutation: Mutation) -> str:
     one, other = check_bytes(data), pure.check_bytes(data)
     if one.status == other.status == "too-large" and _is_free(name, mutation.path):
         return "free"  # another question, and nothing is answered
-    if _answer(one) != _answer(other) and _is_free(name, mutation.path) and _is_within_rounding(one, other):
+    if _answer(one) != _answer(other) and _is_free(name, mutation.path) and _is_within_rounding(mutation, one, other):
         return "free"
     if _answer(one) != _answer(other):
         return f"survives: {one.lines[-1]} ({one.status}), but {other.lines[-1]} ({other.status})"
@@ -294,16 +294,15 @@ def outcome(name: str, mutation: Mutation) -> str:
     return f"survives: {one.status}"
 
 
-def _is_within_rounding(*verdicts: Any) -> bool:
-    """Whether one checker proves a bound and the other does not: narrower enclosures prove more, all of it true.
+def _is_within_rounding(mutation: Mutation, *verdicts: Any) -> bool:
+    """Whether a last digit is proved by one checker alone: narrower enclosures prove more, all of it true.
 
     They may also stop at bounds of different poses.
     """
+    if mutation.what != "last digit" or any(str(one.status) not in ("accepted", "rejected") for one in verdicts):
+        return False
     refusals = [verdict.lines[-1] for verdict in verdicts if str(verdict.status) == "rejected"]
-    are_decided = all(str(verdict.status) in ("accepted", "rejected") for verdict in verdicts)
-    return (
-        are_decided and bool(refusals) and all(line.endswith("a bound of the pose is not proved") for line in refusals)
-    )
+    return all(line.endswith("a bound of the pose is not proved") for line in refusals)
 
 
 def _is_free(name: str, path: Path_) -> bool:

@@ -46,7 +46,7 @@ def test_every_type_of_joint_is_read(type_: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
 def test_shipped_mechanisms_are_read(path: Path) -> None:
     found = read_linkage(path)
-    assert found.freedoms
+    assert found.actuated
     assert path.name in (ROOT / "docs" / "mobility.md").read_text()
 
 

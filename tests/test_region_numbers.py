@@ -16,6 +16,7 @@ from samples import MODELS, model, solved
 from test_regions import asked
 
 from pkm_exact import InputError, Robot
+from pkm_exact.certify import pure
 from pkm_exact.certify.check import Status, check_bytes
 from pkm_exact.cli.main import main
 from pkm_exact.cli.region_report import as_text
@@ -501,9 +502,17 @@ def test_an_arc_lies_on_its_circle_and_is_refused_where_it_is_none() -> None:
         asked(region_machine(model("delta")), CIRCLE.format(0, 90), "reachable = true")
 
 
-def test_an_arc_has_a_certificate(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "region"),
+    [
+        ("3-prrr", "position = [[0.4, 0.45], 0.4, 0.3]"),
+        ("3-rpr-merlet-p", "arc = { center = [5, 5], radius = 1, degrees = [0, 9] }\ndegrees = 0"),
+    ],
+)
+def test_arcs_and_rods_along_axes_have_certificates(name: str, region: str, tmp_path: Path) -> None:
     question, target = tmp_path / "question.toml", tmp_path / "a.json"
-    region = "arc = { center = [5, 5], radius = 1, degrees = [0, 9] }\ndegrees = 0"
     question.write_text(f"[region]\n{region}\n[conditions]\nreachable = true\n[answer]\nkind = 'all'\n")
-    assert main(["region", str(FILES["3-rpr-merlet-p"]), str(question), "-o", str(target)]) == 0
-    assert check_bytes(target.read_bytes()).status is Status.ACCEPTED
+    assert main(["region", str(FILES[name]), str(question), "-o", str(target)]) == 0
+    data = target.read_bytes()
+    assert check_bytes(data).status is Status.ACCEPTED
+    assert pure.check_bytes(data).status == "accepted"

@@ -157,17 +157,13 @@ exec sleep 100
 
 
 def _is_gone(process: int) -> bool:
-    """Whether there is no such process, or it has ended and only its parent has not yet asked how."""
+    """Whether there is no such process; one that was killed may be there a moment longer."""
     sleep(0.01)
     try:
         os.kill(process, 0)
     except ProcessLookupError:
         return True
-    try:
-        state = Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0]
-    except OSError:
-        return False
-    return state == "Z"
+    return False
 
 
 def test_a_program_that_is_asked_ends_with_us(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -190,7 +186,7 @@ def test_a_program_that_is_asked_ends_with_us(tmp_path: Path, monkeypatch: pytes
         solve_within_limits(
             SYSTEM, seconds=60, megabytes=None, width=Fraction(1), oracle="msolve", progress=interrupted
         )
-    assert any(_is_gone(int(note.read_text())) for _ in range(6000))
+    assert any(_is_gone(int(note.read_text())) for _ in range(1000))
     assert not list(folder.iterdir())
 
 

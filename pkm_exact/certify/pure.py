@@ -699,7 +699,7 @@ def motion(e: Sequence[Any], f: Sequence[Any], g: Metric) -> Motion:
     return Motion(norm, rotation, position, turned, square, study)
 
 
-def scalar_product(g: Metric, u: Point, v: Point) -> Fraction:
+def scalar_product(g: Sequence[int], u: Sequence[Fraction], v: Sequence[Fraction]) -> Fraction:
     """u.v in the metric."""
     return sum((x * y * z for x, y, z in zip(g, u, v, strict=True)), Fraction(0))
 

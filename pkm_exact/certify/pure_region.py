@@ -239,10 +239,10 @@ def a_leg(g: Sequence[int], value: Any, where: str) -> Leg:
         pure.well_formed(
             exact, f"{inside}: a weight that is no whole number, or limits that are no multiples of 90 degrees"
         )
-    squares = [pure.scalar_product(g, axis, axis) for axis in axes]  # type: ignore[arg-type]
+    squares = [pure.scalar_product(g, axis, axis) for axis in axes]
     pure.well_formed(squares[0] != 0, "robot.legs: an axis is 0")
     if len(axes) == 2:
-        circle = squares[1] == weight * squares[0] and pure.scalar_product(g, *axes) == 0  # type: ignore[arg-type]
+        circle = squares[1] == weight * squares[0] and pure.scalar_product(g, *axes) == 0
         pure.well_formed(circle, "robot.legs: a crank does not turn on a circle")
     return Leg(*joints, axes, int(weight), pure.a_positive_rational(rod, f"{inside}.rod_squared"), limits)
 
@@ -256,7 +256,7 @@ def a_sliding_leg(g: Sequence[int], value: Any, where: str) -> Leg:
         return leg
     axis = a_vector(entries[-1], f"{where}.axis")
     pure.well_formed(any(axis) and leg.axes, "robot.legs: an axis is 0, or that of a leg of its own length")
-    across = all(pure.scalar_product(g, axis, moved) == 0 for moved in leg.axes)  # type: ignore[arg-type]
+    across = all(pure.scalar_product(g, axis, moved) == 0 for moved in leg.axes)
     pure.well_formed(across, "robot.legs: a slide or crank does not move across the axis of its rod")
     return leg._replace(axis=axis)
 
@@ -695,7 +695,7 @@ class Equations:
             parts.append(Signed(ball, "0+"))
             if number + 1 < len(offsets):
                 way = [b - a for a, b in pairwise_of(region.corners, number)]
-                square = pure.scalar_product(self.g, way, way)  # type: ignore[arg-type]
+                square = pure.scalar_product(self.g, way, way)
                 along = plus(*((weight * x, p) for weight, x, p in zip(self.g, way, o, strict=True)))
                 rest = plus((square, ball), (1, times(along, along)))
                 sides = Signed(along, "0+"), Signed(plus((square, self.norm), (-1, along)), "0+"), Signed(rest, "0+")
@@ -768,7 +768,7 @@ class Placed:
         base, self.arm = equations.joints(k)
         e = [plus((1, c), (1, b), (-1, a)) for c, b, a in zip(equations.center, self.arm, base, strict=True)]
         if leg.axis is not None:
-            size = pure.scalar_product(equations.g, leg.axis, leg.axis)  # type: ignore[arg-type]
+            size = pure.scalar_product(equations.g, leg.axis, leg.axis)
             along = equations.inner(equations.numbers(leg.axis), e)
             e = [plus((1, x), (-axis / size, along)) for x, axis in zip(e, leg.axis, strict=True)]
         self.square = equations.inner(e, e)
@@ -795,7 +795,7 @@ class Placed:
         eq, leg = self.equations, self.leg
         y, axes = eq.generator(self.place), [eq.numbers(axis) for axis in leg.axes]
         if len(axes) == 1:
-            length = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
+            length = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])
             along_it = eq.inner(axes[0], e)
             way = plus((1, along_it), (self.mode, y))
             terms = (1, times(along_it, along_it)), (-length, self.square), (length, self.length)
@@ -804,7 +804,7 @@ class Placed:
             self.value = way, plus((length, eq.norm))
             return
         a, p = (plus((2, times(eq.norm, eq.inner(axis, e)))) for axis in axes)
-        size = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])  # type: ignore[arg-type]
+        size = pure.scalar_product(eq.g, leg.axes[0], leg.axes[0])
         h = plus((1, self.square), (size, eq.square_norm), (-1, self.length))
         w = Fraction(1, leg.weight)
         m = self.crank = plus((1, times(a, a)), (w, times(p, p)))
@@ -899,7 +899,7 @@ class Pair:
         """U: from the upper end to the lower one."""
         factor = Fraction(-1)
         if len(leg.leg.axes) == 1:
-            factor /= pure.scalar_product(self.eq.g, leg.leg.axes[0], leg.leg.axes[0])  # type: ignore[arg-type]
+            factor /= pure.scalar_product(self.eq.g, leg.leg.axes[0], leg.leg.axes[0])
         return [plus((factor, x)) for x in leg.rod]
 
     def mul(self, *factors: Polynomial) -> Polynomial:

@@ -37,6 +37,19 @@ def rotation_of(quaternion: Quaternion, metric: Metric = UNIT_METRIC) -> Matrix:
     return first, second, third
 
 
+def cross(left: Vector, right: Vector) -> Vector:
+    """The vector product, in the metric (1, 1, 1).
+
+    Examples
+    --------
+    >>> x, y = (tuple(map(Fraction, axis)) for axis in ((1, 0, 0), (0, 1, 0)))
+    >>> [str(value) for value in cross(x, y)]
+    ['0', '0', '1']
+    """
+    (a, b, c), (u, v, w) = left, right
+    return b * w - c * v, c * u - a * w, a * v - b * u
+
+
 def dot(left: Vector, right: Vector, metric: Metric = UNIT_METRIC) -> Fraction:
     """The product of two vectors in the metric: the sum of metric[i] left[i] right[i].
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Final
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.inverse import Matrix, rotation_of
+from pkm_exact.geometry.inverse import Matrix, cross, rotation_of
 from pkm_exact.geometry.joint_types import JointGeometry
 from pkm_exact.geometry.linkage import Joint, Linkage
 from pkm_exact.geometry.rational import NumberText, parse_rational
@@ -315,19 +315,15 @@ def _geometry(kind: str, frame: _Frame, along: Vector) -> JointGeometry:
         return JointGeometry(screws=units)
     if kind == "planar":
         first, second = _across(axis)
-        return JointGeometry(screws=((*_ZERO, *first), (*_ZERO, *second), (*axis, *_cross(frame.point, axis))))
+        return JointGeometry(screws=((*_ZERO, *first), (*_ZERO, *second), (*axis, *cross(frame.point, axis))))
     return JointGeometry(point=frame.point, axes=(axis,) if kind != "ball" else ())
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 def _across(axis: Vector) -> tuple[Vector, Vector]:
     """Two directions perpendicular to an axis and to each other."""
     least = min(range(3), key=lambda k: abs(axis[k]))
-    first = _cross(axis, tuple(Fraction(int(k == least)) for k in range(3)))  # type: ignore[arg-type]
-    return first, _cross(axis, first)
+    first = cross(axis, tuple(Fraction(int(k == least)) for k in range(3)))  # type: ignore[arg-type]
+    return first, cross(axis, first)
 
 
 def _name(element: Element, what: str) -> str:

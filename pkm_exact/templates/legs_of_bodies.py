@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Final
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import Slide
-from pkm_exact.geometry.inverse import rotation_of
+from pkm_exact.geometry.inverse import cross, rotation_of
 from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.screws.exact_matrix import rank, solution
@@ -132,7 +132,7 @@ def _leg(chain: Sequence[Joint]) -> _Leg:
     if not any(along):
         raise NoLegsError(f"{where} has length 0")
     if place:
-        off = sqrt(_square(_cross(slide, along)) / (_square(slide) * _square(along)))
+        off = sqrt(_square(cross(slide, along)) / (_square(slide) * _square(along)))
         if off > NEARLY:
             raise NoLegsError(f"the slide of {where} is not along the line of its joints")
         return _Leg(a, b, None, max(off_a, off_b, off))
@@ -188,7 +188,7 @@ def _unit(way: Vector, where: str) -> Vector:
 
 
 def _distance(point: Vector, foot: Vector, way: Vector) -> float:
-    return sqrt(_square(_cross(_minus(point, foot), way)) / _square(way))
+    return sqrt(_square(cross(_minus(point, foot), way)) / _square(way))
 
 
 def _minus(a: Vector, b: Vector) -> Vector:
@@ -198,7 +198,3 @@ def _minus(a: Vector, b: Vector) -> Vector:
 
 def _square(a: Vector) -> Fraction:
     return sum((x * x for x in a), Fraction(0))
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]

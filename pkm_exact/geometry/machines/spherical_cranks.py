@@ -14,20 +14,14 @@ from __future__ import annotations
 from typing import Final
 
 from pkm_exact.constraints.angle import Angle
-from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.drives import Drive, Part
-from pkm_exact.geometry.inverse import Metric, dot
+from pkm_exact.geometry.inverse import Metric, cross, dot
 from pkm_exact.geometry.machines.dimension_readers import numbers, vectors
 from pkm_exact.geometry.machines.machine_kind import Assembly, Dimensions, Group, Joint, MachineKind
 from pkm_exact.geometry.machines.triangle import along
 from pkm_exact.geometry.polar_vectors import PolarVector
 from pkm_exact.motions.motion_groups import SPHERICAL
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """The vector product, in the metric (1, 1, 1)."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 def assemble(given: Dimensions, metric: Metric) -> Assembly:
