@@ -733,22 +733,22 @@ def value_of(form: Square, y: Row) -> Fraction:
 def check_above(bounds: Bounds, forms: Sequence[Square], mobility: int) -> None:
     """Prove that the mobility near the configuration is not greater."""
     most = mobility
-    if bounds.above == "order":
+    if bounds.above in ("order", "definite"):
         most = 0
-    elif bounds.above == "definite":
-        most = 0
-        pure.require(bool(forms) and is_positive(forms[0]), "finite.above: the form is not positive")
     elif bounds.above == "cone":
         right = all(len(vector) == mobility for vector in bounds.section)
         pure.well_formed(right, "finite.above.section: not a number for each motion")
         most = mobility - len(bounds.section)
+    pure.require(bounds.mobility[1] == most, "finite.most: not the number that follows")
+    if bounds.above == "definite":
+        pure.require(bool(forms) and is_positive(forms[0]), "finite.above: the form is not positive")
+    elif bounds.above == "cone":
         cut = []
         for form in forms:
             images = [applied(form, vector) for vector in bounds.section]
             cut.append([applied(images, vector) for vector in bounds.section])
         proved_0 = are_all_monomials(cut, len(bounds.section), bounds.degree)
         pure.require(proved_0, "finite.above: the section of the cone may be more than 0")
-    pure.require(bounds.mobility[1] == most, "finite.most: not the number that follows")
 
 
 Poly: TypeAlias = list[Fraction]
