@@ -60,6 +60,14 @@ def test_modes_have_as_many_poses_as_said(kind: str, freedoms: int, count: int) 
     assert (found.claim, found.complex_solutions) == (Claim.COMPLETE, count)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["CP-VS", "R-TCS"])
+@pytest.mark.parametrize(("freedoms", "count"), [(5, 96), (6, 320)])
+def test_joints_on_cylinders_have_more_poses(kind: str, freedoms: int, count: int) -> None:
+    found = solution(kind, freedoms)
+    assert (found.claim, found.complex_solutions) == (Claim.COMPLETE, count)
+
+
 def test_a_strut_is_as_long_as_its_joint_is_from_the_guide() -> None:
     """With a locked hinge the slide q is s / sqrt(2), without one the length is s: both say the same of a pose."""
     place = (Fraction(0), Fraction(0), Fraction(150))

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from pkm_exact.certify.checker import budget
-from pkm_exact.cli import roots_report
 from pkm_exact.cli.main import ROOTS, ExitCode, main
 from pkm_exact.cli.roots_commands import certify_roots
+from pkm_exact.interactive import system_answers
 
 Capture = pytest.CaptureFixture[str]
 CIRCLE = "x,y\n0\nx^2+y^2-1,\nx-y\n"
@@ -132,13 +132,15 @@ def test_a_certificate_that_checkers_cannot_afford_is_not_written_without_a_word
     circle: str, tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = str(tmp_path / "cert.json")
-    monkeypatch.setattr(roots_report, "LEAST_IN_DOUBT", 0)
+    monkeypatch.setattr(system_answers, "LEAST_IN_DOUBT", 0)
     assert run(circle, "-o", path) == ExitCode.DONE
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(budget, "BASE", 0)
     monkeypatch.setattr(budget, "PER_BYTE", 1)
     assert run(circle, "-o", path) == ExitCode.DONE
     assert f"{path}: to check it takes more work than checkers allow" in capsys.readouterr().err
+    with pytest.warns(UserWarning, match="to check it takes more work than checkers allow"):
+        system_answers.solve_system(["x^2 = 2"]).save(path)
 
 
 def test_limits_end_in_a_sentence(circle: str, capsys: Capture) -> None:

@@ -136,11 +136,12 @@ def solve(
     data = None if output is None else solution.certificate(Path(file).name).data
     if output is not None and data is not None:
         arguments.write_output(output, data)
-    from pkm_exact.cli.roots_report import is_beyond_checkers, report_roots
+    from pkm_exact.cli.roots_report import report_roots
+    from pkm_exact.interactive.system_answers import TOO_LARGE, is_beyond_checkers
 
     report_roots(Path(file).name, solution, layout, only_real=only == "real", verbose=verbose)
     if data is not None and is_beyond_checkers(solution, data):
-        click.echo(f"{output}: to check it takes more work than checkers allow; they will call it too-large", err=True)
+        click.echo(f"{output}: {TOO_LARGE}", err=True)
     return ExitCode.DONE if solution.is_complete else ExitCode.WEAKER_CLAIM
 
 

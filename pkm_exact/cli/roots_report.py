@@ -14,9 +14,6 @@ from pkm_exact.wording import counted, printable
 if TYPE_CHECKING:
     from pkm_exact.systems.system_solution import SystemSolution
 
-LEAST_IN_DOUBT = 5 * 10**7
-"""Real roots times degree times bits of an eliminant; no certificate below was ever too large."""
-
 
 def report_roots(name: str, solution: SystemSolution, layout: str, *, only_real: bool, verbose: bool) -> None:
     """Print the solutions to stdout as ``table`` or ``json``."""
@@ -37,18 +34,6 @@ def report_roots(name: str, solution: SystemSolution, layout: str, *, only_real:
         several = any(entry.multiplicity != 1 for entry in solution.solutions)
         header = ("", *solution.variables, *(("multiplicity",) if several else ()))
         print_rows([_row(k, entry, several=several) for k, entry in enumerate(solution.solutions, 1)], header)
-
-
-def is_beyond_checkers(solution: SystemSolution, data: bytes) -> bool:
-    """Whether checkers call a certificate too-large: asked of them if its eliminant is long, with many real roots."""
-    if solution.representation is None:
-        return False
-    eliminant = solution.representation.primitive_polynomial
-    if solution.real_solutions * int(eliminant.degree()) * int(eliminant.height_bits()) < LEAST_IN_DOUBT:
-        return False
-    from pkm_exact.certify.check import Status, check_bytes
-
-    return check_bytes(data).status is Status.TOO_LARGE
 
 
 def headline(solution: SystemSolution, *, only_real: bool) -> str:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from functools import partial
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import pkm_exact.systems.system_solution as system_solutions
 from pkm_exact.algebra.system import PolynomialSystem
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
     from pkm_exact.certify.checker.verdict import Verdict
 
 ORACLES = ("internal", "msolve")
+LEAST_IN_DOUBT: Final = Fraction(1, 400)
+"""Real roots times degree times bits of an eliminant, for each operation that checkers allow: no certificate below was
+ever too large."""
+TOO_LARGE: Final = "to check it takes more work than checkers allow; they will call it too-large"
 
 
 @dataclass(frozen=True, repr=False)
@@ -55,11 +60,32 @@ class SystemSolution(system_solutions.SystemSolution):
         ------
         InputError
             If the file cannot be written.
+
+        Warns
+        -----
+        UserWarning
+            If to check it takes more work than checkers allow.
         """
-        self.certificate(title).save(path)
+        certificate = self.certificate(title)
+        certificate.save(path)
+        if is_beyond_checkers(self, certificate.data):
+            warnings.warn(f"{os.fspath(path)}: {TOO_LARGE}", stacklevel=2)
 
     def _repr_html_(self) -> str:
         return f"<p>{escape(str(self))}</p>"
+
+
+def is_beyond_checkers(solution: system_solutions.SystemSolution, data: bytes) -> bool:
+    """Whether checkers call its certificate too-large: asked of them if the eliminant is long, with many real roots."""
+    if solution.representation is None:
+        return False
+    from pkm_exact.certify.check import check_bytes
+    from pkm_exact.certify.checker.budget import Budget
+    from pkm_exact.certify.checker.verdict import Status
+
+    eliminant = solution.representation.primitive_polynomial
+    size = solution.real_solutions * int(eliminant.degree()) * int(eliminant.height_bits())
+    return size >= LEAST_IN_DOUBT * Budget(len(data)).limit and check_bytes(data).status is Status.TOO_LARGE
 
 
 def solve_system(
