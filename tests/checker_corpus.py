@@ -103,7 +103,7 @@ def collect(target: Path, tests: Sequence[str] = ()) -> int:
     """Run the tests, or those files of them that are named, and write what they check to a ZIP file; the exit code."""
     collector = Collector()
     files = list(tests) or sorted({str(path) for pattern in FILES for path in HERE.glob(pattern)})
-    options = ["-q", "-p", "no:cacheprovider", "-p", "no:xdist"]
+    options = ["-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-m", "not slow or in_corpus"]
     code = pytest.main([*options, *files], plugins=[collector])
     if not tests:
         _add_changes(collector)
