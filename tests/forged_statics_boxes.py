@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache
 from random import Random
@@ -309,6 +309,63 @@ WIDE: dict[str, Row] = {
     ),
 }
 
+# Determinants that may be 0, where all else is decided
+
+
+def _pushed(rod: tuple[Any, ...], arm: tuple[Any, ...]) -> Content:
+    """A slide along its rod whose row is the rod and its moment."""
+    square = sum(Fraction(x) ** 2 for x in rod)
+    return leg([x - y for x, y in zip(arm, rod, strict=True)], arm, [Fraction(x) / square for x in rod])
+
+
+ANYTHING = ["-1000000", "1000000"]
+
+
+def _four_legs(volume: list[str]) -> Content:
+    """Rows so wide that only the minors are told apart from 0; the determinant of the middles is 60."""
+    rods = (((-1, -3, 1), 1), ((-1, -3, -1), 1), ((0, -2, 1), -1), ((2, -3, -3), -1))
+    content = machine(range(4), [], legs=[_pushed(rod, (0, arm, 0)) for rod, arm in rods])
+    rows = [[*rod, rod[2] * arm] for rod, arm in rods]
+    content["jacobian"] = [[[str(x + way * Fraction(123, 500)) for way in (-1, 1)] for x in row] for row in rows]
+    found = wrench_polytope(content)
+    for facet in found["facets"]:
+        facet |= {"normal": [ANYTHING] * 4, "offset": ANYTHING}
+    return content | {"wrench_polytope": found | {"volume": volume}}
+
+
+TURNS = {0: 4, 1: 5, 2: 3, 3: 2, 4: 0, 5: 1}
+
+
+def _six_legs(volume: list[str]) -> Content:
+    """Pairs of legs that may nearly be dependent; the volume of twists is 541."""
+    near, far = Fraction(37, 50), Fraction(119, 500)
+    legs = []
+    for row, other in TURNS.items():
+        rod, arm = [Fraction(0)] * 3, [Fraction(0)] * 3
+        axis, turn, pushed, turned = (row, other, near, far) if row < 3 else (other, row, far, near)
+        rod[axis], arm[({0, 1, 2} - {axis, turn - 3}).pop()] = pushed, turned / pushed
+        legs.append(_pushed(tuple(rod), tuple(arm)))
+    content = claims(machine(range(6), [], legs=legs))
+    ends = {0: ["739/1000", "1261/1000"], 1: ["-477/2000", "477/2000"], 2: ["-1/1000000000", "1/1000000000"]}
+    content["jacobian"] = [
+        [ends[0 if i == j else 1 if j == TURNS[i] else 2] for j in range(6)] for i in range(6)
+    ]  # fmt: skip
+    for vertex in content["velocity_polytope"]["vertices"]:
+        vertex["at"] = [ANYTHING] * 6
+    return _only(put(content, volume, "velocity_polytope", "volume"), "velocity_polytope")
+
+
+AXES = [[int(i == j) for j in range(3)] for i in range(3)]
+VAST = machine(
+    range(3), [], legs=[leg([-x for x in axis], (0, 0, 0), [Fraction(x, 1 << 170) for x in axis]) for axis in AXES]
+)
+"""Rows of 2^170: the determinant of their inverse is 2^-510."""
+UNDECIDED: dict[str, Row] = {
+    "a volume of 960 called 900 at most": (_four_legs(["-1000000", "900"]), "rejected", "wrench_polytope"),
+    "a volume of 541 called 510 at most": (_six_legs(["-10000", "510"]), "rejected", "velocity_polytope: the volume"),
+    "vast rows": (_only(claims(VAST), "velocity_polytope"), "accepted", "velocity"),
+}
+
 # Ellipsoids
 
 
@@ -403,7 +460,7 @@ INDICES: dict[str, Row] = {
 # Numbers that are exact: bounds that are met, pivots and products that are 0
 
 
-def _exact(content: Content, rows: list[list[int]]) -> Content:
+def _exact(content: Content, rows: Sequence[Sequence[Any]]) -> Content:
     """With exactly these rows, and nothing claimed."""
     table = [[[str(x)] * 2 for x in row] for row in rows]
     unit = [[[str(int(i == j))] * 2 for j in range(len(rows[0]))] for i in range(len(rows[0]))]
@@ -432,12 +489,56 @@ SLANTED = machine(
     speeds=["1", "1", "2"],
 )
 WHETHER = "velocity_polytope: whether there is"
+CORNERS = [{"sides": [[1, a], [2, b]], "at": [["-9", "9"]] * 2} for a in (1, -1) for b in (1, -1)] + [
+    {"sides": [[k, a], [3, a]], "at": [["-9", "9"]] * 2} for k in (1, 2) for a in (1, -1)
+]
+ALL = {"facets": [[k, s] for k in (1, 2, 3) for s in (1, -1)], "vertices": CORNERS, "volume": None}
+TINY = leg([-1, 0, 0], direction=[1 << 320, 0, 0])
+SHARP_TINY = _exact(machine([0], [], legs=[TINY]), [[Fraction(1, 1 << 320)]])
+"""A row of 2^-320."""
+ROUND_TINY = [
+    {"legs": [], "side": side, "normal": [[str(side)] * 2], "offset": [str(Fraction(1, 1 << 320))] * 2}
+    for side in (1, -1)
+]
+SMALL_ROW = Fraction(3, 1 << 161)
+SHARP_SMALL = _exact(machine([0], [], legs=[leg([-3, -1, 0], direction=[0, 1 << 161, 0])]), [[SMALL_ROW]])
+FAINT = str(Fraction(1, 1 << 170))
 MET: dict[str, Row] = {
     "corners on a side, dropped": (CORNER | {"velocity_polytope": REST}, "rejected", WHETHER),
     "corners on a side, dropped, exactly": (
         _exact(SLANTED, [[1, 0], [0, 1], [1, 1]]) | {"velocity_polytope": REST},
         "rejected",
         WHETHER,
+    ),
+    "corners on a side, listed for all pairs of sides, exactly": (
+        _exact(SLANTED, [[1, 0], [0, 1], [1, 1]]) | {"velocity_polytope": ALL},
+        "rejected",
+        WHETHER,
+    ),
+    "wrenches of a row of 2^-320": (
+        SHARP_TINY
+        | {
+            "wrench_polytope": {
+                "facets": ROUND_TINY,
+                "vertices": [[1], [-1]],
+                "volume": [str(Fraction(1, 1 << 319))] * 2,
+            }
+        },
+        "accepted",
+        "wrench",
+    ),
+    "indices of a row of 3/2^161": (
+        SHARP_SMALL
+        | {"indices": {"sigma_min": [FAINT, "1"], "sigma_max": [FAINT, "1"], "condition": ["0", str(1 << 170)]}},
+        "accepted",
+        "indices",
+    ),
+    "a leg of 2^-160": (_only(machine([0], [(Fraction(1, 1 << 160), 0, 0)])), "accepted", "machine"),
+    "forces of legs that may be dependent": (
+        _wide(_only(CUT, "load", "actuator_forces"), "jacobian", (0, 0), ["-1", "2"])
+        | {"jacobian": [[["-9", "9"], ["-9", "9"]]] * 3},
+        "rejected",
+        "actuator_forces: not decided",
     ),
     "corners that a side may cut off, dropped": (
         _wide(CORNER | {"velocity_polytope": REST}, "jacobian", (2, 0), ["1/2", "7/10"]),
@@ -508,6 +609,30 @@ FORMAT: dict[str, Row] = {
         ),
         "accepted",
         "machine",
+    ),
+    "no freedoms at all": (_only(machine([], [(1, 0, 0)])), "malformed", "freedoms"),
+    "a freedom twice, and another": (
+        _only(CUT)
+        | {
+            "freedoms": [0, 0, 1],
+            "free": [0, 0, 1],
+            "jacobian": [[["-9", "9"]] * 3] * 3,
+            "expansion": [[["-9", "9"]] * 3] * 3,
+        },
+        "malformed",
+        "freedoms",
+    ),
+    "one free component without a constraint": (
+        _only(SQUARE) | {"free": [0], "jacobian": [[["-9", "9"]]] * 2, "expansion": [[["1", "1"]], [["-9", "9"]]]},
+        "malformed",
+        "free",
+    ),
+    "one leg for two free components": (_only(machine(FLAT, [(1, 0, 0)])), "malformed", "legs"),
+    "a vertex of wrenches with -2": _with("malformed", [1, -2], "wrench_polytope", "vertices", 0),
+    "legs of a facet twice, and another": (
+        put(_four_legs(["0", "1000000"]), [1, 1, 2], *FACET, "legs"),
+        "malformed",
+        "wrench_polytope.facets[1].legs",
     ),
     "short legs": (_only(machine(FLAT, [(HALF, 0, 0), (0, HALF, 0)])), "accepted", "machine"),
     "twists of 59136 choices": (_twelve(6) | NO_TWISTS, "too-large", "velocity_polytope: too many"),
@@ -637,4 +762,4 @@ FORMAT: dict[str, Row] = {
     "a negative bound": _with("malformed", ["-1", "2"], "indices", "sigma_min"),
     "an index of three": _with("malformed", ["1", "2", "3"], "indices", "condition"),
 }
-ROWS = merged(BOUNDS, LISTS, WIDE, ELLIPSOIDS, INDICES, MET, FORMAT)
+ROWS = merged(BOUNDS, LISTS, WIDE, ELLIPSOIDS, INDICES, MET, UNDECIDED, FORMAT)

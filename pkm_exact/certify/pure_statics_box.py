@@ -101,8 +101,8 @@ def negative(value: Interval) -> Interval:
 
 
 def size(value: Interval) -> Interval:
-    """The absolute values of numbers that have one sign."""
-    return value if value.low > 0 else negative(value)
+    """Around the absolute values."""
+    return Interval(max(value.low, -value.high), max(value.high, -value.low), P)
 
 
 def lies_in(value: Interval, ends: Ends) -> bool:
@@ -213,7 +213,7 @@ def table_of(value: Any, where: str, height: int, width: int) -> list[list[Ends]
 
 def places_of(value: Any, where: str, known: Sequence[int]) -> tuple[int, ...]:
     """Increasing numbers of those known."""
-    pure.well_formed(isinstance(value, list) and 1 <= len(value) <= len(known), f"{where}: not a list of 1 or more")
+    pure.well_formed(isinstance(value, list) and value, f"{where}: not a list of 1 or more")
     good = all(type(x) is int and x in known for x in value) and value == sorted(set(value))
     pure.well_formed(good, f"{where}: not increasing numbers of those that there are")
     return tuple(value)
@@ -288,8 +288,8 @@ def sides_of(value: Any, where: str, m: int) -> Sides:
     """Sides of legs, counted from 0."""
     found = []
     for k, entry in enumerate(value, 1):
-        leg, side = pure_statics.integers(entry, f"{where}[{k}]", 2, range(-1, pure_statics.MAX_LEGS + 1))
-        pure.well_formed(1 <= leg <= m and side in (-1, 1), f"{where}[{k}]: not a leg and a side")
+        leg, side = pure_statics.integers(entry, f"{where}[{k}]", 2, range(-1, m + 1))
+        pure.well_formed(leg >= 1 and side in (-1, 1), f"{where}[{k}]: not a leg and a side")
         found.append((leg - 1, side))
     return tuple(found)
 
@@ -462,11 +462,11 @@ def check_velocity(
         for signs in product((-1, 1), repeat=f):
             right = [interval(side * q[k]) for side, k in zip(signs, chosen, strict=True)]
             s = [scalar(row, right) for row in inverse]
-            speeds = [(scalar(row, s), interval(q[k])) for k, row in enumerate(p) if k not in chosen]
-            if all(-most.low < speed.low and speed.high < most.low for speed, most in speeds):
+            speeds = [(size(scalar(row, s)), interval(q[k])) for k, row in enumerate(p) if k not in chosen]
+            if all(speed.high < most.low for speed, most in speeds):
                 found[tuple(zip(chosen, signs, strict=True))] = s
                 continue
-            outside = any(speed.low > most.high or speed.high < -most.high for speed, most in speeds)
+            outside = any(speed.low > most.high for speed, most in speeds)
             pure.require(outside, "velocity_polytope: whether there is a vertex is not decided in this box")
     points = dict(vertices)
     pure.require(len(points) == len(vertices), "velocity_polytope: a vertex is listed twice")
@@ -480,8 +480,9 @@ def check_velocity(
         room = whole(1)
         for speed in q:
             room = room * interval(2 * speed)
-        size_of = room.over(size(determinant(p)))  # not 0: the rows are regular
-        pure.require(lies_in(size_of, volume), "velocity_polytope: the volume is not within its bounds")
+        part = determinant(p)
+        pure.require(not part.contains_zero(), "velocity_polytope: the volume is not decided in this box")
+        pure.require(lies_in(room.over(size(part)), volume), "velocity_polytope: the volume is not within its bounds")
 
 
 def check_wrench(
