@@ -75,6 +75,7 @@ golden: $(VENV)/.installed
 	@$(BIN)/certify-poses region models/rolland-6-6.toml certs/regions/rolland-6-6.toml -o certs/regions/rolland-6-6.json >/dev/null
 	@$(BIN)/certify-poses mobility models/3-rps.toml --at 0,0,1/2,1,0,0,0 -o certs/mobility/3-rps.json >/dev/null
 	@$(BIN)/certify-poses mobility models/chains/bennett.toml -o certs/mobility/bennett.json >/dev/null
+	@$(BIN)/certify-poses mobility models/chains/bricard.toml -o certs/mobility/bricard.json >/dev/null
 	@$(BIN)/certify-poses mobility models/chains/seven-link-oblique.toml -o certs/mobility/seven-link-oblique.json >/dev/null
 
 # An error says that a limit was not kept.

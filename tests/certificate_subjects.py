@@ -9,6 +9,7 @@ from functools import cache, partial
 from types import ModuleType
 from typing import Any
 
+import forged_ideal
 import forged_platform
 import forged_second_order
 import pytest
@@ -171,6 +172,8 @@ SUBJECTS = {
     "mobility-2, Bennett": Subject(partial(_mobility, "bennett"), 15, complete=1000),
     "mobility-2, rigid in the third order": Subject(lambda: _rigid(forged_second_order), 15, complete=1000),
     "mobility-2, seven-link": Subject(partial(_mobility, "seven-link-oblique"), 20, complete=2000),
+    "mobility-3, Bricard": Subject(partial(_mobility, "bricard"), 15, complete=1500),
+    "mobility-3, five hinges": Subject(lambda: forged_ideal.ROWS["ideal: five hinges"][0], 15, complete=1000),
     "unproved multiplicities": Subject(partial(_unproved, "3-rpr-triple")),
     "not proven complete": Subject(lambda: without_proof(golden("similar-planar-s")), complete=1500),
     "nothing known": Subject(_nothing),

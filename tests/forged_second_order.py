@@ -847,6 +847,6 @@ _FALSE = {
 }
 _ONE: dict[str, Row] = {
     "second: version 2 in version 1": (put(_TRUE["second: a hinge"][0], 1, "version"), "malformed", "finite: not an"),
-    "second: version 3": (put(_TRUE["second: a hinge"][0], 3, "version"), "malformed", "format: not a"),
+    "second: version 3": (put(_TRUE["second: a hinge"][0], 3, "version"), "malformed", "finite"),
 }
 ROWS: dict[str, Row] = merged(_TRUE, _FALSE, _ONE)

@@ -82,13 +82,15 @@ FREE = (
 """All entries that a new digest can cover, with the reason. Docs: ``docs/certificates.md``, "What a digest binds"."""
 
 FREE_MOBILITY = (
-    Free("mechanism", "the question: the same is proved of the other mechanism", ("mobility", "mobility-2")),
-    Free("*.rows", "another minor that is not 0", ("mobility", "mobility-2")),
-    Free("actuator_sets.*.complete", "claims less if it is false", ("mobility", "mobility-2")),
+    Free(
+        "mechanism", "the question: the same is proved of the other mechanism", ("mobility", "mobility-2", "mobility-3")
+    ),
+    Free("*.rows", "another minor that is not 0", ("mobility", "mobility-2", "mobility-3")),
+    Free("actuator_sets.*.complete", "claims less if it is false", ("mobility", "mobility-2", "mobility-3")),
     Free("finite", "null claims less", ("mobility",), below=False),
     Free("finite.legs", "another order of the legs", ("mobility",), below=False),
-    Free("finite.dependencies", "others prove the same", ("mobility-2",)),
-    Free("finite.above", "another section, or a greater degree", ("mobility-2",)),
+    Free("finite.dependencies", "others prove the same", ("mobility-2", "mobility-3")),
+    Free("finite.above", "another section, or a greater degree", ("mobility-2", "mobility-3")),
     Free("finite.below", "another order of the legs, other freedoms, other vectors", ("mobility-2",)),
 )
 """The same for certificates of mobility. Docs: ``docs/certificates-mobility.md``."""

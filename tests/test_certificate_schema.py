@@ -19,6 +19,7 @@ from pkm_exact.certify import (
     links_build,
     mobility_build,
     mobility_second_build,
+    mobility_third_build,
     platform_build,
     pure,
     region_build,
@@ -36,6 +37,7 @@ POSES, TOLERANCES = "certificate-1.schema.json", "tolerance-certificate-1.schema
 SECOND = "certificate-2.schema.json"
 MOBILITY = "mobility-certificate-1.schema.json"
 MOBILITY_2 = "mobility-certificate-2.schema.json"
+MOBILITY_3 = "mobility-certificate-3.schema.json"
 PLATFORM = "platform-certificate-1.schema.json"
 SYSTEMS = "system-certificate-1.schema.json"
 REGIONS = "region-certificate-1.schema.json"
@@ -58,12 +60,16 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     by_format[platform_build.FORMAT] = PLATFORM
     name = by_format.get(content["format"], POSES)
     name = {POSES: SECOND, MOBILITY: MOBILITY_2}[name] if content["version"] == 2 else name
+    name = MOBILITY_3 if content["version"] == 3 else name
     return jsonschema.Draft202012Validator(_schema(name))
 
 
 @pytest.mark.parametrize(
     "name",
-    [POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, PLATFORM, REGIONS, REGIONS_2, STATICS, LINKS, STATICS_2],
+    [
+        *(POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, MOBILITY_3, PLATFORM),
+        *(REGIONS, REGIONS_2, STATICS, LINKS, STATICS_2),
+    ],
 )
 def test_schemas_are_schemas(name: str) -> None:
     jsonschema.Draft202012Validator.check_schema(_schema(name))
@@ -97,7 +103,7 @@ def _objects(value: Any, node: Any, root: Any) -> Any:
     if isinstance(value, dict):
         yield value, node
         yield from chain.from_iterable(_objects(value[key], node["properties"][key], root) for key in value)
-    elif isinstance(value, list):
+    elif isinstance(value, list) and node["items"] is not False:  # no objects in lists of a fixed length
         yield from chain.from_iterable(_objects(entry, node["items"], root) for entry in value)
 
 
@@ -200,9 +206,19 @@ def test_the_page_of_mobility_defines_every_key_in_its_order() -> None:
     assert _tables("Format", "## Checks", "certificates-mobility.md") == [_keys(part) for part in parts]
     second = _schema(MOBILITY_2)["$defs"]
     expected = [_keys(second[key]) for key in ("finite", "above", "below")]
-    assert _tables("Version 2", "## What the digest binds", "certificates-mobility.md") == expected
+    assert _tables("Version 2", "## Version 3", "certificates-mobility.md") == expected
+    third = _schema(MOBILITY_3)["$defs"]
+    assert _tables("Version 3", "## What the digest binds", "certificates-mobility.md") == [
+        _keys(third["below"])[-1:],
+        _keys(third["curve"]),
+    ]
     page = (CERTS.parent / "docs" / "certificates-mobility.md").read_text()
-    words = [word for key in ("finite", "above", "below") for word in second[key]["properties"]["argument"]["enum"]]
+    words = [
+        word
+        for root in (second, third)
+        for key in ("finite", "above", "below")
+        for word in root[key]["properties"]["argument"]["enum"]
+    ]
     assert all(f'`"{word}"`' in page for word in words)
 
 
@@ -263,7 +279,15 @@ def test_words_and_limits_are_the_same_everywhere() -> None:
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.format} {kind.version}")
 def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
     writers = (build, build_constraints, tolerance_build, system_build, mobility_build, region_build, statics_build)
-    writers = (*writers, mobility_second_build, platform_build, links_build, region_build_2, statics_box_build)
+    writers = (
+        *writers,
+        mobility_second_build,
+        mobility_third_build,
+        platform_build,
+        links_build,
+        region_build_2,
+        statics_box_build,
+    )
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"

@@ -1,6 +1,7 @@
 """Mobility certificates made by hand: both checkers say of each what is true."""
 
 import pytest
+from forged_ideal import ROWS as THIRD
 from forged_mobility import ROWS as FIRST
 from forged_second_order import ROWS as SECOND
 from tables_of_rows import merged
@@ -9,7 +10,7 @@ from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import check_bytes
 
-ROWS = merged(FIRST, SECOND)
+ROWS = merged(FIRST, SECOND, THIRD)
 
 
 @pytest.mark.parametrize("name", ROWS)

@@ -18,7 +18,9 @@ from pkm_exact.mobility.analysis import LinkageMobility
 from pkm_exact.mobility.closure_series import higher_order
 from pkm_exact.mobility.finite_mobility import Argument, finite
 from pkm_exact.mobility.instantaneous_mobility import instantaneous
-from pkm_exact.mobility.second_order import cone_dimension
+from pkm_exact.mobility.local_ring import local_degree
+from pkm_exact.mobility.motion_series import motion_series
+from pkm_exact.mobility.second_order import cone_dimension, section_vectors
 
 ROOT = Path(__file__).parent.parent
 CHAINS = ROOT / "models" / "chains"
@@ -53,6 +55,10 @@ def _hinges(points: list[tuple[object, ...]], axes: list[tuple[object, ...]], cu
         ("3-pprr", 8, 4, 0, "1 translation along (0, 0, 1)", "subgroups"),
         ("sarrus", 5, 1, 0, "1 translation along (0, 0, 1)", "subgroups"),
         ("seven-link", 5, 2, 1, "1 translation along (0, 0, 1)", "subgroups"),
+        (
+            *("bricard", 5, 1, 0),
+            *("1 screw motion of pitch 24/5 about an axis along (2, 1, 0) through (0, 0, -7/5)", "real curves"),
+        ),
         ("peaucellier", 9, 1, -8, "1 rotation about an axis along (0, 0, 1) through (96/37, 6, 0)", "regular"),
         ("3-prrr", 9, 3, 0, "3 translations in all directions", "subgroups"),
         ("3-upu", 12, 3, 3, "3 translations in all directions", "regular"),
@@ -251,9 +257,78 @@ def with_arm() -> Linkage:
     return replace(linkage, bodies=(*linkage.bodies, "arm"), joints=(*linkage.joints, arm), platform="arm")
 
 
-def test_what_is_not_decided_has_bounds() -> None:
+def test_parts_that_share_no_loop_move_by_themselves() -> None:
     proved = finite(instantaneous(with_arm()))
-    assert (proved.least, proved.most, proved.argument, proved.is_known) == (0, 2, Argument.NONE, False)
+    assert (proved.least, proved.most, proved.argument) == (2, 2, Argument.CURVES)
+    assert (proved.platform_least, proved.platform_most) == (2, 2)
+    assert [[bool(speed) for speed in curve.speeds] for curve in proved.curves] == [
+        [True] * 4 + [False],
+        [False] * 4 + [True],
+    ]
+
+
+def test_bricard_s_loops_move_along_curves_that_are_not_rational() -> None:
+    """Line-symmetric, as shipped, and plane-symmetric: hinges 0 and 3 are in the plane, the others mirrored."""
+    proved = found("bricard").finite
+    assert (proved.least, proved.most, proved.argument) == (1, 1, Argument.CURVES)
+    assert len(proved.curves[0].relation) == 3
+    points, axes = [(0, 0, 0), (1, 2, 1), (3, 3, 2), (5, 1, 0)], [(1, 2, 0), (1, 0, 1), (2, 1, -1), (1, -3, 0)]
+    mirrored = [(x, y, -z) for x, y, z in points[2:0:-1]], [(-x, -y, z) for x, y, z in axes[2:0:-1]]
+    loop = instantaneous(_hinges([*points, *mirrored[0]], [*axes, *mirrored[1]]))
+    assert loop.total == 1
+    assert finite(loop).argument == Argument.CURVES
+
+
+SEVEN = (
+    [(0, -1, 0), (0, 1, 1), (-1, 0, 0), (0, -1, 1), (0, -1, 0), (-1, -1, -1), (0, 1, 1)],
+    [(1, 1, -1), (0, -1, 0), (1, -1, 1), (1, 0, 1), (-1, -1, 0), (-1, 1, -1), (0, -1, 0)],
+)
+"""Seven hinges with two freedoms to the second order, one of which goes on."""
+
+
+def test_the_local_ring_bounds_what_the_second_order_does_not() -> None:
+    singular = instantaneous(_hinges(*SEVEN))
+    assert (singular.total, cone_dimension(singular)) == (2, 2)
+    proved = finite(singular)
+    assert (proved.least, proved.most, proved.argument) == (1, 1, Argument.LOCAL_RING_AND_CURVES)
+    twice = instantaneous(_two_loops(THIRD))
+    assert (twice.total, cone_dimension(twice)) == (2, 2)
+    proved = finite(twice)
+    assert (proved.least, proved.most, proved.argument) == (0, 0, Argument.LOCAL_RING)
+
+
+def _two_loops(hinges: Any) -> Linkage:
+    """A loop, and the same loop again on its second body."""
+    loop = _hinges(*hinges)
+    names = {body: f"c{body}" if body != "b0" else "b1" for body in loop.bodies}
+    again = tuple(
+        replace(joint, name=f"c{joint.name}", bodies=(names[joint.bodies[0]], names[joint.bodies[1]]))
+        for joint in loop.joints
+    )
+    return replace(
+        loop, bodies=(*loop.bodies, *(f"c{body}" for body in loop.bodies[1:])), joints=(*loop.joints, *again)
+    )
+
+
+def test_a_multiple_of_the_half_tangents_is_no_motion_of_the_others() -> None:
+    """The series of the fourth-order loop leave it, modulo primes as over the rational numbers."""
+    loop = instantaneous(_hinges(*FOURTH))
+    prime = 2**61 - 1
+    assert motion_series(loop, prime, 3) is not None
+    assert motion_series(loop, prime, 4) is None
+    assert local_degree(loop, section_vectors(1, 0)) == 4
+
+
+def test_what_is_not_decided_has_bounds() -> None:
+    """The form of the second order is a square: nothing is seen from below."""
+    proved = finite(instantaneous(_hinges(*CUSP)))
+    assert (proved.least, proved.most, proved.argument, proved.is_known) == (0, 1, Argument.NONE, False)
+
+
+CUSP = (
+    [(0, 0, -1), (1, 0, 1), (-1, 0, 0), (0, 1, -1), (-1, 1, 0), (1, 0, 0), (-1, 1, 0)],
+    [(1, 0, -1), (0, 0, 1), (0, 1, 0), (-1, -1, 1), (1, 1, 0), (-1, -1, 0), (-1, 0, 0)],
+)
 
 
 def test_the_platform_moves_as_its_legs_can() -> None:
@@ -366,7 +441,7 @@ def test_bad_questions_are_refused_in_one_sentence(
 
 
 def test_what_is_not_known_has_an_exit_code_of_its_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    linkage = with_arm()
+    linkage = _hinges(*CUSP)
     text = 'schema = 1\nname = "folded"\nkind = "chains"\nunit = "1"\nsource = "a test"\n'
     text += "".join(f'[[bodies]]\nname = "{body}"\n' for body in linkage.bodies)
     for joint in linkage.joints:
@@ -375,4 +450,4 @@ def test_what_is_not_known_has_an_exit_code_of_its_own(tmp_path: Path, capsys: p
         text += f"point = {point}\naxis = {axis}\n"
     (tmp_path / "flat.toml").write_text(text)
     assert main(["mobility", str(tmp_path / "flat.toml")]) == 3
-    assert "not known, 0 to 2" in capsys.readouterr().out
+    assert "not known, 0 to 1" in capsys.readouterr().out

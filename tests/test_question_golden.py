@@ -25,6 +25,7 @@ COMMANDS = {
     ],
     "mobility/3-rps": ["mobility", "models/3-rps.toml", "--at", "0,0,1/2,1,0,0,0"],
     "mobility/bennett": ["mobility", "models/chains/bennett.toml"],
+    "mobility/bricard": ["mobility", "models/chains/bricard.toml"],
     "statics/3-rps": [
         "statics",
         "certs/3-rps.json",

@@ -172,7 +172,7 @@ def listed_sets(sets: ActuatorSets, linkage: Linkage) -> dict[str, Any]:
 
 def _finite(found: LinkageMobility) -> tuple[int, dict[str, Any] | None]:
     """The version that has the words for it, and the argument for the finite mobility."""
-    from pkm_exact.certify import mobility_second_build
+    from pkm_exact.certify import mobility_second_build, mobility_third_build
     from pkm_exact.mobility.finite_mobility import Argument
     from pkm_exact.mobility.second_order_proof import second_order_proof
 
@@ -184,4 +184,6 @@ def _finite(found: LinkageMobility) -> tuple[int, dict[str, Any] | None]:
     proof = second_order_proof(found.free, found.finite)
     if proof is None:
         return VERSION, None
+    if proof.is_of_the_ideal:
+        return mobility_third_build.VERSION, mobility_third_build.finite_entry(found, proof)
     return mobility_second_build.VERSION, mobility_second_build.finite_entry(found, proof)

@@ -1,8 +1,8 @@
 """Checks certificates of mobility with Python's integers and nothing else.
 
 The part of the plain checker that ``pure.py``, beside this file, uses when it meets such a certificate. Written from
-the definition of the format and its proofs, ``docs/certificates-mobility.md``; the sections below have its order. It
-shares no line with the other checker.
+the definition of the format and its proofs, ``docs/certificates-mobility.md``; the sections below have its order, and
+``pure_mobility_ideal.py`` has what version 3 has more. It shares no line with the other checker.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ from math import comb, gcd, lcm
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
 if TYPE_CHECKING or __package__:
-    from pkm_exact.certify import pure
+    from pkm_exact.certify import pure, pure_mobility_ideal
 else:
     import pure
+    import pure_mobility_ideal
 
 __all__ = ["replayed"]
 
@@ -610,6 +611,7 @@ class Bounds(NamedTuple):
     legs: tuple[Leg, ...] = ()
     signs: tuple[Row, ...] = ()
     curve: tuple[tuple[Row, ...], ...] = ()
+    curves: tuple[pure_mobility_ideal.Curve, ...] = ()
 
 
 def some_bounds(value: Any, joints: Sequence[str], freedoms: Sequence[str]) -> Bounds:
@@ -652,6 +654,44 @@ def with_below(bounds: Bounds, value: Any, joints: Sequence[str], freedoms: Sequ
     return bounds._replace(below=lower, held=shut, legs=read, signs=signs, curve=path)
 
 
+def bounds_of_the_ideal(value: Any, joints: Sequence[str], freedoms: Sequence[str]) -> Bounds:
+    """The entry ``finite`` of version 3."""
+    word, least, most, low, high, dependencies, above, below = pure.an_object(
+        value, "finite", "argument least most platform_least platform_most dependencies above below"
+    )
+    argument = pure.one_of(("ideal",))(word, "finite.argument")
+    mobility = pure.a_number(least, "finite.least"), pure.a_number(most, "finite.most")
+    platform = pure.a_number(low, "finite.platform_least"), pure.a_number(high, "finite.platform_most")
+    some_rows = pure.a_list(pure.a_list(pure.a_rational))
+    upper, section, degree = pure.an_object(above, "finite.above", "argument section degree")
+    pure.one_of(("rank", "cone", "definite", "local"))(upper, "finite.above.argument")
+    cut, number = some_rows(section, "finite.above.section"), pure.a_number(degree, "finite.above.degree")
+    sized_right = (cut and 2 <= number <= MAX_DEGREE) if upper in ("cone", "local") else not cut and not number
+    pure.well_formed(sized_right, "finite.above: not the parts of the argument")
+    known = some_rows(dependencies, "finite.dependencies")
+    found = Bounds(argument, mobility, platform, known, upper, cut, number, ())
+    if below is not None:
+        found = with_curves(found, below, joints, freedoms)
+    used = found.above == "local" or found.below == "curves"
+    pure.well_formed(used, "finite.argument: not that of its parts")
+    return found
+
+
+def with_curves(bounds: Bounds, value: Any, joints: Sequence[str], freedoms: Sequence[str]) -> Bounds:
+    """The same with the entry ``below`` of version 3."""
+    lower, held, legs, vectors, curves = pure.an_object(value, "finite.below", "argument locked legs vectors curves")
+    pure.one_of(("regular", "subgroups", "indefinite", "curves"))(lower, "finite.below.argument")
+    shut = in_order(freedoms)(held, "finite.below.locked")
+    read = some_legs(joints)(legs, "finite.below.legs")
+    signs = pure.a_list(pure.a_list(pure.a_rational))(vectors, "finite.below.vectors")
+    paths = pure.a_list(pure_mobility_ideal.a_curve)(curves, "finite.below.curves")
+    expected = (lower == "subgroups", 2 if lower == "indefinite" else 0, lower == "curves")
+    locks = lower in ("regular", "subgroups") or not shut
+    fits = locks and (bool(read), len(signs), bool(paths)) == expected
+    pure.well_formed(fits, "finite.below: not the parts of the argument")
+    return bounds._replace(below=lower, held=shut, legs=read, signs=signs, curves=paths)
+
+
 def a_half_tangent(value: Any, where: str) -> tuple[Row, ...]:
     """The coefficients of numerator and denominator."""
     found: tuple[Row, ...] = pure.a_list(pure.a_list(pure.a_rational), 2)(value, where)
@@ -666,9 +706,12 @@ def check_bounds(
     bounds: Bounds,
     matrices: Sequence[Sequence[Sequence[Fraction]]],
     motions: Sequence[Row],
+    minor: RankProof,
 ) -> str:
-    """The line of the bounds, if all is proved; ``matrices`` are M and P."""
+    """The line of the bounds, if all is proved; ``matrices`` are M and P, ``minor`` proves the rank of M."""
     m, p = matrices
+    ways = [passed(mechanism, loop) for loop in loops]
+    twists = [twist for joint in mechanism.joints for twist in joint.twists]
     for u in bounds.dependencies:
         pure.well_formed(len(u) == len(m), "finite.dependencies: not a number for each equation")
         columns = [list(column) for column in zip(*m, strict=True)]
@@ -677,6 +720,9 @@ def check_bounds(
     if bounds.above == "order":
         check_order(mechanism, loops, bounds, len(motions))
     check_above(bounds, forms, len(motions))
+    if bounds.above == "local":
+        directions = [tuple(applied(list(zip(*motions, strict=True)), vector)) for vector in bounds.section]
+        pure_mobility_ideal.check_local(twists, ways, m, (minor.rows, minor.columns), directions, bounds.degree)
     least, low = (0, 0)
     if bounds.below == "indefinite":
         one_more = dimension_of_groups(mechanism, loops) == len(mechanism.freedoms) - len(motions) + 1
@@ -688,6 +734,9 @@ def check_bounds(
         least = len(motions) - 1
     elif bounds.below == "curve":
         least, low = 1, check_curve(mechanism, loops, bounds.curve, p)
+    elif bounds.below == "curves":
+        speeds = pure_mobility_ideal.check_curves(twists, ways, bounds.curves)
+        least, low = len(speeds), rank_of([applied(p, x) for x in speeds])
     elif bounds.below is not None:
         kept = [k for k in range(len(mechanism.freedoms)) if k not in bounds.held]
         rest = [[row[k] for k in kept] for row in m]
@@ -735,7 +784,7 @@ def check_above(bounds: Bounds, forms: Sequence[Square], mobility: int) -> None:
     most = mobility
     if bounds.above in ("order", "definite"):
         most = 0
-    elif bounds.above == "cone":
+    elif bounds.above in ("cone", "local"):
         right = all(len(vector) == mobility for vector in bounds.section)
         pure.well_formed(right, "finite.above.section: not a number for each motion")
         most = mobility - len(bounds.section)
@@ -895,14 +944,16 @@ def rank_modulo(rows: Sequence[Integers], p: int) -> int:
 def replayed(body: dict[str, Any]) -> Iterator[str]:
     """The content, read at once, and its checks, one after another."""
     version = body.get("version")
-    known = body.get("format") == FORMAT and type(version) is int and version in (1, 2)
-    pure.well_formed(known, f"format: not a {FORMAT}, version 1 or 2")
+    known = body.get("format") == FORMAT and type(version) is int and version in (1, 2, 3)
+    pure.well_formed(known, f"format: not a {FORMAT}, version 1, 2 or 3")
     content = dict(zip(KEYS.split(), pure.an_object(body, "certificate", KEYS), strict=True))
     mechanism = a_mechanism(content["mechanism"])
     names = [joint.name for joint in mechanism.joints]
     finite: tuple[str, tuple[Leg, ...]] | Bounds | None
     if version == 1:
         finite = finite_argument(content["finite"], names)
+    elif version == 3:
+        finite = bounds_of_the_ideal(content["finite"], names, mechanism.freedoms)
     else:
         finite = some_bounds(content["finite"], names, mechanism.freedoms)
     among, sets = actuator_sets(content["actuator_sets"], mechanism.freedoms)
@@ -952,7 +1003,7 @@ def checks(
         yield "finite: nothing is claimed"
         return
     if isinstance(finite, Bounds):
-        yield check_bounds(mechanism, loops, finite, (matrix, platform), motions)
+        yield check_bounds(mechanism, loops, finite, (matrix, platform), motions, proofs["loops"])
         return
     check_finite(mechanism, loops, finite, rank)
     yield f"finite: mobility {free} near the configuration, by the argument {finite[0]}"

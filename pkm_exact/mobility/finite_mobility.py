@@ -15,24 +15,29 @@ Rank alone tells no more than an upper bound. The dimension d at the configurati
     higher-order The instantaneous mobility is 1, and the power series of the only curve there can be has no term of
     some order.
     curve It is 1, and half tangents that are rational functions of one number close the loops, as polynomials.
+    real curves From below, algebraic curves close the loops, as polynomials modulo the equation of the curve, and move
+    parts that share no loop.
+    local ring over C From above, the configuration is isolated, real and complex, on a section with linear forms.
 
-Otherwise there are bounds: the dimension of the cone from above, and what is proved with some freedoms locked from
-below.
+Otherwise there are bounds: the least that is proved from above, and the most from below.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import reduce
 from itertools import chain, combinations
 from typing import Final
 
 from pkm_exact.geometry.linkage import Linkage
+from pkm_exact.mobility.algebraic_curve import AlgebraicCurve
 from pkm_exact.mobility.closure_series import higher_order
-from pkm_exact.mobility.instantaneous_mobility import Instantaneous, instantaneous
+from pkm_exact.mobility.curve_families import independent_curves
+from pkm_exact.mobility.instantaneous_mobility import Instantaneous, images, instantaneous
 from pkm_exact.mobility.legs_of_linkage import Leg, legs_of
+from pkm_exact.mobility.local_ring import local_dimension
 from pkm_exact.mobility.reachable import legs_are_transversal
 from pkm_exact.mobility.second_order import cone_dimension, obstructions, signature
 from pkm_exact.screws.screw import Screw
@@ -52,6 +57,9 @@ class Argument(StrEnum):
     SECOND_ORDER = "second-order"
     HIGHER_ORDER = "higher-order"
     CURVE = "curve"
+    CURVES = "real curves"
+    LOCAL_RING = "local ring over C"
+    LOCAL_RING_AND_CURVES = "local ring over C and real curves"
     NONE = "not known"
 
 
@@ -69,6 +77,10 @@ class Finite:
         Bounds of the dimension of the platform's poses there.
     locked : tuple of str
         The freedoms whose locking leaves the motion that the lower bound is proved by.
+    curves : tuple of AlgebraicCurve
+        What the lower bound is proved by, if it is these.
+    is_by_local_ring : bool
+        Whether the upper bound is that of the complex configurations in the local ring.
 
     Examples
     --------
@@ -84,6 +96,8 @@ class Finite:
     platform_least: int
     platform_most: int
     locked: tuple[str, ...] = ()
+    curves: tuple[AlgebraicCurve, ...] = ()
+    is_by_local_ring: bool = False
 
     @property
     def is_known(self) -> bool:
@@ -115,8 +129,26 @@ def finite(found: Instantaneous) -> Finite:
     if further is not None:
         return Finite(0, 0, Argument.HIGHER_ORDER, 0, 0)
     least, platform_least, locked = _with_freedoms_locked(found, most)
-    known = Argument.SECOND_ORDER if least == most else Argument.NONE
-    return Finite(least, most, known, platform_least, min(most, reach_of_platform(found)), locked)
+    if least == most:
+        return Finite(least, most, Argument.SECOND_ORDER, platform_least, min(most, reach_of_platform(found)), locked)
+    return _by_the_ideal(found, Finite(least, most, Argument.NONE, platform_least, most, locked))
+
+
+def _by_the_ideal(found: Instantaneous, known: Finite) -> Finite:
+    """Narrower bounds, if curves of configurations or the local ring prove them."""
+    curves = independent_curves(found, known.most)
+    if len(curves) > known.least:
+        speeds = [curve.speeds for curve in curves]
+        moving = ScrewSystem.of_rows(images(speeds, found.loops.platform)).rank
+        known = replace(known, least=len(curves), platform_least=moving, locked=(), curves=curves)
+    most = local_dimension(found, known.least, known.most)
+    known = replace(known, most=most, is_by_local_ring=most < known.most)
+    argument = Argument.NONE
+    if known.least == known.most and known.is_by_local_ring:
+        argument = Argument.LOCAL_RING_AND_CURVES if known.curves else Argument.LOCAL_RING
+    elif known.least == known.most:
+        argument = Argument.CURVES
+    return replace(known, argument=argument, platform_most=min(most, reach_of_platform(found)))
 
 
 def reach_of_platform(found: Instantaneous) -> int:

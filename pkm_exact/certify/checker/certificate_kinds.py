@@ -106,7 +106,7 @@ KINDS: Final = (
     CertificateKind(POSES, 2, lambda body: _mechanism_checks(read_mechanism_document(body))),
     CertificateKind(TOLERANCES, 1, lambda body: check_tolerances(read_tolerances(body))),
     CertificateKind(SYSTEMS, 1, lambda body: check_system(read_system_document(body))),
-    *(CertificateKind(MOBILITY, version, lambda body: check_mobility(read_mobility(body))) for version in (1, 2)),
+    *(CertificateKind(MOBILITY, version, lambda body: check_mobility(read_mobility(body))) for version in (1, 2, 3)),
     CertificateKind(PLATFORM, 1, lambda body: check_platform(read_platform(body))),
     CertificateKind(REGIONS, 1, lambda body: check_region(read_region(body))),
     CertificateKind(REGIONS, 2, lambda body: check_region(read_region_2(body))),

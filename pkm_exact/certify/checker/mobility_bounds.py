@@ -1,4 +1,4 @@
-"""Bounds of a finite mobility in the second order, of version 2 of ``docs/certificates-mobility.md``."""
+"""Bounds of a finite mobility, of versions 2 and 3 of ``docs/certificates-mobility.md``."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ from flint import fmpq, fmpq_mat
 
 from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.mobility_closure import check_curve, check_order
+from pkm_exact.certify.checker.mobility_curves import check_curves
 from pkm_exact.certify.checker.mobility_document import MobilityDocument, SecondOrder
 from pkm_exact.certify.checker.mobility_groups import bracket, check_legs, group_dimensions
+from pkm_exact.certify.checker.mobility_local import check_local
 from pkm_exact.certify.checker.mobility_machine import Machine, Rows, exact, rank_of, times, words_of
 from pkm_exact.certify.checker.verdict import malformed, rejected, too_large
 
@@ -27,7 +29,10 @@ def check_second_order(document: MobilityDocument, claim: SecondOrder, machine: 
     forms = [_form(machine, motions, u) for u in dependencies]
     if claim.above == "order":
         check_order(claim, machine, dependencies, motions)
-    _check_above(claim, forms, len(motions))
+    if claim.above == "local":
+        check_local(claim, machine, document.proofs["loops"], motions)
+    else:
+        _check_above(claim, forms, len(motions))
     _check_below(document, claim, machine, forms, len(motions))
     if claim.platform_most != min(claim.most, 6):
         raise rejected("finite.platform_most: not the number that follows")
@@ -140,6 +145,8 @@ def _check_below(
         expected = (mobility - 1, 0)
     elif claim.below == "curve":
         expected = (1, check_curve(claim, machine))
+    elif claim.below == "curves":
+        expected = check_curves(claim, machine)
     else:
         expected = _with_locked(document, claim, machine)
     for key, given, follows in zip(

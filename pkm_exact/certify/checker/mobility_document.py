@@ -20,6 +20,8 @@ FREEDOMS: Final = {"R": 1, "P": 1, "H": 1, "C": 2, "U": 2, "S": 3}
 ARGUMENTS: Final = ("regular", "subgroups")
 ABOVE: Final = ("rank", "cone", "definite", "order")
 BELOW: Final = ("regular", "subgroups", "indefinite", "curve")
+OF_THE_IDEAL: Final = (("rank", "cone", "definite", "local"), ("regular", "subgroups", "indefinite", "curves"))
+"""Arguments above and below of version 3."""
 MOST_DEGREE: Final = 12
 _KEYS: Final = (
     "format",
@@ -84,6 +86,14 @@ class LegOfProof:
 
 
 @dataclass(frozen=True)
+class Curve:
+    """F(s, u), and N(s, u) and D(s) for each freedom: coefficients by powers of u, then of s."""
+
+    relation: tuple[Vector, ...]
+    halves: tuple[tuple[tuple[Vector, ...], Vector], ...]
+
+
+@dataclass(frozen=True)
 class SecondOrder:
     """Bounds of the finite mobility, and why it is not greater and not less; freedoms by their places."""
 
@@ -102,6 +112,7 @@ class SecondOrder:
     legs: tuple[LegOfProof, ...] = ()
     vectors: tuple[Vector, ...] = ()
     curve: tuple[tuple[Vector, ...], ...] = ()
+    curves: tuple[Curve, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -154,6 +165,8 @@ def read_mobility(body: dict[str, Any]) -> MobilityDocument:
     second: SecondOrder | None = None
     if values["version"] == 2:
         second = _second_order(values["finite"], joint_places, freedoms)
+    elif values["version"] == 3:
+        second = _of_the_ideal(values["finite"], joint_places, freedoms)
     else:
         argument, legs = _finite(values["finite"], joint_places)
     among, sets = _actuator_sets(values["actuator_sets"], freedoms)
@@ -353,3 +366,66 @@ def _half(value: Any, where: str) -> tuple[Vector, ...]:
 
 def _vectors(value: Any, where: str) -> tuple[Vector, ...]:
     return items(value, where, None, lambda x, place: items(x, place, None, rational))
+
+
+# Version 3
+
+
+def _of_the_ideal(value: Any, joints: dict[str, int], freedoms: dict[str, int]) -> SecondOrder:
+    keys = ("argument", "least", "most", "platform_least", "platform_most", "dependencies", "above", "below")
+    word, *bounds, dependencies, above, below = entries(value, "finite", keys)
+    choice(word, "finite.argument", ("ideal",))
+    least, most, lower, upper = (count(x, f"finite.{key}") for key, x in zip(keys[1:5], bounds, strict=True))
+    why, section, degree = entries(above, "finite.above", ("argument", "section", "degree"))
+    choice(why, "finite.above.argument", OF_THE_IDEAL[0])
+    cut, number = _vectors(section, "finite.above.section"), count(degree, "finite.above.degree")
+    is_cut = why in ("cone", "local")
+    if bool(cut) != is_cut or not (2 <= number <= MOST_DEGREE if is_cut else number == 0):
+        raise malformed("finite.above: not the parts of the argument")
+    known = _vectors(dependencies, "finite.dependencies")
+    found = SecondOrder(word, least, most, lower, upper, known, why, cut, number, ())
+    if below is not None:
+        found = _with_curves(found, below, joints, freedoms)
+    if found.above != "local" and found.below != "curves":
+        raise malformed("finite.argument: not that of its parts")
+    return found
+
+
+def _with_curves(found: SecondOrder, value: Any, joints: dict[str, int], freedoms: dict[str, int]) -> SecondOrder:
+    how, locked, legs, vectors, curves = entries(
+        value, "finite.below", ("argument", "locked", "legs", "vectors", "curves")
+    )
+    choice(how, "finite.below.argument", OF_THE_IDEAL[1])
+    shut, read = _names(locked, "finite.below.locked", freedoms), _legs(legs, "finite.below.legs", joints)
+    signs, paths = _vectors(vectors, "finite.below.vectors"), items(curves, "finite.below.curves", None, _curve)
+    fits = bool(read) == (how == "subgroups") and len(signs) == 2 * (how == "indefinite")
+    if not fits or bool(paths) != (how == "curves") or (shut and (signs or paths)):
+        raise malformed("finite.below: not the parts of the argument")
+    return replace(found, below=how, locked=shut, legs=read, vectors=signs, curves=paths)
+
+
+def _curve(value: Any, where: str) -> Curve:
+    relation, halves = entries(value, where, ("relation", "halves"))
+    read = _sheets(relation, f"{where}.relation")
+    if len(read) < 2 or not any(read[-1]):
+        raise malformed(f"{where}.relation: not a polynomial with u")
+    return Curve(read, items(halves, f"{where}.halves", None, _half_of_curve))
+
+
+def _half_of_curve(value: Any, where: str) -> tuple[tuple[Vector, ...], Vector]:
+    numerator, denominator = items(value, where, 2, lambda part, _: part)
+    return _sheets(numerator, f"{where}[1]"), _polynomial(denominator, f"{where}[2]")
+
+
+def _sheets(value: Any, where: str) -> tuple[Vector, ...]:
+    found = items(value, where, None, _polynomial)
+    if not 1 <= len(found) <= MOST_DEGREE:
+        raise malformed(f"{where}: not 1 to {MOST_DEGREE} polynomials")
+    return found
+
+
+def _polynomial(value: Any, where: str) -> Vector:
+    found = items(value, where, None, rational)
+    if not 1 <= len(found) <= MOST_DEGREE:
+        raise malformed(f"{where}: not 1 to {MOST_DEGREE} coefficients")
+    return found
