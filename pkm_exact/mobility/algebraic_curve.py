@@ -140,8 +140,8 @@ def _shapes(series: Sequence[nmod_poly], prime: int) -> Iterator[_Shape]:
             candidates: list[int | None] = [None]
         else:
             candidates = [second for n, one, second in pairs if one == first and n == most[first]]
-        for second in candidates:
-            shape = _shape(series, first, second, max(1, most[first]), prime)
+        for other in candidates:
+            shape = _shape(series, first, other, max(1, most[first]), prime)
             if shape is not None:
                 yield shape
 
