@@ -35,6 +35,8 @@ def region_certificate(answer: RegionAnswer) -> dict[str, Any]:
     """
     question, machine = answer.question, answer.machine
     require_words(machine, question)
+    if answer.by_matrix:
+        raise InputError("-o: certificates have no word yet for a matrix that is regular; leave -o out")
     return sealed(second_version(_content(answer), answer) if needs_second(machine, question) else _content(answer))
 
 

@@ -7,7 +7,7 @@ its coefficients at the 2^m corners of the intervals of its y_i, which follow fr
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Final
 
@@ -18,7 +18,8 @@ from pkm_exact.errors import InputError
 from pkm_exact.regions.bernstein import UNIT, Pair, Real, bernstein_coefficients, error_factor, on_sub_boxes
 from pkm_exact.regions.bernstein import subdivision_matrices as subdivision
 from pkm_exact.regions.chart import Polynomial
-from pkm_exact.regions.formula import All, Atom, Formula, Sign
+from pkm_exact.regions.formula import All, Atom, Formula, Regular, Sign, matrices_of
+from pkm_exact.regions.matrix_regularity import CompiledMatrix, compiled_matrix, proved_regular
 
 MOST_COEFFICIENTS: Final = 1 << 20
 """Of one polynomial; more are refused."""
@@ -131,6 +132,8 @@ class CompiledFormula:
     variables : int
     scales : tuple of int
         Those of the y_i.
+    matrices : dict
+        For each condition on a matrix, by its identity, that matrix.
     """
 
     formula: Formula
@@ -138,6 +141,13 @@ class CompiledFormula:
     roots: tuple[tuple[Compiled, float], ...]
     variables: int
     scales: tuple[int, ...] = ()
+    matrices: dict[int, CompiledMatrix] = field(default_factory=dict)
+
+    @property
+    def numbers(self) -> int:
+        """How many coefficients the largest of its parts has."""
+        sizes = [part.tensor.size for pair in self.atoms.values() for part in pair]
+        return max([*sizes, *(matrix.size for matrix in self.matrices.values()), 1])
 
     def truths(self, depths: Sequence[int], places: NDArray[np.int64]) -> Truth:
         """What is proved of the formula on many boxes.
@@ -167,6 +177,12 @@ class CompiledFormula:
         if isinstance(formula, Atom):
             if id(formula) not in done:
                 done[id(formula)] = self._atom(formula, view, ends)
+            return done[id(formula)]
+        if isinstance(formula, Regular):
+            if id(formula) not in done:
+                matrix = self.matrices[id(formula)]
+                regular = proved_regular(matrix, [view.matrices(column.degrees) for column in matrix.columns], ends)
+                done[id(formula)] = regular.astype(np.int8)
             return done[id(formula)]
         start, choose = (1, np.minimum) if isinstance(formula, All) else (-1, np.maximum)
         found: Truth = np.full(view.count, start, dtype=np.int8)
@@ -203,7 +219,8 @@ def compiled_formula(
         tight = compiled(atom.polynomial, box, scales)
         loose = tight if atom.loose is None else compiled(atom.loose, box, scales)
         made[id(atom)] = tight, loose
-    return CompiledFormula(formula, made, tuple(found), count, tuple(scales))
+    matrices = {id(part): compiled_matrix(part.rows, box, scales) for part in matrices_of(formula)}
+    return CompiledFormula(formula, made, tuple(found), count, tuple(scales), matrices)
 
 
 def _largest(polynomial: Polynomial, box: Sequence[Pair], count: int) -> Fraction:
@@ -237,10 +254,13 @@ class View:
             self._matrices[key] = matrices[inverse]
         return self._matrices[key]
 
+    def matrices(self, degrees: Sequence[int]) -> list[Real]:
+        """Those that lead to the boxes, for each variable."""
+        return [self._matrix(k, degree) for k, degree in enumerate(degrees)]
+
     def coefficients_of(self, part: Compiled, ends: Sequence[tuple[Real, Real]]) -> tuple[Real, Real]:
         """The coefficients over the boxes, of each in a row, and how far off they are at most."""
-        matrices = [self._matrix(k, degree) for k, degree in enumerate(part.degrees)]
-        found = on_sub_boxes(part.tensor, matrices, first=len(part.roots))
+        found = on_sub_boxes(part.tensor, self.matrices(part.degrees), first=len(part.roots))
         sizes = np.broadcast_to(part.sizes, (self.count, *part.sizes.shape))
         for root in part.roots:
             low, high = ends[root]

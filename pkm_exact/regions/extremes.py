@@ -153,9 +153,7 @@ def greatest(
 def _batched(
     values: _Values, formula: CompiledFormula, depths: Sequence[int], places: NDArray[np.int64], sign: int
 ) -> tuple[Real, Real, NDArray[np.int8]]:
-    size = max(
-        1, _NUMBERS_AT_ONCE // max([values.size, *(p.tensor.size for pair in formula.atoms.values() for p in pair)])
-    )
+    size = max(1, _NUMBERS_AT_ONCE // max(values.size, formula.numbers))
     found = []
     for start in range(0, len(places), size):
         view = View(depths, places[start : start + size])

@@ -45,6 +45,21 @@ class Atom:
 
 
 @dataclass(frozen=True, eq=False)
+class Regular:
+    """That a matrix is regular. Each root is in one row only. Nothing proves that it is so nowhere in a box.
+
+    Attributes
+    ----------
+    name : str
+    rows : tuple of tuples of fmpq_mpoly
+        Square.
+    """
+
+    name: str
+    rows: tuple[tuple[Polynomial, ...], ...]
+
+
+@dataclass(frozen=True, eq=False)
 class All:
     """All of the parts hold."""
 
@@ -58,12 +73,23 @@ class Some:
     parts: tuple[Formula, ...]
 
 
-Formula: TypeAlias = Atom | All | Some
+Formula: TypeAlias = Atom | Regular | All | Some
 
 
 def atoms_of(formula: Formula) -> list[Atom]:
-    """The atoms, from left to right."""
-    return [formula] if isinstance(formula, Atom) else [atom for part in formula.parts for atom in atoms_of(part)]
+    """The atoms that are signs of polynomials, from left to right."""
+    return [part for part in _leaves(formula) if isinstance(part, Atom)]
+
+
+def matrices_of(formula: Formula) -> list[Regular]:
+    """The matrices, from left to right."""
+    return [part for part in _leaves(formula) if isinstance(part, Regular)]
+
+
+def _leaves(formula: Formula) -> list[Atom | Regular]:
+    if isinstance(formula, Atom | Regular):
+        return [formula]
+    return [leaf for part in formula.parts for leaf in _leaves(part)]
 
 
 def beyond(region: Formula) -> Formula:
@@ -80,5 +106,7 @@ def beyond(region: Formula) -> Formula:
     if isinstance(region, Atom):
         loose = region.polynomial if region.loose is None else region.loose
         return Atom("beyond the region", -loose, Sign.POSITIVE, None if region.loose is None else -region.polynomial)
+    if isinstance(region, Regular):
+        raise TypeError("no region is made of matrices")
     parts = tuple(beyond(part) for part in region.parts)
     return Some(parts) if isinstance(region, All) else All(parts)

@@ -145,8 +145,7 @@ def pave(
 
 
 def _batches(formula: CompiledFormula, places: Places) -> list[Places]:
-    largest = max([part.tensor.size for pair in formula.atoms.values() for part in pair] + [1])
-    size = max(1, _NUMBERS_AT_ONCE // largest)
+    size = max(1, _NUMBERS_AT_ONCE // formula.numbers)
     return [places[k : k + size] for k in range(0, len(places), size)]
 
 

@@ -13,16 +13,20 @@ from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.limits import Cones
 from pkm_exact.regions.chart import POSITIONS, Chart, Polynomial, PosePolynomials, moved, pose_polynomials, rational
 from pkm_exact.regions.design_parameters import varied_legs
-from pkm_exact.regions.formula import All, Atom, Formula, Sign, Some
+from pkm_exact.regions.formula import All, Atom, Formula, Regular, Sign, Some
 from pkm_exact.regions.index_quotients import force_polynomials, index_square
 from pkm_exact.regions.leg_distances import legs_apart
 from pkm_exact.regions.near_angles import BESIDE, squared_cosines, turn_directions
 from pkm_exact.regions.placed_legs import PlacedLeg, placed_leg, without_squares
 from pkm_exact.regions.region_determinants import determinant, structural_rows, wrench_rows
 from pkm_exact.regions.region_legs import OnCrank, OnHinge, OnSlide, OwnLength, RegionMachine, product
+from pkm_exact.regions.region_matrices import determinant_size, has_matrix, require_square, smaller_rows
 
 CONDITIONS: Final = ("reachable", "limits", "no_type_1", "no_type_2")
 """In the order of certificates. That no constraint is singular is part of the last."""
+
+
+_DETERMINANT: Final = "the determinant of the constraints"
 
 
 @dataclass(frozen=True)
@@ -77,6 +81,8 @@ class Asked:
         Of the constraints, if it is asked for: its sign separates poses.
     pose : PosePolynomials
     placed : tuple of PlacedLeg
+    matrix : Regular or None
+        In the place of the determinant, where that is large.
     """
 
     formula: Formula
@@ -84,10 +90,21 @@ class Asked:
     determinant: Polynomial | None
     pose: PosePolynomials
     placed: tuple[PlacedLeg, ...] = ()
+    matrix: Regular | None = None
 
 
-def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> Asked:
+def asked_of(
+    machine: RegionMachine, chart: Chart, conditions: Conditions, *, most_of_determinant: int | None = None
+) -> Asked:
     """The formula of the conditions on a chart.
+
+    Parameters
+    ----------
+    machine : RegionMachine
+    chart : Chart
+    conditions : Conditions
+    most_of_determinant : int, optional
+        How many coefficients the determinant may have for it to be expanded; by default it is, whatever its size.
 
     Raises
     ------
@@ -106,13 +123,28 @@ def asked_of(machine: RegionMachine, chart: Chart, conditions: Conditions) -> As
         parts += legs_apart(machine, pose, placed, chart.box)
     if "no_type_1" in conditions.asked:
         parts += [_keeps_its_mode(leg) for leg in placed]
-    determinant = None
+    determinant, matrix = None, None
     if "no_type_2" in conditions.asked:
-        determinant = constraint_determinant(machine, pose, placed)
-        parts.append(Atom("the determinant of the constraints", determinant, Sign.NOT_ZERO))
+        matrix = _matrix(machine, chart, pose, placed, most_of_determinant)
+        if matrix is None:
+            determinant = constraint_determinant(machine, pose, placed)
+            parts.append(Atom(_DETERMINANT, determinant, Sign.NOT_ZERO))
+        else:
+            parts.append(matrix)
     parts += _indices(machine, pose, placed, conditions) + _forces(machine, pose, placed, conditions)
     roots = tuple(leg.root for leg in placed if leg.root is not None)
-    return Asked(All(tuple(parts)), roots, determinant, pose, tuple(placed))
+    return Asked(All(tuple(parts)), roots, determinant, pose, tuple(placed), matrix)
+
+
+def _matrix(
+    machine: RegionMachine, chart: Chart, pose: PosePolynomials, placed: Sequence[PlacedLeg], most: int | None
+) -> Regular | None:
+    """The matrix in the place of its determinant, if that has more coefficients than ``most``."""
+    if most is None or not has_matrix(chart):
+        return None
+    if determinant_size(wrench_rows(machine, pose, placed), len(chart.variables)) <= most:
+        return None
+    return Regular(_DETERMINANT, smaller_rows(machine, pose, placed))
 
 
 def _indices(
@@ -302,9 +334,5 @@ def constraint_determinant(machine: RegionMachine, pose: PosePolynomials, placed
         If there are not as many as freedoms.
     """
     rows = wrench_rows(machine, pose, placed)
-    if len(rows) != len(machine.twist):
-        raise InputError(
-            f"conditions.no_type_2: {len(rows)} equations for {len(machine.twist)} freedoms; regions know "
-            "this condition where there are as many"
-        )
+    require_square(len(rows), machine)
     return determinant(rows, pose.constant(0))

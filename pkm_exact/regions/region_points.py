@@ -11,8 +11,9 @@ from flint import arb
 
 from pkm_exact.precision import working_precision
 from pkm_exact.regions.chart import Polynomial, rational
-from pkm_exact.regions.formula import All, Atom, Formula, Sign
+from pkm_exact.regions.formula import All, Atom, Formula, Regular, Sign
 from pkm_exact.regions.region_conditions import Asked
+from pkm_exact.regions.region_matrices import determinant_at
 
 Point = tuple[Fraction, ...]
 
@@ -47,6 +48,7 @@ class PointJudge:
 
     def __init__(self, asked: Asked, region: Formula) -> None:
         self._asked, self._region = asked, region
+        self._known: dict[tuple[int, Point], int | None] = {}
 
     def is_inside(self, point: Point) -> bool:
         """Whether a point of the box is one of the region."""
@@ -58,12 +60,14 @@ class PointJudge:
 
     def determinant_sign(self, point: Point) -> int:
         """The sign of the determinant, 0 if it is not decided."""
+        if self._asked.matrix is not None:
+            return self._matrix_sign(self._asked.matrix, point) or 0
         if self._asked.determinant is None:
             return 0
         return self._sign(self._asked.determinant, point) or 0
 
     def _failing(self, formula: Formula, point: Point) -> str | None:
-        if isinstance(formula, Atom):
+        if isinstance(formula, Atom | Regular):
             return formula.name if self._truth(formula, point) == -1 else None
         names = [self._failing(part, point) for part in formula.parts]
         if isinstance(formula, All):
@@ -73,6 +77,9 @@ class PointJudge:
     def _truth(self, formula: Formula, point: Point) -> int:
         if isinstance(formula, Atom):
             return self._atom(formula, point)
+        if isinstance(formula, Regular):
+            sign = self._matrix_sign(formula, point)
+            return 0 if sign is None else 1 if sign else -1
         truths = [self._truth(part, point) for part in formula.parts]
         return min(truths, default=1) if isinstance(formula, All) else max(truths, default=-1)
 
@@ -86,6 +93,12 @@ class PointJudge:
     @staticmethod
     def _holds(wanted: Sign, sign: int) -> bool:
         return {Sign.POSITIVE: sign > 0, Sign.NOT_NEGATIVE: sign >= 0, Sign.NOT_ZERO: sign != 0}[wanted]
+
+    def _matrix_sign(self, matrix: Regular, point: Point) -> int | None:
+        key = id(matrix), point
+        if key not in self._known:
+            self._known[key] = self._sign(determinant_at(matrix.rows, point, self._asked.pose), point)
+        return self._known[key]
 
     def _sign(self, polynomial: Polynomial, point: Point) -> int | None:
         """The sign of a polynomial at a point, with the roots that belong to it; None if it is not decided."""

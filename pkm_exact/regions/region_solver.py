@@ -27,6 +27,7 @@ from pkm_exact.regions.paving import (
 )
 from pkm_exact.regions.region_conditions import Asked, asked_of
 from pkm_exact.regions.region_legs import RegionMachine
+from pkm_exact.regions.region_matrices import MOST_OF_DETERMINANT
 from pkm_exact.regions.region_points import Counterexample, CounterexampleSearch, Point, PointJudge
 from pkm_exact.regions.region_question import RegionQuestion
 
@@ -63,6 +64,8 @@ class RegionAnswer:
         Then the answer is no.
     member : point or None
         A pose that the region has, if that had to be looked for.
+    by_matrix : bool
+        Whether the matrix of the constraints was proved to be regular, not its determinant to be not 0.
     """
 
     question: RegionQuestion
@@ -71,6 +74,7 @@ class RegionAnswer:
     word: str
     counterexample: Counterexample | None = None
     member: Point | None = None
+    by_matrix: bool = False
 
     @property
     def is_proved(self) -> bool:
@@ -141,7 +145,7 @@ def prepared(machine: RegionMachine, question: RegionQuestion) -> PreparedQuesti
         If it is not one that regions know, or the robot's joints do not allow the region.
     """
     chart = question.chart
-    asked = asked_of(machine, chart, question.conditions)
+    asked = asked_of(machine, chart, question.conditions, most_of_determinant=MOST_OF_DETERMINANT)
     region = question.region(asked, machine.metric)
     if question.answer.kind == "map":
         formula: Formula = All((*region.parts, asked.formula))
@@ -226,7 +230,9 @@ def answered(
     head = pave(ready.compiled, ready.axes, start, last, most=question.answer.boxes, stop_outside=not is_map)
     if not is_map:
         _look(search, ready, head.word, start)
-    result = RegionAnswer(question, machine, ready.axes, head.word, search.found, member)
+    result = RegionAnswer(
+        question, machine, ready.axes, head.word, search.found, member, ready.asked.matrix is not None
+    )
     if search.found is not None or not head.open_parts or last == len(ready.axes):
         return result
     parts = [part for letter, part in leaves(head.word, ready.axes, len(ready.box)) if letter == UNDECIDED]
