@@ -374,7 +374,28 @@ ON_ONE = second(
     directions=[["0", "1", "0", "1"]],
 )
 """Rods on one guide share no joint."""
+STANDING = _as_map(second(region(variables=["y"], place=[0, "y", 0], box=[[-2, 8]])), "u") | {"undecided": 1}
+STANDING |= {"measure": ["0", "10"], "tube": {"corners": [["0", "-1", "0"], ["0", "7", "0"]], "radius": "1"}}
+ROLLING = region(variables=["x", "roll"], place=["x", 0, 0], turns=[["roll"], [1, 0], [1, 0]], box=[[-2, 8], [0, 1]])
+ROLLING = _as_map(second(ROLLING, tube=TUBE), "u") | {"undecided": 1}
+LEANING = second(
+    region([leg((0, 0, 0), (0, 0, 0)), leg((0, 8, 0), (0, 10, 0))], modes=[0, 0], place=["x", 0, 5], box=[[-9, 9]]),
+    leg_distance=8,
+    directions=[["0", "1", "0", "1"]],
+)
+"""Nearest at their lower ends, wherever the upper ones are."""
+OUT_OF_REACH = second(region([TURNED], modes=[1], conditions=["reachable"], box=[[5, 6]]), joints=[[0, 360]])
+SHORT_ROD = leg((0, 0, 0), (0, 3, 0), None, direction=(0, 1, 0), rod=1)
+SHORT = second(region([DRIVEN, SHORT_ROD], modes=[1, 1], conditions=["reachable"]), joints=[[5, 8]] * 2)
 WHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
+    "a tube along y": (STANDING, ("tube", "radius"), "1/2", "accepted", "measure"),
+    "a tube that leaves where x is fixed": (STANDING, ("tube", "corners", 1, 0), "1", "malformed", "tube.corners: one"),
+    "a tube with turns": (ROLLING, ("tube", "radius"), "1/2", "accepted", "paving"),
+    "legs that lean": (LEANING, ("directions", 0, 3), "1", "accepted", GOOD),
+    "legs that lean, exactly": (LEANING, ("directions", 0), None, "rejected", INSIDE),
+    "legs that lean, farther apart": (LEANING, ("robot", "leg_distance"), "801/100", "rejected", INSIDE),
+    "all angles, where there is none": (_pointed(OUT_OF_REACH), ("modes",), [-1], "rejected", BEYOND),
+    "a member that the second leg does not reach": (SHORT, ("member",), ["7/2"], "rejected", NOT_MEMBER),
     "a tube of one corner": (WIDE, ("tube", "corners"), [["0", "0", "0"]], "malformed", ""),
     "a tube of two corners that are one": (WIDE, ("tube", "corners"), [["0", "0", "0"]] * 2, "malformed", ""),
     "a tube of 64 corners": (
@@ -440,18 +461,30 @@ WHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
         "malformed",
         "tube.corners: one",
     ),
-    "a tube in another box": (AWAY, ("chart", "box", 0), ["20", "30"], "rejected", "tube: the box does not hold it"),
+    "a tube in another box": (
+        AWAY | {"measure": ["0", "10"]},
+        ("chart", "box", 0),
+        ["20", "30"],
+        "rejected",
+        "tube: the box does not hold it",
+    ),
     "a tube beside a box, by less than 1": (
-        NINTH,
+        NINTH | {"measure": ["0", "99/10"]},
         ("chart", "box", 0, 0),
         "9/10",
         "rejected",
         "tube: the box does not",
     ),
     "a tube within a box": (NINTH, ("chart", "box", 0, 0), "-1/3", "accepted", "measure"),
-    "a tube of radius 2": (changed(AWAY, "2", "tube", "radius"), ("chart", "box", 0, 0), "-3", "rejected", "measure"),
+    "a tube of radius 2": (
+        changed(AWAY, "2", "tube", "radius") | {"measure": ["0", "12"]},
+        ("chart", "box", 0, 0),
+        "-3",
+        "accepted",
+        "measure",
+    ),
     "a wider tube of radius 2": (
-        changed(AWAY, "2", "tube", "radius"),
+        changed(AWAY, "2", "tube", "radius") | {"measure": ["0", "23/2"]},
         ("chart", "box", 0, 0),
         "-5/2",
         "rejected",
@@ -742,6 +775,13 @@ SAME: Content = second(
 )
 ELSEWHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
     "nothing said of designs": (BESIDE, ("chart", "parameters"), ["base.scale"], "accepted", "claim: what the boxes"),
+    "a parameter twice, with a variable each": (
+        second(region([UPRIGHT]), parameters={"base.scale": [1, 2], "platform.scale": [1, 2]}, **UNSAID),
+        ("chart", "parameters"),
+        ["base.scale"] * 2,
+        "malformed",
+        "chart.parameters: more",
+    ),
     "no parameters": (BESIDE, ("chart", "parameters"), [], "malformed", ""),
     "a parameter twice": (BESIDE, ("chart", "parameters"), ["base.scale"] * 2, "malformed", "chart.parameters: more"),
     "five parameters": (

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property, partial
-from itertools import pairwise
+from itertools import combinations, pairwise
 from itertools import product as combinations_of
 from math import comb, isqrt, lcm, prod
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
@@ -381,7 +381,7 @@ def second_part(region: Region, found: Mapping[str, Any]) -> Region:
         radius=radius,
         joints=pure.a_list(a_pair)(found["joints"], "joints"),
         directions=pure.a_list(a_direction)(found["directions"], "directions"),
-        member=member if expected else None,
+        member=member,
     )
     require_parameters(region)
     require_positions(region)
@@ -428,13 +428,12 @@ def pairs_apart(region: Region) -> list[tuple[int, int]]:
     if region.robot.least is None or "limits" not in region.asked:
         return []
     found, legs = [], region.robot.legs
-    for j in range(len(legs)):
-        for i in range(j):
-            fixed = not legs[i].axes and not legs[j].axes
-            (base, platform), (base_2, platform_2) = joints_of(region, i), joints_of(region, j)
-            if platform != platform_2 and not (fixed and base == base_2):
-                found.append((i, j))
-    return sorted(found)
+    for i, j in combinations(range(len(legs)), 2):
+        fixed = not legs[i].axes and not legs[j].axes
+        (base, platform), (base_2, platform_2) = joints_of(region, i), joints_of(region, j)
+        if platform != platform_2 and not (fixed and base == base_2):
+            found.append((i, j))
+    return found
 
 
 def joints_of(region: Region, number: int) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
@@ -622,7 +621,7 @@ class Equations:
     def follow(self, path: Sequence[Numbers]) -> None:
         """Positions on the curve: everything has its denominator as a factor."""
         rest = (0,) * (self.size - 1)
-        curve = [{(power, *rest): x for power, x in enumerate(entry) if x} for entry in path]
+        curve = [{(power, *rest): x for power, x in enumerate(entry)} for entry in path]
         self.center = [times(self.norm, place) for place in curve[1:]]
         self.norm = times(self.norm, curve[0])
         self.rotation = [[times(entry, curve[0]) for entry in row] for row in self.rotation]
@@ -1226,8 +1225,7 @@ class Part:
     def ends(self) -> list[tuple[Fraction, Fraction]]:
         """Bounds of the roots."""
         tables = [self.table(root) for root in self.roots]
-        for table in tables:
-            pure.spend(cost_of(table))
+        pure.spend(sum(map(cost_of, tables)))
         return [root_ends(table) for table in tables]
 
 
@@ -1269,7 +1267,7 @@ class Designs:
         self.letters = enumerate(region.paving, 1)
         self.good = ("or", [opposite(found.region), found.asked])
         self.sided: dict[str, Any] = {}
-        for sign, factor in (("+", 1), ("-", -1)) if found.determinant is not None else ():
+        for sign, factor in (("+", 1), ("-", -1)):
             side = Signed(plus((factor, found.determinant or {})), "+")
             self.sided[sign] = ("and", [found.region, *(Signed(root, "0+") for root in found.roots), side])
 
@@ -1331,7 +1329,7 @@ class Designs:
             return holds(self.good, part.range)
         if letter == "o":
             return holds(self.found.region, part.range) and fails(self.found.asked, part.range)
-        return letter in self.sided and holds(self.sided[letter], part.range)
+        return holds(self.sided[letter], part.range)
 
 
 def holds(condition: Any, ranges: Callable[[Signed], tuple[Any, Any]]) -> bool:
