@@ -451,13 +451,12 @@ def read(body: dict[str, Any]) -> Certificate:
     def entry(key: str, reader: pure.Reader) -> Any:
         return reader(values[key], key)
 
-    robot: Robot = entry("robot", a_robot)
     entry("configuration", pure.nullable(pure.a_text))
     is_code = pure.FORMULATION.fullmatch(entry("formulation", pure.a_text))
     pure.well_formed(is_code, "formulation: not the code of one")
     entry("notes", pure.a_list(pure.a_text))
-    exponent = entry("box_exponent", pure.a_number)
-    pure.affordable(exponent <= pure.MAX_BOX_EXPONENT, f"box_exponent: more than {pure.MAX_BOX_EXPONENT}")
+    # Of two faults the first decides: what can only be rejected comes where the other checker comes to it.
+    robot: Robot = entry("robot", a_robot)
     only_legs = all(constraint.type == "distance" for constraint in robot.constraints)
     return Certificate(
         metric=robot.metric,
@@ -472,13 +471,20 @@ def read(body: dict[str, Any]) -> Certificate:
         ),
         representation=entry("representation", pure.nullable(pure.a_representation)),
         elimination=entry("elimination", pure.nullable(pure.a_list(pure.a_step))),
-        boxes=entry("krawczyk", pure.nullable(partial(some_boxes, robot.bounds()[1]))),
-        box_exponent=exponent,
-        poses=entry("poses", pure.a_list(pure.a_pose)),
-        robot=robot,
         infinity=entry("infinity", pure.nullable(some_points_at_infinity)),
         self_motion=entry("self_motion", pure.nullable(a_self_motion)),
+        boxes=entry("krawczyk", pure.nullable(partial(some_boxes, robot.bounds()[1]))),
+        box_exponent=entry("box_exponent", an_exponent),
+        poses=entry("poses", pure.a_list(pure.a_pose)),
+        robot=robot,
     )
+
+
+def an_exponent(value: Any, where: str) -> int:
+    """Of the grid of the boxes."""
+    exponent = pure.a_number(value, where)
+    pure.affordable(exponent <= pure.MAX_BOX_EXPONENT, f"{where}: more than {pure.MAX_BOX_EXPONENT}")
+    return exponent
 
 
 # ---------------------------------------------------------------------------------------------------------------------
