@@ -16,6 +16,10 @@ from pkm_exact.wording import printable, shown
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from pkm_exact.geometry.machine import Machine
+    from pkm_exact.pictures.capability_picture import Capability
+    from pkm_exact.pictures.drawn_robot import Scene
+
 SMALLEST: Final = 2
 LARGEST: Final = 60
 """Inches of a figure, both ways."""
@@ -74,6 +78,14 @@ def _size(context: click.Context, _option: click.Parameter, value: str | None) -
     help="The robot's model: draws cranks or slides too, and says which limits each pose keeps.",
 )
 @click.option(
+    "--limits",
+    "limits",
+    multiple=True,
+    metavar="KEY=VALUES",
+    help="With --pose: what actuators can do, as for statics; draws the velocities (speeds=..), the largest ellipsoid "
+    "(length=.. as well) and the forces (forces=..) at the platform.",
+)
+@click.option(
     "--view",
     callback=_view,
     metavar="AZIMUTH,ELEVATION",
@@ -93,6 +105,7 @@ def plot(
     overlay: bool,
     roots: bool,
     model: str | None,
+    limits: tuple[str, ...],
     view: tuple[float, float] | None,
     size: tuple[float, float] | None,
     dpi: int,
@@ -107,10 +120,13 @@ def plot(
       certify-poses plot certs/rolland-6-6.json -o poses.png
       certify-poses plot certs/rolland-6-6.json -o pose.svg --pose 3 --view -30,15
       certify-poses plot certs/hexa.json -o hexa.pdf --model models/hexa.toml
+      certify-poses plot certs/rolland-6-6.json -o forces.png --pose 3 --limits forces=5
       certify-poses plot certs/rolland-6-6.json -o roots.png --roots
     """
-    if roots and (pose is not None or overlay or view is not None or model is not None):
-        raise click.UsageError("--roots excludes --pose, --overlay, --view and --model.")
+    if roots and (pose is not None or overlay or view is not None or model is not None or limits):
+        raise click.UsageError("--roots excludes --pose, --overlay, --view, --model and --limits.")
+    if limits and pose is None:
+        raise click.UsageError("--limits: is drawn at one pose, give --pose K as well.")
     path, source = Path(output), Path(certificate)
     from pkm_exact.interactive.progress import Progress
     from pkm_exact.pictures.output import picture_format
@@ -131,7 +147,7 @@ def plot(
         click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
         return ExitCode.REJECTED
     try:
-        figure, line = _figure(document, pose, overlay, roots, model, view, size)
+        figure, line = _figure(document, pose, overlay, roots, model, limits, view, size)
         data = _bytes(figure, suffix, dpi)
     except InputError as error:
         raise InputError(f"{certificate}: {error}") from None
@@ -146,6 +162,7 @@ def _figure(
     overlay: bool,
     roots: bool,
     model: str | None,
+    limits: tuple[str, ...],
     view: tuple[float, float] | None,
     size: tuple[float, float] | None,
 ) -> tuple[Figure, str]:
@@ -163,16 +180,37 @@ def _figure(
         return roots_figure(document, size=size), "the roots of the eliminant"
     if model is not None and document["format"] == certified_links.FORMAT:
         raise InputError("--model: a certificate of a mechanism with passive bodies has all of it; leave out the model")
-    scene = scene_of(document, None if model is None else announced_model(model))
+    machine = None if model is None else announced_model(model)
+    scene = scene_of(document, machine)
     seen = DEFAULT_VIEW if view is None else View(*view)
     if pose is not None:
         if view is None and not overlay and pose <= len(scene.poses):
             seen = clear_view(scene, scene.poses[pose - 1])
-        figure = pose_figure(scene, pose, view=seen, size=size, ghosts=overlay)
+        found = (
+            _capabilities(document, machine, pose, limits, scene) if limits and 1 <= pose <= len(scene.poses) else ()
+        )
+        figure = pose_figure(scene, pose, view=seen, size=size, ghosts=overlay, capabilities=found)
         chosen = "" if seen == DEFAULT_VIEW or view else f", seen from {seen.azimuth:g},{seen.elevation:g}"
-        return figure, f"pose {pose} of {len(scene.poses)}{chosen}"
+        scales = "".join(f"; {each.statement(scene.unit)}" for each in found)
+        return figure, f"pose {pose} of {len(scene.poses)}{chosen}{scales}"
     figure = (overlay_figure if overlay else poses_figure)(scene, view=seen, size=size)
     return figure, captions.statement(scene)
+
+
+def _capabilities(
+    document: dict[str, Any], machine: Machine | None, pose: int, limits: tuple[str, ...], scene: Scene
+) -> list[Capability]:
+    """What the machine can do at a pose with these limits, to the scale of the picture."""
+    from pkm_exact.certify.statics_of_poses import at_certified_poses
+    from pkm_exact.cli.statics_answers import answers
+    from pkm_exact.pictures.capability_picture import capabilities
+
+    if "robot" not in document:
+        raise InputError("--limits: is for certificates of poses of a robot or mechanism; this one has passive bodies")
+    found = answers(at_certified_poses(document, machine, [pose - 1])[0], None, None, limits, None)
+    if found.measures is None:
+        raise InputError("--limits: there is no J at this pose; give --model, or another pose")
+    return capabilities(found.measures, found.ellipsoid, scene.size)
 
 
 def _bytes(figure: Figure, suffix: str, dpi: int) -> bytes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import floor, log10
 from typing import TYPE_CHECKING, Any, Final
 
@@ -178,6 +179,18 @@ def add_headline(figure: Figure, first: str, second: str) -> None:
     for line, drop, largest, weight in zip(lines, (0.1, 0.34), (12, 10), ("bold", "normal"), strict=True):
         size = min(largest, fitting(line, width - 0.2, bold=weight == "bold"))
         figure.text(0.5, 1 - drop / height, line, ha="center", va="top", fontsize=size, weight=weight)
+
+
+LINE: Final = 0.16
+"""Height of a line below the headline, in inches."""
+
+
+def add_scales(figure: Figure, lines: Sequence[str]) -> None:
+    """Lines below the headline that say what is drawn to which scale."""
+    width, height = figure.get_size_inches()
+    for place, line in enumerate(lines):
+        size = min(8, fitting(line, width - 0.2))
+        figure.text(0.5, 1 - (0.58 + LINE * place) / height, line, ha="center", va="top", fontsize=size)
 
 
 def fitting(text: str, inches: float, *, bold: bool = False) -> float:

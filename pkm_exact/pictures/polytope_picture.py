@@ -53,11 +53,7 @@ def draw_polytope(
 ) -> Any:
     """Draw a polytope at a place of a figure, and in it the ellipsoid x^T S^-1 x <= 1 of a matrix S; the axes."""
     _require_drawable(polytope)
-    scale = np.sqrt([float(square) for square in polytope.squares])
-    points = np.array(
-        [[float(value.mid() if hasattr(value, "mid") else value) for value in v] for v in polytope.vertices]
-    )
-    points = points * scale
+    points = plain_vertices(polytope)
     if polytope.dimension == 2:
         axes: Any = figure.add_subplot(*place)
         order = np.argsort(np.arctan2(*(points - points.mean(axis=0)).T[::-1]))
@@ -67,7 +63,7 @@ def draw_polytope(
         from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
         axes = figure.add_subplot(*place, projection="3d")
-        faces = [_ordered(points[list(facet.vertices)]) for facet in polytope.facets]
+        faces = [ordered_corners(points[list(facet.vertices)]) for facet in polytope.facets]
         axes.add_collection3d(Poly3DCollection(faces, alpha=0.3, edgecolor="tab:blue", facecolor="tab:blue"))
         axes.set_box_aspect(None, zoom=0.85)  # or the label of z is cut off
         axes.set_zlabel(names[2])
@@ -80,7 +76,14 @@ def draw_polytope(
     return axes
 
 
-def _ordered(points: Any) -> Any:
+def plain_vertices(polytope: Polytope) -> Any:
+    """The vertices in ordinary coordinates, as the nearest doubles: an array of shape (vertices, dimension)."""
+    scale = np.sqrt([float(square) for square in polytope.squares])
+    rows = [[float(value.mid() if hasattr(value, "mid") else value) for value in v] for v in polytope.vertices]
+    return np.array(rows) * scale
+
+
+def ordered_corners(points: Any) -> Any:
     """The corners of a face, one after another around it."""
     offsets = points - points.mean(axis=0)
     first, second = np.linalg.svd(offsets)[2][:2]

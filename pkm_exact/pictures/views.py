@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from pkm_exact.errors import InputError
 from pkm_exact.pictures import captions, style
 from pkm_exact.pictures.camera import DEFAULT_VIEW, Camera, View, camera, window
+from pkm_exact.pictures.capability_picture import Capability, draw_capabilities, points_of
 from pkm_exact.pictures.drawing import (
     FAR,
     LABELS,
@@ -88,6 +89,7 @@ def pose_figure(
     view: View = DEFAULT_VIEW,
     size: tuple[float, float] | None = None,
     ghosts: bool = False,
+    capabilities: Sequence[Capability] = (),
 ) -> Figure:
     """One pose, with its coordinates on the axes; the others behind it as ghosts if these are wanted.
 
@@ -95,6 +97,8 @@ def pose_figure(
     ----------
     number : int
         Of the pose, from 1.
+    capabilities : sequence of Capability
+        Polytopes drawn about the platform's origin.
     """
     if not 1 <= number <= len(scene.poses):
         known = f"from 1 to {len(scene.poses)}" if scene.poses else "of another certificate, this one lists none"
@@ -102,12 +106,16 @@ def pose_figure(
     with style.plain_style():
         pose = scene.poses[number - 1]
         others = tuple(other for other in scene.poses if ghosts and other != pose)
-        figure, axes, shot = _large(scene, (pose, *others), view, size)
+        figure, axes, shot = _large(
+            scene, (pose, *others), view, size, points_of(capabilities, pose), len(capabilities)
+        )
         for other in others:
             _ghost(axes, scene, other, shot, style.GHOST_INK, FAR)
         draw_robot(axes, scene, pose, shot, Pen(width=2.4))
         _number_legs(axes, scene, pose)
+        draw_capabilities(axes, scene, pose, shot, capabilities)
         _headline(figure, scene, captions.title(pose, of=len(scene.poses)))
+        captions.add_scales(figure, [found.statement(scene.unit) for found in capabilities])
         captions.add_legend(figure, scene, key=False)
         return figure
 
@@ -129,17 +137,27 @@ def overlay_figure(scene: Scene, *, view: View = DEFAULT_VIEW, size: tuple[float
 
 
 def _large(
-    scene: Scene, poses: Sequence[PoseView], view: View, size: tuple[float, float] | None
+    scene: Scene,
+    poses: Sequence[PoseView],
+    view: View,
+    size: tuple[float, float] | None,
+    others: Sequence[Point] = (),
+    lines: int = 0,
 ) -> tuple[Figure, Axes, Camera]:
-    """A figure with one drawing, large enough for these poses, coordinates on its axes."""
+    """A figure with one drawing, large enough for these poses and other points, coordinates on its axes.
+
+    ``lines`` of small text have room below the headline.
+    """
     from matplotlib.figure import Figure
 
-    shot, points = camera(scene, view), _points(scene, poses)
+    shot, points = camera(scene, view), [*_points(scene, poses), *others]
     limits = padded_bounds(points)
-    figure = Figure(figsize=size or large_size(scene, shot, limits))
+    header = HEADER + captions.LINE * lines
+    across, upward = large_size(scene, shot, limits)
+    figure = Figure(figsize=size or (across, upward + header - HEADER))
     width, height = figure.get_size_inches()
     below = footer(scene, width, key=False)
-    area = Rectangle(0.1, below, width - 0.2, height - HEADER - below)
+    area = Rectangle(0.1, below, width - 0.2, height - header - below)
     axes = large_axes(figure, scene, view, shot, area, limits)
     for axis, (letter, name) in enumerate(zip("xyz", captions.axis_names(scene), strict=False)):
         if seen_along(shot, axis):
