@@ -16,9 +16,9 @@ from functools import cache
 from itertools import combinations
 from math import lcm
 from random import Random
-from typing import Final
+from typing import Final, NamedTuple, TypeAlias
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_poly, nmod_mat
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mat, fmpz_poly, nmod, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.elimination import Polynomial, echelon
@@ -35,6 +35,23 @@ _HIGHEST: Final = 12
 _ATTEMPTS: Final = 3
 _ENTRY: Final = 4
 """Operations charged for an entry of a matrix modulo a prime, for each of its rows."""
+
+_Product: TypeAlias = tuple[int, ...]
+"""Unknowns that are multiplied, in increasing order."""
+
+
+class _Part(NamedTuple):
+    """A part of a graded algebra.
+
+    Attributes
+    ----------
+    dimension : int
+    values : dict
+        Of products their coordinates, by index: a basis, so many, and then others.
+    """
+
+    dimension: int
+    values: dict[_Product, dict[int, nmod]]
 
 
 class Section:
@@ -137,9 +154,9 @@ def _primes(mechanism: Mechanism) -> list[int]:
     return list(primes_for(fmpz_poly([number for form in forms for number in cleared(form)])))[-_ATTEMPTS:]
 
 
-def _pairs(terms: Mapping[tuple[int, ...], int]) -> dict[tuple[int, int], int]:
+def _pairs(terms: Mapping[tuple[int, ...], int]) -> dict[_Product, nmod | int]:
     """The coefficients of a quadratic form by pairs of unknowns."""
-    found = {}
+    found: dict[_Product, nmod | int] = {}
     for monomial, value in terms.items():
         i, j = (k for k, exponent in enumerate(monomial) for _ in range(exponent))
         found[i, j] = value
@@ -159,7 +176,7 @@ def is_finite(mechanism: Mechanism) -> bool:
     return False
 
 
-def _cut(mechanism: Mechanism, p: int, seed: int) -> tuple[list[dict[tuple[int, int], int]], int]:
+def _cut(mechanism: Mechanism, p: int, seed: int) -> tuple[list[dict[_Product, nmod | int]], int]:
     """The quadrics, homogeneous, modulo a prime, in the unknowns that all forms and a random one leave."""
     forms = [_modulo(form, p) for form in (*mechanism.linear, *mechanism.vanishing)]
     random = Random(seed)
@@ -173,18 +190,15 @@ def _cut(mechanism: Mechanism, p: int, seed: int) -> tuple[list[dict[tuple[int, 
         embedding[j, column] = 1
         for row, pivot in enumerate(pivots):
             embedding[pivot, column] = -int(solved[row, j]) % p
-    symmetric = list(_motion_matrices(mechanism.metric, p))
-    charge(10**5 * len(symmetric) * (1 + size))
-    found = []
-    for entries in symmetric:
-        quadric = embedding.transpose() * nmod_mat(SIZE, SIZE, entries, p) * embedding
-        pairs = {
-            (i, j): (int(quadric[i, j]) + (int(quadric[j, i]) if i != j else 0)) % p
-            for i in range(size)
-            for j in range(i, size)
-        }
-        found.append({pair: value for pair, value in pairs.items() if value})
-    return [pairs for pairs in found if pairs], size
+    quadrics = _homogeneous(mechanism.metric)
+    charge(10**5 * len(quadrics) * (1 + size))
+    found: list[dict[_Product, nmod | int]] = []
+    for quadric in quadrics:
+        table = (embedding.transpose() * nmod_mat(quadric, p) * embedding).table()
+        pairs: dict[_Product, nmod | int] = {(i, i): table[i][i] for i in range(size)}
+        pairs.update({(i, j): table[i][j] + table[j][i] for i, j in combinations(range(size), 2)})
+        found.append(pairs)
+    return found, size
 
 
 def _modulo(form: Form, p: int) -> list[int]:
@@ -194,95 +208,71 @@ def _modulo(form: Form, p: int) -> list[int]:
 
 
 @cache
-def _homogeneous(metric: Metric) -> tuple[dict[tuple[int, int], fmpq], ...]:
-    """The quadrics that define the motions, on the places of forms; products with 1 are products with the last."""
+def _homogeneous(metric: Metric) -> tuple[fmpz_mat, ...]:
+    """Bilinear forms of multiples of the quadrics that define the motions, on the places of forms.
+
+    Products with 1 are products with the last.
+    """
     ring = fmpq_mpoly_ctx.get(ORDER, Ordering.degrevlex)
-    quadrics = motion_quadrics(list(ring.gens()), metric)
     found = []
-    for quadric in quadrics:
-        pairs = {}
-        for exponents, value in quadric.to_dict().items():
-            places = [_TO_ORDER[k] for k, exponent in enumerate(exponents) for _ in range(int(exponent))]
+    for quadric in motion_quadrics(list(ring.gens()), metric):
+        terms = {tuple(map(int, exponents)): value for exponents, value in quadric.to_dict().items()}
+        bilinear = fmpz_mat(SIZE, SIZE)
+        for monomial, value in over_integers(terms).items():
+            places = [_TO_ORDER[k] for k, exponent in enumerate(monomial) for _ in range(exponent)]
             i, j = [*places, SIZE - 1, SIZE - 1][:2]
-            pairs[i, j] = value
-        found.append(pairs)
+            bilinear[i, j] = value
+        found.append(bilinear)
     return tuple(found)
 
 
-def _motion_matrices(metric: Metric, p: int) -> Iterator[list[int]]:
-    """Bilinear forms of these quadrics, as lists of entries."""
-    for pairs in _homogeneous(metric):
-        denominator = lcm(*(int(value.q) for value in pairs.values()))
-        entries = [0] * (SIZE * SIZE)
-        for (i, j), value in pairs.items():
-            entries[SIZE * i + j] = int(value * denominator) % p
-        yield entries
-
-
-def _parts(quadrics: Sequence[Mapping[tuple[int, int], int]], size: int, p: int, highest: int) -> Iterator[int]:
+def _parts(quadrics: Sequence[Mapping[_Product, nmod | int]], size: int, p: int, highest: int) -> Iterator[int]:
     """The dimensions of A_0, A_1, .. up to the first that is 0, or to degree ``highest``."""
     yield 1
     yield size
-    monomials = [(i, j) for i in range(size) for j in range(i, size)]
-    place = {pair: column for column, pair in enumerate(monomials)}
-    flat = [0] * (len(quadrics) * len(monomials))
+    symbols = [(i, j) for i in range(size) for j in range(i, size)]
+    table = nmod_mat(len(quadrics), len(symbols), p)
     for row, quadric in enumerate(quadrics):
-        for pair, value in quadric.items():
-            flat[row * len(monomials) + place[pair]] = value % p
-    reduced = _quotient(nmod_mat(len(quadrics), len(monomials), flat, p), p)
-    # lower[i] takes A_(t-1) to A_t by the i-th unknown; columns are images.
-    lower = [_columns(reduced, [place[min(i, j), max(i, j)] for j in range(size)], p) for i in range(size)]
+        for column, symbol in enumerate(symbols):
+            table[row, column] = quadric.get(symbol, 0)
+    part = _quotient(table, symbols)
     for _ in range(2, highest):
-        dimension = lower[0].nrows()
-        yield dimension
-        if dimension == 0:
+        yield part.dimension
+        if not part.dimension:
             return
-        lower = _next(lower, size, p)
-    yield lower[0].nrows()
+        part = _next(part, size, p)
+    yield part.dimension
 
 
-def _next(lower: Sequence[nmod_mat], size: int, p: int) -> list[nmod_mat]:
-    """From the unknowns as maps of A_(t-1) to A_t those of A_t to A_(t+1)."""
-    dimension, before = lower[0].nrows(), lower[0].ncols()
-    width = size * dimension
-    count = before * size * (size - 1) // 2
-    charge(_ENTRY * count * width * min(count, width))
-    columns = [list(map(list, zip(*map(_row_of, matrix.table()), strict=True))) for matrix in lower]
-    flat: list[int] = []
-    for i, j in combinations(range(size), 2):
-        for c in range(before):
-            row = [0] * width
-            row[i * dimension : (i + 1) * dimension] = columns[j][c]
-            row[j * dimension : (j + 1) * dimension] = [-value % p for value in columns[i][c]]
-            flat += row
-    reduced = _quotient(nmod_mat(count, width, flat, p), p)
-    return [_columns(reduced, range(i * dimension, (i + 1) * dimension), p) for i in range(size)]
+def _next(part: _Part, size: int, p: int) -> _Part:
+    """From A_t, A_(t+1). A product that is reached in several ways, as x_i a and as x_j b, has one value."""
+    larger = [{product: tuple(sorted((i, *product))) for product in part.values} for i in range(size)]
+    basis = list(part.values)[: part.dimension]
+    symbols = sorted({raised[product] for raised in larger for product in basis})
+    place = {symbol: column for column, symbol in enumerate(symbols)}
+    columns = [[place[raised[product]] for product in basis] for raised in larger]
+    ways: dict[_Product, list[tuple[list[int], dict[int, nmod]]]] = {}
+    for product, value in part.values.items():
+        for raised, images in zip(larger, columns, strict=True):
+            ways.setdefault(raised[product], []).append((images, value))
+    pairs = [(first, other) for first, *others in ways.values() for other in others]
+    charge(_ENTRY * len(pairs) * len(symbols) * min(len(pairs), len(symbols)))
+    table = nmod_mat(len(pairs), len(symbols), p)
+    for row, ((images, value), (others, same)) in enumerate(pairs):
+        for index, number in same.items():
+            table[row, others[index]] = number
+        for index, number in value.items():
+            table[row, images[index]] -= number
+    return _quotient(table, symbols)
 
 
-def _row_of(entries: Sequence[object]) -> list[int]:
-    return [int(value) for value in entries]  # type: ignore[call-overload]
-
-
-def _quotient(relations: nmod_mat, p: int) -> tuple[dict[int, int], list[list[int]]]:
-    """For each symbol its coordinates in the space of symbols modulo relations, as a list; and which are the basis."""
-    width = relations.ncols()
+def _quotient(relations: nmod_mat, symbols: Sequence[_Product]) -> _Part:
+    """The space of symbols modulo relations; some of the symbols are a basis."""
     reduced, rank = relations.rref()
-    table = [_row_of(row) for row in reduced.table()[:rank]]
-    pivots = [next(column for column, value in enumerate(row) if value) for row in table]
-    taken = set(pivots)
-    basis = [column for column in range(width) if column not in taken]
-    place = {column: index for index, column in enumerate(basis)}
-    coordinates = [[0] * len(basis) for _ in range(width)]
-    for column, index in place.items():
-        coordinates[column][index] = 1
-    for row, pivot in zip(table, pivots, strict=True):
-        coordinates[pivot] = [-row[column] % p for column in basis]
-    return place, coordinates
-
-
-def _columns(reduced: tuple[dict[int, int], list[list[int]]], symbols: Sequence[int], p: int) -> nmod_mat:
-    """The map whose images are the given symbols."""
-    _, coordinates = reduced
-    dimension = len(reduced[0])
-    flat = [coordinates[symbol][index] for index in range(dimension) for symbol in symbols]
-    return nmod_mat(dimension, len(symbols), flat, p)
+    columns = range(len(symbols))
+    pivots = [next(column for column in columns[row:] if reduced[row, column]) for row in range(rank)]
+    basis = sorted(set(columns) - set(pivots))
+    values = {symbols[column]: {index: nmod(1, relations.modulus())} for index, column in enumerate(basis)}
+    for row, pivot in enumerate(pivots):
+        values[symbols[pivot]] = {index: -reduced[row, column] for index, column in enumerate(basis)}
+    return _Part(len(basis), values)

@@ -44,7 +44,7 @@ def read_sealed(data: bytes) -> dict[str, Any]:
     digest = content.pop("digest")
     try:
         body = _canonical_bytes(content)
-        whole = _canonical_bytes({**content, "digest": digest})
+        whole = body.removesuffix(b"\n}\n") + f',\n "digest": {json.dumps(digest)}\n}}\n'.encode("ascii")
     except RecursionError:
         raise malformed("file: brackets are nested too deeply") from None
     if digest != f"sha256:{sha256(body).hexdigest()}":
