@@ -1,12 +1,13 @@
 """Echelon forms that look like others modulo the first primes: none is believed before its size proves it."""
 
 from fractions import Fraction
+from random import Random
 
 import pytest
 from flint import fmpq, fmpq_mat, fmpz_mat
 
 from pkm_exact.certify.checker import echelon
-from pkm_exact.certify.checker.echelon import Echelon, echelon_form, primes
+from pkm_exact.certify.checker.echelon import Echelon, echelon_form, primes, reduced_rows
 
 FIRST = next(primes())
 
@@ -65,3 +66,27 @@ def _whole(form: Echelon) -> list[list[Fraction]]:
 )
 def test_forms_that_are_others_modulo_a_prime(table: list[list[int]]) -> None:
     assert _whole(echelon_form(table)) == _rational(table)
+
+
+def _some_rows(rows: int, columns: int, filled: float, seed: str) -> list[dict[int, int]]:
+    random = Random(seed)
+    table = [{k: random.randint(-9, 9) for k in range(columns) if random.random() < filled} for _ in range(rows)]
+    table[-1] = {k: table[0].get(k, 0) + 2 * table[1].get(k, 0) for k in table[0] | table[1]}
+    return [{k: value for k, value in row.items() if value} for row in table]
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "filled"),
+    [(6, 9, 0.2), (9, 6, 0.5), (40, 50, 0.05), (40, 44, 0.3), (75, 80, 0.08), (36, 40, 1)],
+)
+def test_sparse_rows_have_the_form_that_rational_arithmetic_tells(rows: int, columns: int, filled: float) -> None:
+    given = _some_rows(rows, columns, filled, f"{rows} {columns}")
+    reduced = _rational([[row.get(column, 0) for column in range(columns)] for row in given])
+    form = {next(k for k, value in enumerate(row) if value): row for row in reduced}
+
+    for known in ([], range(0, columns, 2), range(columns)):
+        found = reduced_rows(given, known)
+        assert set(form) - set(known) <= set(found) <= set(form)
+        for pivot, tail in found.items():
+            entries = {column: Fraction(int(value.p), int(value.q)) for column, value in tail.items()}
+            assert entries == {k: value for k, value in enumerate(form[pivot]) if value and k != pivot}

@@ -1,20 +1,23 @@
-"""The reduced echelon form of an integer matrix over Q, from its images modulo primes, and the proof that it is that.
+"""The reduced echelon form of an integer matrix over Q, and the proof that it is that.
 
-Let the image modulo each of some primes have the same pivots, r of them, and call A the matrix, B its columns at the
-pivots, C the others. Modulo each prime the image's other columns X fulfil B X = C. If an integer D and a small integer
-matrix N fulfil N = D X modulo the product M of the primes, M divides B N - D C; if moreover its entries, estimated, are
-smaller than M, then B N = D C. So each row of A is, over Q, a combination of the r rows (D, N), and A has rank r at
-most; it has rank r at least, as it has so modulo a prime. What is left of a pivot is 0 modulo M, therefore 0. So these
-rows, divided by D, are the reduced echelon form.
+Of sparse rows: by rational arithmetic. Of the rows with a leading column the shortest one is subtracted from the
+others, until what is left is dense.
+
+Of a dense matrix: from its images modulo primes. Let the image modulo each of some primes have the same pivots, r of
+them, and call A the matrix, B its columns at the pivots, C the others. Modulo each prime the image's other columns X
+fulfil B X = C. If an integer D and a small integer matrix N fulfil N = D X modulo the product M of the primes, M
+divides B N - D C; if moreover its entries, estimated, are smaller than M, then B N = D C. So each row of A is, over Q,
+a combination of the r rows (D, N), and A has rank r at most; it has rank r at least, as it has so modulo a prime. What
+is left of a pivot is 0 modulo M, therefore 0. So these rows, divided by D, are the reduced echelon form.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from math import isqrt, prod
-from typing import Final, NamedTuple
+from collections.abc import Container, Iterator, Mapping, Sequence
+from math import isqrt, lcm, prod
+from typing import Final, NamedTuple, TypeAlias
 
-from flint import fmpz, fmpz_mat, nmod_mat
+from flint import fmpq, fmpz, fmpz_mat, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 
@@ -27,6 +30,12 @@ _BLOCK: Final = 8
 """Residues modulo so many primes are combined first."""
 _SLACK: Final = 16
 """Bits by which a fraction must be smaller than what its residue could tell, both above and below."""
+
+_DENSE: Final = ((64, 3), (32, 2))
+"""More rows than these are dense if a shortest one has more than one entry in so many."""
+
+Row: TypeAlias = dict[int, fmpq]
+"""Entries by column, none of them 0."""
 
 
 class Echelon(NamedTuple):
@@ -154,6 +163,84 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
             if found is not None:
                 return found
     raise AssertionError("there are primes enough")
+
+
+def reduced_rows(rows: Sequence[Mapping[int, int]], known: Container[int] = ()) -> dict[int, Row]:
+    """The rows of the reduced echelon form of a sparse matrix, by pivot what they have beside 1 at the pivot.
+
+    Of pivots that are ``known`` not all are there.
+
+    Examples
+    --------
+    >>> reduced_rows([{0: 2, 1: 4, 2: 6}, {0: 1, 1: 2, 2: 4}])
+    {2: {}, 0: {1: 2}}
+    """
+    width = 1 + max((column for row in rows for column in row), default=0)
+    waiting: dict[int, list[Row]] = {}
+    for row in rows:
+        _sort_in(waiting, {column: fmpq(value) for column, value in row.items()})
+    steps: list[tuple[int, Row]] = []
+    needed: set[int] = set()
+    while waiting:
+        pivot = min(waiting)
+        first, *others = sorted(waiting[pivot], key=len)
+        number = sum(map(len, waiting.values()))
+        if any(number > many and share * len(first) > width - pivot for many, share in _DENSE):
+            break
+        del waiting[pivot]
+        lead = first.pop(pivot)
+        tail = {column: value / lead for column, value in first.items()}
+        for other in others:
+            _subtract(other, other.pop(pivot), tail)
+            _sort_in(waiting, other)
+        if pivot in needed or pivot not in known:
+            steps.append((pivot, tail))
+            needed.update(tail)
+    found = _of_dense([row for group in waiting.values() for row in group])
+    for pivot, tail in reversed(steps):
+        for column in [column for column in tail if column in found]:
+            _subtract(tail, tail.pop(column), found[column])
+        found[pivot] = tail
+    return found
+
+
+def _sort_in(waiting: dict[int, list[Row]], row: Row) -> None:
+    """Put a row, if it is not 0, to those with the same first column."""
+    if row:
+        waiting.setdefault(min(row), []).append(row)
+
+
+def _subtract(row: Row, factor: fmpq, tail: Row) -> None:
+    """Subtract a multiple of a row from another one."""
+    bits = 0
+    for column, value in tail.items():
+        entry = row.get(column, 0) - factor * value
+        if entry:
+            row[column] = entry
+            bits += entry.height_bits()
+        else:
+            del row[column]
+    charge(1000 * len(tail) + bits * bits // (1000 * (len(tail) + 1)))
+
+
+def _of_dense(rows: Sequence[Row]) -> dict[int, Row]:
+    """The same form of rows that are dense."""
+    columns = sorted({column for row in rows for column in row})
+    if not columns:
+        return {}
+    table = []
+    for row in rows:
+        words = limbs(max(int(value.height_bits()) for value in row.values()))
+        charge(len(row) * (2000 + 4 * words * words))
+        denominator = lcm(*(int(value.q) for value in row.values()))
+        table.append([int(row[column] * denominator) if column in row else 0 for column in columns])
+    form = echelon_form(table)
+    others = [columns[place] for place in form.others]
+    found = {}
+    for pivot, numerators in zip(form.pivots, form.numerators, strict=True):
+        entries = zip(others, numerators, strict=True)
+        found[columns[pivot]] = {column: fmpq(value, form.denominator) for column, value in entries if value}
+    return found
 
 
 def primes() -> Iterator[int]:

@@ -13,13 +13,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import gcd, lcm
+from math import lcm
+from operator import add, le
 from typing import TypeAlias
 
 from flint import fmpq
 
 from pkm_exact.certify.checker.budget import charge, limbs
-from pkm_exact.certify.checker.echelon import echelon_form
+from pkm_exact.certify.checker.echelon import reduced_rows
 from pkm_exact.certify.checker.section import section
 from pkm_exact.certify.checker.study_motion import Leg, Metric
 from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_ENTRIES, MAX_ELIMINATION_TERMS, rejected, too_large
@@ -62,9 +63,7 @@ def follow(size: int, first: Sequence[Polynomial], steps: Sequence[Sequence[Row]
             raise rejected(f"elimination: step {number} names an element or an unknown that there is not")
         leading = [_leading(element) for element in elements]
         _limit_terms(sum(len(elements[index]) for index, _ in step))
-        found = echelon([_multiple(elements[index], factors) for index, factors in step])
-        charge(_DIVISION * len(found) * len(leading))
-        elements += [element for element in found if not _is_divisible(_leading(element), leading)]
+        elements += echelon([_multiple(elements[index], factors) for index, factors in step], leading)
         _limit_terms(sum(map(len, elements)))
     return Elimination(size, tuple(elements))
 
@@ -98,31 +97,33 @@ def _multiple(polynomial: Polynomial, factors: Sequence[int]) -> Polynomial:
     shift = [0] * len(_leading(polynomial))
     for factor in factors:
         shift[factor] += 1
-    return {tuple(map(sum, zip(monomial, shift, strict=True))): value for monomial, value in polynomial.items()}
+    return {tuple(map(add, monomial, shift)): value for monomial, value in polynomial.items()}
 
 
-def echelon(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-    """The rows of the reduced echelon form over Q, as primitive integer polynomials, terms in decreasing order."""
+def echelon(polynomials: Sequence[Polynomial], leading: Sequence[Monomial] = ()) -> list[Polynomial]:
+    """The rows of the reduced echelon form over Q, as primitive integer polynomials, terms in decreasing order.
+
+    Without those whose leading monomial one of ``leading`` divides.
+    """
     charge(_TERM * sum(map(len, polynomials)))
     columns = sorted({monomial for polynomial in polynomials for monomial in polynomial}, key=_order, reverse=True)
-    if not columns:
-        return []
     if len(polynomials) * len(columns) > MAX_ELIMINATION_ENTRIES:
         raise too_large(f"elimination: a matrix of more than {MAX_ELIMINATION_ENTRIES} entries")
-    charge(100 * len(polynomials) * len(columns))
-    found = echelon_form([[polynomial.get(monomial, 0) for monomial in columns] for polynomial in polynomials])
-    others = [columns[place] for place in found.others]
+    charge((100 + _DIVISION * len(leading)) * len(columns))
+    place = {monomial: column for column, monomial in enumerate(columns)}
+    known = {column for monomial, column in place.items() if _is_divisible(monomial, leading)}
+    found = reduced_rows([{place[monomial]: value for monomial, value in row.items()} for row in polynomials], known)
     rows = []
-    for pivot, numerators in zip(found.pivots, found.numerators, strict=True):
-        content = gcd(found.denominator, *numerators)
-        row = {columns[pivot]: found.denominator // content}
-        row.update((m, value // content) for m, value in zip(others, numerators, strict=True) if value)
+    for pivot, tail in sorted((pivot, tail) for pivot, tail in found.items() if pivot not in known):
+        denominator = lcm(*(int(value.q) for value in tail.values()))
+        row = {columns[pivot]: denominator}
+        row.update((columns[column], int(value * denominator)) for column, value in sorted(tail.items()))
         rows.append(row)
     return rows
 
 
 def _is_divisible(monomial: Monomial, divisors: Sequence[Monomial]) -> bool:
-    return any(all(a <= b for a, b in zip(divisor, monomial, strict=True)) for divisor in divisors)
+    return any(all(map(le, divisor, monomial)) for divisor in divisors)
 
 
 def _standard(leading: Sequence[Monomial], size: int, most: int) -> list[Monomial]:
