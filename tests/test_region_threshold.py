@@ -20,6 +20,7 @@ LINES = (
 )
 
 
+@pytest.mark.slow
 def test_the_threshold_of_a_reconfigurable_joint(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Chapter 16: singularity-free from 2 sqrt(2) on; both answers hold, and the one that is yes has a certificate."""
     question, target = tmp_path / "question.toml", tmp_path / "out.json"
