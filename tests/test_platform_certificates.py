@@ -105,3 +105,13 @@ def test_a_drive_stands_for_what_it_moves(capsys: pytest.CaptureFixture[str]) ->
     assert "use some of: arm 1, arm 2, arm 3, rod 1, rod 2, rod 3" in capsys.readouterr().err
     assert main(["mobility", str(ROOT / "models" / "h4.toml"), "--at", "0,0,-42,1,0,0,0"]) == 2
     assert "does not hold at this pose with the actuators of the configuration" in capsys.readouterr().err
+
+
+def test_drives_that_move_several_constraints_are_named(capsys: pytest.CaptureFixture[str]) -> None:
+    """The platform may have fewer freedoms without them than without all that they move."""
+    words = ["--at", "0,0,4,1,0,0,0"]
+    assert main(["mobility", str(ROOT / "models" / "carriage-hexapod.toml"), *words]) == 0
+    assert "or fewer: what the constraints of X, Y, tilt share is left out" in capsys.readouterr().out
+    for name, sharing in (("3-prs", ["slide 1", "slide 2", "slide 3"]), ("delta", [])):
+        assert main(["mobility", str(ROOT / "models" / f"{name}.toml"), "--json"]) == 0
+        assert json.loads(capsys.readouterr().out)["sharing"] == sharing

@@ -27,6 +27,9 @@ def _lines(robot: Machine, found: PlatformMobility) -> Iterator[str]:
         at = found.at
         yield f"at the position {point_text(at.position)}"
         yield f"actuators free           {at.free.number}: {at.free}"
+        if found.sharing:
+            names_of = ", ".join(map(printable, found.sharing))
+            yield f"                         or fewer: what the constraints of {names_of} share is left out"
         yield f"locked                   {at.locked.number}: {at.locked}; locked are {names}"
         free = f"{at.structural_rank} with the actuators free"
         yield f"rank                     {at.rank} of {found.motion.dimension}, {free}"
@@ -69,6 +72,7 @@ def as_object(robot: Machine, found: PlatformMobility) -> dict[str, Any]:
         "motion": found.motion.name,
         "structural": list(found.structural),
         "actuated": list(found.actuated),
+        "sharing": list(found.sharing),
         "pose": None if at is None else _pose_object(found, at),
         "everywhere": None if everywhere is None else _everywhere_object(everywhere),
     }

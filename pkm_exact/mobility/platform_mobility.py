@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from pkm_exact.constraints.constraint import Constraint
@@ -62,6 +62,9 @@ class PlatformMobility:
         At the pose that was asked about.
     everywhere : GenericRank or None
         At every pose of the motion, all actuators locked; None if a constraint is no linear form.
+    sharing : tuple of str
+        Slides and cranks that move several constraints, all actuated: without them, these hold what they share, which
+        the freedoms with the actuators free leave out.
 
     Examples
     --------
@@ -79,6 +82,7 @@ class PlatformMobility:
     metric: Metric
     at: PoseMobility | None
     everywhere: GenericRank | None
+    sharing: tuple[str, ...] = ()
 
 
 def platform_mobility(
@@ -124,7 +128,9 @@ def platform_mobility(
     if pose is not None:
         _require_pose(robot, dict(zip(names, constraints, strict=True)), chosen, pose)
     locks = tuple(k for k, name in enumerate(names) if name in chosen)
-    return mobility_of_constraints(constraints, names, locks, robot.motion, robot.metric, pose)
+    found = mobility_of_constraints(constraints, names, locks, robot.motion, robot.metric, pose)
+    sharing = (name for name, moved in _moved(robot).items() if len(moved) > 1 and moved & set(chosen))
+    return replace(found, sharing=tuple(sharing))
 
 
 def mobility_of_constraints(
