@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
-from forged_mobility import Row
+from forged_mobility import Row, legs
 from forged_second_order import (
     ARM,
     BENNETT,
     FIRST,
     FIVE,
     FLAT,
+    HELD,
     LEGS,
     LONG,
     OPEN,
@@ -21,12 +23,13 @@ from forged_second_order import (
     STRETCHED,
     TIGHT,
     TRIANGLE,
+    TURNED_SCREWS,
     TWICE,
     TWO_LOOPS,
     hinges,
     ring,
 )
-from handmade_mobility import Content, O, X, Z, certificate, joint, subgroups, texts
+from handmade_mobility import Content, O, X, Y, Z, certificate, joint, subgroups, texts
 from tables_of_rows import merged, put
 
 PRIME = (1 << 61) - 1
@@ -84,6 +87,64 @@ SCALED = certificate(hinges(0, 1, 3, axes=[(0, 0, PRIME)]), [], [])
 """A stretched triangle, the axes of a length that the prime divides."""
 FAR_AWAY = certificate(hinges(0, f"1/{PRIME}", 3), [], [])  # type: ignore[arg-type]
 LOCAL = ("local", [[1]], 3)
+
+
+def turned(v: Any) -> tuple[Any, ...]:
+    """A rotation about (1, 1, 1), which mixes all coordinates."""
+    x, y, z = map(Fraction, v)
+    return (2 * x - y + 2 * z) / 3, (2 * x + 2 * y - z) / 3, (2 * y - x + 2 * z) / 3
+
+
+FLAT_TURNED = certificate(ring([turned((x, 0, 0)) for x in (0, 1, 4, 3)], [turned(Z)] * 4), [], [])
+SHIFT = [Fraction(1, 2), Fraction(1, 3), Fraction(-1, 5)]
+SQUARE = [(1, 0, 0), (0, 1, 1), (-1, 0, 0), (0, -1, 1)]
+SHIFTED = certificate(ring([[a + b for a, b in zip(p, SHIFT, strict=True)] for p in SQUARE], AXES), [], [])
+PERMUTED = [certificate(ring([p[k:] + p[:k] for p in SQUARE], [a[k:] + a[:k] for a in AXES]), [], []) for k in (1, 2)]
+"""Bennett's linkage elsewhere, and with other coordinates."""
+ALONG = {
+    name: certificate(ring([[x * d for d in line] for x in (0, 1, 3)], [axis] * 3), [], [])
+    for name, line, axis in (("y", Y, X), ("z", Z, X))
+}
+"""Stretched triangles along other lines."""
+ROUND = {
+    name: certificate(ring([O] * 3, [one, [a + b for a, b in zip(one, other, strict=True)], other]), [], [])
+    for name, one, other in (("x", Y, Z), ("y", Z, X), ("z", X, Y))
+}
+"""Hinges through one point, their axes in a plane."""
+PAIRS = certificate(ring([O, O, (0, 3, 0), (0, 3, 0)], [Z, Z, X, X]), [], [])
+"""Two pairs of hinges on one axis each."""
+CHAIN = certificate(legs([("R", O, [Z])] * 31), [], [])
+
+
+def with_screw(pitch: str, *, before: bool, first: bool) -> Content:
+    """A body held by a screw and a hinge on its axis, beside a stretched triangle."""
+    ends = ("base", "held"), ("held", "base")
+    screw = joint("h", "H", *ends[not first], O, [Z], pitch=pitch)
+    hinge = joint("g", "R", *ends[first], O, [Z])
+    pair, triangle = ([screw, hinge] if first else [hinge, screw]), hinges(0, 1, 3)
+    return certificate([*pair, *triangle] if before else [*triangle, *pair], [], [])
+
+
+def screw_at_rest(*, first: bool) -> Content:
+    """Two hinges on one axis, and a screw before or behind them."""
+    joints = [joint("g", "R", "base", "top", O, [Z]), joint("k", "R", "top", "x", O, [Z])]
+    screw = joint("h", "H", "x", "base", O, [Z], pitch="1/3")
+    if first:
+        screw = joint("h", "H", "base", "x", O, [Z], pitch="1/3")
+        joints = [joint("g", "R", "x", "top", O, [Z]), joint("k", "R", "top", "base", O, [Z])]
+    return certificate([screw, *joints] if first else [*joints, screw], [], [])
+
+
+HELD_FAR = certificate(
+    [
+        joint("h", "R", "base", "held", O, [(0, 0, PRIME)]),
+        joint("g", "P", "held", "base", O, [Z]),
+        *hinges(0, 1, 3),
+    ],
+    [],
+    [],
+)
+BACKWARDS: Any = [[[0, -1]], [1]]
 TAIL = certificate([*hinges(0, 1, 3), joint("t", "R", "top", "aside", O, [Z])], [], [])
 
 TRUE: dict[str, tuple[Content, Content]] = {
@@ -144,6 +205,17 @@ TRUE: dict[str, tuple[Content, Content]] = {
     "a hinge": (OPEN, _curves(curve(IS_U, MOVES))),
     "a hinge along a circle": (OPEN, _curves(curve([[0, 2, 1], [2], [1]], [[[0], [1]], [-3, 1]]))),
     "two slides": (SLIDES, _curves(curve(IS_U, MOVES, STILL), curve(IS_U, STILL, MOVES), low=2, most=2)),
+    **{f"a triangle along {name}": (made, ideal((0, 0), (0, 0), ("local", [[1]], 2))) for name, made in ALONG.items()},
+    **{f"a triangle about {name}": (made, ideal((0, 0), (0, 0), ("local", [[1]], 2))) for name, made in ROUND.items()},
+    **{f"Bennett's linkage, permuted, {k}": (made, _curves(PARABOLA)) for k, made in enumerate(PERMUTED)},
+    "a flat parallelogram, turned": (FLAT_TURNED, ideal((0, 1), (0, 1), ("local", [[0, 1]], 2))),
+    "a relation that falls": (OPEN, _curves(curve([[0], [-1]], MOVES))),
+    "a relation with a leading coefficient": (OPEN, _curves(curve([[0], [1], [0, 1]], MOVES))),
+    "polynomials of degree 11": (OPEN, _curves(curve([[0], [1]], [[[0, *[1] * 11]], [1, *[0] * 10, 1]]))),
+    "sheets up to degree 11": (
+        OPEN,
+        _curves(curve([[0], [1], *[[0]] * 9, [1]], [[[0, 1], *[[0]] * 10, [1]], [1]])),
+    ),
     "two slides together": (SLIDES, _curves(curve(IS_U, MOVES, MOVES), low=1, most=2)),
 }
 ABOVE, CURVES, MOST = "finite.above: ", "finite.below.curves: ", "finite.most: not the number"
@@ -203,6 +275,105 @@ FALSE: dict[str, tuple[Content, Content, str, str]] = {
         _curves(curve(IS_U, MOVES, MOVES)),
         "rejected",
         "finite: a screw of a loop has a pitch",
+    ),
+    **{
+        f"a screw of pitch {pitch}, {before}, {first}": (
+            with_screw(pitch, before=before, first=first),
+            _local([[1]], 2),
+            "rejected",
+            "finite: a screw of a loop has a pitch",
+        )
+        for pitch in ("1/3", "-1/3")
+        for before in (True, False)
+        for first in (True, False)
+    },
+    **{
+        f"screws that turn back, {name}": (
+            made,
+            _curves(curve(IS_U, MOVES, BACKWARDS)),
+            "rejected",
+            "finite: a screw of a loop has a pitch",
+        )
+        for name, made in (("right", SCREWS), ("left", TURNED_SCREWS))
+    },
+    **{
+        f"a screw at rest, {first}": (
+            screw_at_rest(first=first),
+            _curves(curve(IS_U, *([STILL] * first), MOVES, BACKWARDS, *([STILL] * (not first)))),
+            "rejected",
+            "finite: a screw of a loop has a pitch",
+        )
+        for first in (True, False)
+    },
+    "thirty-one unknowns": (
+        CHAIN,
+        _local([[int(i == j) for j in range(31)] for i in range(31)], 2),
+        "too-large",
+        ABOVE + "more than 500 monomials",
+    ),
+    "a vector and a short one": (
+        FLAT,
+        _local([[1, 0], [1]], 2),
+        "malformed",
+        "finite.above.section: not a number for each",
+    ),
+    "a minor of what is held modulo the prime": (
+        HELD_FAR,
+        _local([[1]], 3),
+        "rejected",
+        ABOVE + "the minor is 0 modulo the prime",
+    ),
+    "Bennett's linkage elsewhere is not isolated": (SHIFTED, _local([[1]], 12), "rejected", ISOLATED),
+    **{
+        f"Bennett's linkage, permuted, is not isolated, {k}": (made, _local([[1]], 12), "rejected", ISOLATED)
+        for k, made in enumerate(PERMUTED)
+    },
+    "a flat parallelogram, turned, moves": (FLAT_TURNED, _local([[1, 0], [0, 1]], 6), "rejected", ISOLATED),
+    **{
+        f"a body held along {axis} {'turns' if turns else 'slides'}": (
+            HELD[axis],
+            _curves(curve(IS_U, *((MOVES, STILL) if turns else (STILL, MOVES)), *[STILL] * 3), low=0),
+            "rejected",
+            OPENED,
+        )
+        for axis in HELD
+        for turns in (True, False)
+    },
+    "a relation above 0": (OPEN, _curves(curve([[1], [1]], MOVES)), "rejected", REGULARITY),
+    "a relation below 0": (OPEN, _curves(curve([[-1], [1]], MOVES)), "rejected", REGULARITY),
+    "a curve from below": (OPEN, _curves(curve(IS_U, [[[-1, 1]], [1]])), "rejected", BEGINS),
+    "one slide from elsewhere": (SLIDES, _curves(curve(IS_U, [[[1, 1]], [1]], MOVES), most=2), "rejected", BEGINS),
+    **{
+        f"speeds that cancel, {k}": (OPEN, _curves(curve(relation, [numerator, [1]])), "rejected", AT_REST)
+        for k, (relation, numerator) in enumerate(
+            [
+                ([[0, 1], [1]], [[0, 1], [1]]),
+                ([[0, 1], [1, 5]], [[0, 1], [1]]),
+                ([[0, 1], [1]], [[0, 1], [1, 3]]),
+                ([[0], [1, 7]], [[0], [1]]),
+                ([[0, 1, 3], [1]], [[0, 1, 3], [1]]),
+            ]
+        )
+    },
+    "one slide on two curves, as u": (
+        SLIDES,
+        _curves(curve([[0, -1], [1]], U, STILL), curve([[0, -1], [1]], U, MOVES), low=2, most=2),
+        "rejected",
+        TOGETHER,
+    ),
+    "the last slide on two curves": (
+        SLIDES,
+        _curves(curve(IS_U, STILL, MOVES), curve(IS_U, MOVES, MOVES), low=2, most=2),
+        "rejected",
+        TOGETHER,
+    ),
+    "two pairs of one loop": (
+        PAIRS,
+        _curves(
+            curve(IS_U, MOVES, BACKWARDS, STILL, STILL), curve(IS_U, STILL, STILL, MOVES, BACKWARDS), low=1, most=2
+        ),
+        "rejected",
+        TOGETHER,
     ),
     "a curve that leaves the loops": (BENNETT, _curves(curve(IS_U, *[MOVES] * 4)), "rejected", OPENED),
     "a curve on another branch": (

@@ -35,13 +35,15 @@ HAMILTON: Final = (
     *((3, 0, 2, 1), (3, 1, 1, 1), (3, 2, 0, -1)),
 )
 """Entry a of a quaternion p times a vector u has the term p_b u_c with this sign: a, b, c and the sign."""
-PRODUCT: Final = (
-    *((a, b, c, sign) for a, b, c, sign in HAMILTON),
-    *((a + 4, b + 4, c, sign) for a, b, c, sign in HAMILTON),
-    *((a + 4, b, c + 3, sign) for a, b, c, sign in HAMILTON),
-)
-"""The same for a dual quaternion, eight numbers, times w + e v, six numbers."""
 VECTOR: Final = (1, 2, 3, 5, 6, 7)
+
+
+def terms_of_product() -> Iterator[tuple[int, int, int, int]]:
+    """The same for a dual quaternion, eight numbers, times w + e v, six numbers."""
+    for a, b, c, sign in HAMILTON:
+        yield a, b, c, sign
+        yield a + 4, b + 4, c, sign
+        yield a + 4, b, c + 3, sign
 
 
 def straight(twists: Sequence[Row], loops: Passed) -> None:
@@ -160,7 +162,7 @@ def vector_parts(
         for place, sign in loop:
             pure.spend(8 * ring.cost + 36 * 200 * size)
             turned = [[0] * size for _ in range(8)]
-            for a, b, c, one in PRODUCT:
+            for a, b, c, one in terms_of_product():
                 factor = one * sign * screws[place][c]
                 if factor:
                     turned[a] = [x + factor * y for x, y in zip(turned[a], product[b], strict=True)]
@@ -332,7 +334,7 @@ def with_joint(product: Sequence[Flat], half: tuple[Flat, Flat], twist: Sequence
     whole = [int(x * scale) for x in twist]
     found = []
     for entry in range(8):
-        terms = [(sign * whole[c], product[b]) for a, b, c, sign in PRODUCT if a == entry and whole[c] and product[b]]
+        terms = [(sign * whole[c], product[b]) for a, b, c, sign in terms_of_product() if a == entry]
         stays, moves = multiplied(product[entry], denominator), multiplied(combined(terms), numerator)
         found.append(combined([(scale, stays), (1, moves)]))
     return found

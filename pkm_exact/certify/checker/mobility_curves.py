@@ -70,12 +70,11 @@ def _sheets(rows: Sequence[Sequence[Fraction]]) -> Sheets:
 
 def _times_joint(product: list[Sheets], half: tuple[Sheets, fmpq_poly], twist: Sequence[fmpq]) -> list[Sheets]:
     numerator, denominator = half
-    size = max(map(len, product))
+    size = len(product[0])  # as long as the others
     _charge(product, [*numerator, denominator], size * (len(numerator) + 1))
-    padded = [part + [fmpq_poly()] * (size - len(part)) for part in product]
-    turned = [_turned([part[k] for part in padded], twist) for k in range(size)]
+    turned = [_turned([part[k] for part in product], twist) for k in range(size)]
     found = []
-    for place, part in enumerate(padded):
+    for place, part in enumerate(product):
         sums = [fmpq_poly()] * (size + len(numerator) - 1)
         for k, a in enumerate(part):
             sums[k] += a * denominator

@@ -89,7 +89,7 @@ def _others(machine: Machine, proof: RankProof, directions: Rows, ring: Ring) ->
     if size and int(minor.det()) == 0:
         raise rejected("finite.above: the minor is 0 modulo the prime")
     parts = _vector_parts(machine, twists, half, ring)
-    while size and any(any(parts[row]) for row in proof.rows):
+    for _ in range(ring.degree if size else 0):  # each step is right to one degree more
         steps = minor.solve(nmod_mat([parts[row] for row in proof.rows], PRIME)).tolist()
         for column, step in zip(proof.columns, steps, strict=True):
             half[column] = [(a - int(b)) % PRIME for a, b in zip(half[column], step, strict=True)]
