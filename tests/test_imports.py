@@ -61,6 +61,20 @@ def test_solving_a_planar_robot_loads_flint_and_what_it_needs() -> None:
     assert not parts & {f"pkm_exact.{part}" for part in unneeded}
 
 
+@pytest.mark.parametrize(("name", "most"), [("3-rpr-merlet-p", 45), ("3-rps", 50)])
+def test_checking_loads_what_the_kind_of_certificate_needs(name: str, most: int) -> None:
+    script = (
+        "import sys; from pkm_exact.cli.main import main; code = main(['check', sys.argv[1]]); "
+        "print(code, *sorted(sys.modules))"
+    )
+    command = [sys.executable, "-c", script, str(ROOT / "certs" / f"{name}.json")]
+    code, *loaded = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()[-1].split()
+    assert code == "0"
+    assert [heavy for heavy in HEAVY if heavy in loaded] == ["flint"]
+    own = [module for module in loaded if module.split(".")[0] == "pkm_exact"]
+    assert len(own) <= most, own
+
+
 def test_help_takes_little_processor_time() -> None:
     code = (
         "import resource, subprocess, sys\n"

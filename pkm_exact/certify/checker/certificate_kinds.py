@@ -1,4 +1,7 @@
-"""The kinds of certificates that the checker knows. One row adds a kind, or a version of one."""
+"""The kinds of certificates that the checker knows. One row adds a kind, or a version of one.
+
+Modules are loaded for the kind at hand only: that takes longer than checking a small certificate.
+"""
 
 from __future__ import annotations
 
@@ -6,35 +9,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Final
 
-from pkm_exact.certify.checker.claims import check_claims
-from pkm_exact.certify.checker.document import Document, read_document
-from pkm_exact.certify.checker.krawczyk import Equations, check_isolated
-from pkm_exact.certify.checker.links_checks import check_links
-from pkm_exact.certify.checker.links_document import FORMAT as LINKS
-from pkm_exact.certify.checker.links_document import read_links
-from pkm_exact.certify.checker.mechanism_boxes import MechanismEquations
-from pkm_exact.certify.checker.mechanism_claims import check_mechanism_claims
-from pkm_exact.certify.checker.mechanism_document import MechanismDocument, read_mechanism_document
-from pkm_exact.certify.checker.mechanism_solutions import check_solutions
-from pkm_exact.certify.checker.mobility_checks import check_mobility
-from pkm_exact.certify.checker.mobility_document import read_mobility
-from pkm_exact.certify.checker.platform_checks import check_platform
-from pkm_exact.certify.checker.platform_document import FORMAT as PLATFORM
-from pkm_exact.certify.checker.platform_document import read_platform
-from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
-from pkm_exact.certify.checker.region_document import read_region
-from pkm_exact.certify.checker.region_document_2 import read_region_2
-from pkm_exact.certify.checker.region_paving_check import check_region
-from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
-from pkm_exact.certify.checker.statics_box_checks import check_box_statics
-from pkm_exact.certify.checker.statics_box_document import read_box_statics
-from pkm_exact.certify.checker.statics_checks import check_statics
-from pkm_exact.certify.checker.statics_document import FORMAT as STATICS
-from pkm_exact.certify.checker.statics_document import read_statics
-from pkm_exact.certify.checker.system_document import read_system_document
-from pkm_exact.certify.checker.system_verdicts import check_system
-from pkm_exact.certify.checker.tolerance_checks import check_tolerances
-from pkm_exact.certify.checker.tolerance_document import read_tolerances
 from pkm_exact.certify.checker.verdict import malformed
 
 POSES: Final = "pkm_exact certificate"
@@ -42,6 +16,9 @@ TOLERANCES: Final = "pkm_exact tolerance certificate"
 SYSTEMS: Final = "pkm_exact system certificate"
 MOBILITY: Final = "pkm_exact mobility certificate"
 REGIONS: Final = "pkm_exact region certificate"
+PLATFORM: Final = "pkm_exact platform certificate"
+LINKS: Final = "pkm_exact links certificate"
+STATICS: Final = "pkm_exact statics certificate"
 
 
 @dataclass(frozen=True)
@@ -73,44 +50,133 @@ def checks_of(body: dict[str, Any]) -> Iterator[str]:
     raise malformed(f"format: not a {known[0].format}, version {versions}")
 
 
-def _checks(document: Document) -> Iterator[str]:
+def _poses(body: dict[str, Any]) -> Iterator[str]:
     """One line per claim; the costly ones, on completeness, last."""
-    if document.representation is not None:
-        yield from check_eliminant(document.representation)
-        yield from check_distinct(document.representation)
-        yield from check_poses(document.representation, document.legs, document.metric)
-        if document.claim != "positive-dimensional-proved":
-            yield from check_real_poses(document.representation, document.metric, document.box_exponent, document.poses)
-    if document.isolated is not None:
-        equations = Equations(document.legs, document.metric, document.isolated.chart)
-        yield from check_isolated(document.isolated, equations)
-        yield from check_isolated_poses(document.isolated, equations, document.box_exponent, document.poses)
-    yield from check_claims(document)
+    from pkm_exact.certify.checker.claims import check_claims
+    from pkm_exact.certify.checker.document import read_document
+    from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
+    from pkm_exact.certify.checker.solutions import check_distinct, check_eliminant, check_poses
+
+    document = read_document(body)
+
+    def lines() -> Iterator[str]:
+        if document.representation is not None:
+            yield from check_eliminant(document.representation)
+            yield from check_distinct(document.representation)
+            yield from check_poses(document.representation, document.legs, document.metric)
+            if document.claim != "positive-dimensional-proved":
+                exponent = document.box_exponent
+                yield from check_real_poses(document.representation, document.metric, exponent, document.poses)
+        if document.isolated is not None:
+            from pkm_exact.certify.checker.krawczyk import Equations, check_isolated
+
+            equations = Equations(document.legs, document.metric, document.isolated.chart)
+            yield from check_isolated(document.isolated, equations)
+            yield from check_isolated_poses(document.isolated, equations, document.box_exponent, document.poses)
+        yield from check_claims(document)
+
+    return lines()
 
 
-def _mechanism_checks(document: MechanismDocument) -> Iterator[str]:
+def _mechanism(body: dict[str, Any]) -> Iterator[str]:
     """The same for version 2; witnesses of a self-motion are checked with the claim."""
+    from pkm_exact.certify.checker.mechanism_claims import check_mechanism_claims
+    from pkm_exact.certify.checker.mechanism_document import read_mechanism_document
+    from pkm_exact.certify.checker.mechanism_solutions import check_solutions
+    from pkm_exact.certify.checker.realposes import check_isolated_poses, check_real_poses
+
+    document = read_mechanism_document(body)
     mechanism, exponent = document.mechanism, document.box_exponent
-    if document.representation is not None and document.claim != "positive-dimensional-proved":
-        yield from check_solutions(document.representation, mechanism)
-        yield from check_real_poses(document.representation, mechanism.metric, exponent, document.poses)
-    if document.isolated is not None:
-        equations = MechanismEquations(mechanism, document.isolated.chart)
-        yield from check_isolated(document.isolated, equations)
-        yield from check_isolated_poses(document.isolated, equations, exponent, document.poses)
-    yield from check_mechanism_claims(document)
+
+    def lines() -> Iterator[str]:
+        if document.representation is not None and document.claim != "positive-dimensional-proved":
+            yield from check_solutions(document.representation, mechanism)
+            yield from check_real_poses(document.representation, mechanism.metric, exponent, document.poses)
+        if document.isolated is not None:
+            from pkm_exact.certify.checker.krawczyk import check_isolated
+            from pkm_exact.certify.checker.mechanism_boxes import MechanismEquations
+
+            equations = MechanismEquations(mechanism, document.isolated.chart)
+            yield from check_isolated(document.isolated, equations)
+            yield from check_isolated_poses(document.isolated, equations, exponent, document.poses)
+        yield from check_mechanism_claims(document)
+
+    return lines()
+
+
+def _tolerances(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.tolerance_checks import check_tolerances
+    from pkm_exact.certify.checker.tolerance_document import read_tolerances
+
+    return check_tolerances(read_tolerances(body))
+
+
+def _system(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.system_document import read_system_document
+    from pkm_exact.certify.checker.system_verdicts import check_system
+
+    return check_system(read_system_document(body))
+
+
+def _mobility(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.mobility_checks import check_mobility
+    from pkm_exact.certify.checker.mobility_document import read_mobility
+
+    return check_mobility(read_mobility(body))
+
+
+def _platform(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.platform_checks import check_platform
+    from pkm_exact.certify.checker.platform_document import read_platform
+
+    return check_platform(read_platform(body))
+
+
+def _region(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.region_document import read_region
+    from pkm_exact.certify.checker.region_paving_check import check_region
+
+    return check_region(read_region(body))
+
+
+def _region_2(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.region_document_2 import read_region_2
+    from pkm_exact.certify.checker.region_paving_check import check_region
+
+    return check_region(read_region_2(body))
+
+
+def _links(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.links_checks import check_links
+    from pkm_exact.certify.checker.links_document import read_links
+
+    return check_links(read_links(body))
+
+
+def _statics(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.statics_checks import check_statics
+    from pkm_exact.certify.checker.statics_document import read_statics
+
+    return check_statics(read_statics(body))
+
+
+def _box_statics(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.statics_box_checks import check_box_statics
+    from pkm_exact.certify.checker.statics_box_document import read_box_statics
+
+    return check_box_statics(read_box_statics(body))
 
 
 KINDS: Final = (
-    CertificateKind(POSES, 1, lambda body: _checks(read_document(body))),
-    CertificateKind(POSES, 2, lambda body: _mechanism_checks(read_mechanism_document(body))),
-    CertificateKind(TOLERANCES, 1, lambda body: check_tolerances(read_tolerances(body))),
-    CertificateKind(SYSTEMS, 1, lambda body: check_system(read_system_document(body))),
-    *(CertificateKind(MOBILITY, version, lambda body: check_mobility(read_mobility(body))) for version in (1, 2, 3)),
-    CertificateKind(PLATFORM, 1, lambda body: check_platform(read_platform(body))),
-    CertificateKind(REGIONS, 1, lambda body: check_region(read_region(body))),
-    CertificateKind(REGIONS, 2, lambda body: check_region(read_region_2(body))),
-    CertificateKind(LINKS, 1, lambda body: check_links(read_links(body))),
-    CertificateKind(STATICS, 1, lambda body: check_statics(read_statics(body))),
-    CertificateKind(STATICS, 2, lambda body: check_box_statics(read_box_statics(body))),
+    CertificateKind(POSES, 1, _poses),
+    CertificateKind(POSES, 2, _mechanism),
+    CertificateKind(TOLERANCES, 1, _tolerances),
+    CertificateKind(SYSTEMS, 1, _system),
+    *(CertificateKind(MOBILITY, version, _mobility) for version in (1, 2, 3)),
+    CertificateKind(PLATFORM, 1, _platform),
+    CertificateKind(REGIONS, 1, _region),
+    CertificateKind(REGIONS, 2, _region_2),
+    CertificateKind(LINKS, 1, _links),
+    CertificateKind(STATICS, 1, _statics),
+    CertificateKind(STATICS, 2, _box_statics),
 )

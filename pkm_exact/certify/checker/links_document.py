@@ -12,7 +12,6 @@ from pkm_exact.certify.checker.system_document import SystemDocument, read_syste
 from pkm_exact.certify.checker.system_terms import MAX_VARIABLES
 from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, malformed, too_large
 
-FORMAT: Final = "pkm_exact links certificate"
 SYSTEM: Final = ("pkm_exact system certificate", 1)
 METHODS: Final = ("exact", "krawczyk")
 MOST_BODIES: Final = 32

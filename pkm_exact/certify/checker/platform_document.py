@@ -13,7 +13,6 @@ from pkm_exact.certify.checker.mobility_document import RankProof, read_rank_pro
 from pkm_exact.certify.checker.spelling import choice, count, entries, items, rational
 from pkm_exact.certify.checker.verdict import malformed
 
-FORMAT: Final = "pkm_exact platform certificate"
 ROUTES: Final = ("full", "combination", "grid", "none")
 _KEYS: Final = ("format", "version", "robot", "actuated", "pose", "everywhere")
 _EVERYWHERE: Final = ("rank", "position", "rotation", "rows", "columns", "route", "combinations")
