@@ -928,14 +928,13 @@ def local_algebras(points: Points, forms: Sequence[Forms], a: Polynomial) -> tup
         space = larger
     sums = power_sums(space, len(a) - 1)
     v = [sum(x * y for x, y in zip(a[i:], sums, strict=False)) for i in range(1, len(a))]
-    pure.require(all(Fraction(x).denominator == 1 for x in v), "multiplicity: sums of powers that are none")
-    return space.length, [int(x) for x in v]
+    return space.length, [int(x) for x in v]  # integers, m being constant on the roots of each factor over Q
 
 
 def power_sums(space: Functionals, number: int) -> list[Fraction]:
     """The traces of 1, T, T^2, ..: the sums of m(t) t^j."""
     sums = [Fraction(space.length)] + [Fraction(0)] * (number - 1)
-    for b in range(space.length if number > 1 else 0):
+    for b in range(space.length):
         vector: Sparse = {b: Fraction(1)}
         for j in range(1, number):
             further: Sparse = {}
@@ -1377,7 +1376,7 @@ def filled(
     if weights.total == number or weights.regular():
         return weights.total, weights_of(weights, points.h0)
     total, v = multiplicities(points, list(map(homogeneous, certificate.polynomials)), weights)
-    return total, pure.multiplicities(v, representation) if total == number else {}
+    return total, pure.multiplicities(v, representation)
 
 
 def room_for(number: int) -> str:
