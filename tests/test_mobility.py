@@ -20,6 +20,7 @@ from pkm_exact.mobility.finite_mobility import Argument, finite
 from pkm_exact.mobility.instantaneous_mobility import instantaneous
 from pkm_exact.mobility.local_ring import local_degree
 from pkm_exact.mobility.motion_series import motion_series
+from pkm_exact.mobility.rational_directions import rational_directions
 from pkm_exact.mobility.second_order import cone_dimension, section_vectors
 
 ROOT = Path(__file__).parent.parent
@@ -284,6 +285,62 @@ SEVEN = (
     [(1, 1, -1), (0, -1, 0), (1, -1, 1), (1, 0, 1), (-1, -1, 0), (-1, 1, -1), (0, -1, 0)],
 )
 """Seven hinges with two freedoms to the second order, one of which goes on."""
+
+
+def _sharing(one: Linkage, other: Linkage) -> Linkage:
+    """Two loops with their first hinges in common."""
+    names = {body: body if k < 2 else f"c{body}" for k, body in enumerate(other.bodies)}
+    joints = tuple(
+        replace(joint, name=f"c{joint.name}", bodies=(names[joint.bodies[0]], names[joint.bodies[1]]))
+        for joint in other.joints[1:]
+    )
+    return replace(
+        one, bodies=(*one.bodies, *(names[body] for body in other.bodies[2:])), joints=(*one.joints, *joints)
+    )
+
+
+def test_loops_that_share_a_hinge() -> None:
+    """Bennett's with a planar four-bar about its first axis; a spherical one with a planar one; two parallelograms."""
+    about = [(1 + y, x, -y) for x, y in ((0, 0), (3, 1), (5, 4), (1, 3))]
+    coupled = finite(instantaneous(_sharing(bennett(), _hinges(about, [(-2, 0, -2)] * 4))))
+    assert (coupled.least, coupled.most, coupled.argument) == (1, 1, Argument.CURVES)
+    z = (0, 0, 1)
+    spherical = _hinges([(0, 0, 0)] * 4, [z, (1, 0, 1), (1, 2, 3), (0, 1, 1)])
+    planar = _hinges([(0, 0, 0), (3, 1, 0), (5, 4, 0), (1, 3, 0)], [z] * 4)
+    assert finite(instantaneous(_sharing(spherical, planar))).argument == Argument.REGULAR
+    flat = [_hinges([(x, 0, 0) for x in places], [z] * 4) for places in ((0, 1, 4, 3), (0, 1, 6, 5))]
+    folded = instantaneous(_sharing(*flat))
+    assert folded.total == 3
+    assert (finite(folded).least, finite(folded).most, finite(folded).argument) == (1, 1, Argument.CURVES)
+
+
+def test_goldberg_s_loop_of_two_of_bennett_s() -> None:
+    """Its links on one side of a common link, and those turned about the middle of that link by half a turn."""
+    points, axes = ([tuple(map(Fraction, v)) for v in table] for table in (SQUARE, SQUARE_AXES))
+    middle, along = tuple((a + b) / 2 for a, b in zip(points[2], points[3], strict=True)), (1, -1, -2)
+
+    def turned(v: Any) -> Any:
+        factor = 2 * sum(a * b for a, b in zip(v, along, strict=True)) / sum(a * a for a in along)
+        return [factor * a - b for a, b in zip(along, v, strict=True)]
+
+    arms = [[x - m for x, m in zip(point, middle, strict=True)] for point in points[:2]]
+    others = [tuple(a + b for a, b in zip(turned(arm), middle, strict=True)) for arm in arms]
+    turned_axes = [tuple(turned(axis)) for axis in axes[:2]]
+    loop = instantaneous(_hinges([*points[:3], *others], [*axes[:3], *turned_axes]))
+    assert (loop.total, loop.counted) == (1, -1)
+    assert (finite(loop).least, finite(loop).argument) == (1, Argument.CURVE)
+
+
+SQUARE = [(1, 0, 0), (0, 1, 1), (-1, 0, 0), (0, -1, 1)]
+SQUARE_AXES = [(-2, 0, -2), (0, 2, -2), (2, 0, -2), (0, -2, -2)]
+
+
+def test_rational_directions_of_two_forms() -> None:
+    """x^2 = y^2 and x y = z^2 at (1, 1, 1), (1, 1, -1); x^2 = 2 y^2 nowhere; one form in three unknowns not at all."""
+    one, two = {(0, 0): Fraction(1), (1, 1): Fraction(-1)}, {(0, 1): Fraction(1), (2, 2): Fraction(-1)}
+    assert {tuple(map(int, y)) for y in rational_directions([one, two], 3)} == {(1, 1, 1), (-1, -1, 1)}
+    assert rational_directions([{(0, 0): Fraction(1), (1, 1): Fraction(-2)}], 2) == []
+    assert rational_directions([one], 3) == [(-1, 1, 0), (1, 1, 0)]
 
 
 def test_the_local_ring_bounds_what_the_second_order_does_not() -> None:

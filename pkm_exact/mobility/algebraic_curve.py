@@ -19,7 +19,7 @@ from typing import Final, TypeAlias
 from flint import fmpz_poly, nmod_mat, nmod_poly
 
 from pkm_exact.mobility.instantaneous_mobility import Instantaneous
-from pkm_exact.mobility.motion_series import VECTOR_PARTS, motion_series, primes_below
+from pkm_exact.mobility.motion_series import VECTOR_PARTS, branch_series, motion_series, primes_below
 from pkm_exact.screws.exact_matrix import Row
 
 ORDER: Final = 120
@@ -69,8 +69,10 @@ def _entry(sheets: Sheets, sheet: int, power: int) -> Fraction:
     return sheets[sheet][power] if sheet < len(sheets) and power < len(sheets[sheet]) else Fraction(0)
 
 
-def algebraic_curve(found: Instantaneous) -> AlgebraicCurve | None:
+def algebraic_curve(found: Instantaneous, direction: Sequence[Fraction] | None = None) -> AlgebraicCurve | None:
     """The motion of a mechanism with one freedom to the first order; None if it has none or none is found.
+
+    With more of them the motion that begins in a direction, factors of the speeds.
 
     Examples
     --------
@@ -83,17 +85,25 @@ def algebraic_curve(found: Instantaneous) -> AlgebraicCurve | None:
     names = found.linkage.freedoms
     twists = [found.loops.twists[index] for loop in found.loops.loops for index, _ in loop]
     lines = all(sum(a * b for a, b in zip(t[:3], t[3:], strict=True)) == 0 for t in twists)
-    if found.total != 1 or not lines or len(names) - len(found.locked) > MOST_FREEDOMS:
+    if (direction is None and found.total != 1) or not lines or len(names) - len(found.locked) > MOST_FREEDOMS:
         return None
     primes = primes_below(LARGEST_PRIME, MOST_PRIMES)
-    series = motion_series(found, primes[0], ORDER)
+    series = _series(found, direction, primes[0], ORDER)
     if series is None:
         return None
     shape = next(_shapes(series, primes[0]), None)
     if shape is None:
         return None
-    curve = _lifted(found, shape, primes)
+    curve = _lifted(found, direction, shape, primes)
     return curve if curve is not None and closes(found, curve) else None
+
+
+def _series(
+    found: Instantaneous, direction: Sequence[Fraction] | None, prime: int, order: int
+) -> list[nmod_poly] | None:
+    if direction is None:
+        return motion_series(found, prime, order)
+    return branch_series(found, direction, prime, order)
 
 
 @dataclass(frozen=True)
@@ -206,13 +216,15 @@ def _quotient(
     return _only(_kernel([*above, *below], prime, order), prime)
 
 
-def _lifted(found: Instantaneous, shape: _Shape, primes: Sequence[int]) -> AlgebraicCurve | None:
+def _lifted(
+    found: Instantaneous, direction: Sequence[Fraction] | None, shape: _Shape, primes: Sequence[int]
+) -> AlgebraicCurve | None:
     """The curve over the rational numbers that has these coefficients modulo primes; it is still to be proved."""
     known: list[list[int]] = []
     modulus = 1
     before: list[list[Fraction]] | None = None
     for prime in primes:
-        series = motion_series(found, prime, shape.order)
+        series = _series(found, direction, prime, shape.order)
         vectors = None if series is None else shape.vectors(series, prime, shape.order)
         if vectors is None:
             continue

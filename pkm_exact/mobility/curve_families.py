@@ -13,6 +13,8 @@ from typing import Final
 
 from pkm_exact.mobility.algebraic_curve import AlgebraicCurve, algebraic_curve
 from pkm_exact.mobility.instantaneous_mobility import Instantaneous, instantaneous
+from pkm_exact.mobility.rational_directions import rational_directions
+from pkm_exact.mobility.second_order import obstructions
 
 MOST_TRIALS: Final = 100
 MOST_LOCKED_TOGETHER: Final = 2
@@ -49,6 +51,7 @@ def _parts(found: Instantaneous) -> list[list[int]]:
 
 
 def _curve_of_part(found: Instantaneous, part: Sequence[int]) -> AlgebraicCurve | None:
+    """The only motion there can be, one with freedoms locked, or a branch of a singular configuration."""
     names = found.linkage.freedoms
     if not any(index in part for loop in found.loops.loops for index, _ in loop):
         zero, one = Fraction(0), Fraction(1)
@@ -57,11 +60,14 @@ def _curve_of_part(found: Instantaneous, part: Sequence[int]) -> AlgebraicCurve 
     outside = [name for k, name in enumerate(names) if k not in part]
     for _, chosen in zip(range(MOST_TRIALS), _locked_on_trial([names[k] for k in part]), strict=False):
         left = instantaneous(found.linkage, (*outside, *chosen))
-        if left.total == 1:
-            curve = algebraic_curve(left)
-            if curve is not None:
-                return curve
-    return None
+        curve = algebraic_curve(left) if left.total == 1 else None
+        if curve is not None:
+            return curve
+    free = instantaneous(found.linkage, outside)
+    forms = [entry.form for entry in obstructions(free)]
+    directions = rational_directions(forms, free.total) if forms else []
+    branches = (algebraic_curve(free, direction) for direction in directions)
+    return next((curve for curve in branches if curve is not None), None)
 
 
 def _locked_on_trial(names: Sequence[str]) -> Iterator[tuple[str, ...]]:

@@ -138,3 +138,96 @@ def _times_vector(p: Sequence[nmod_poly], u: Sequence[int]) -> list[nmod_poly]:
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         terms.append([(u[i], p[0]), (u[k], p[1 + j]), (-u[j], p[1 + k])])
     return [reduce(lambda total, term: total + term[1] * term[0], row, p[0] * 0) for row in terms]
+
+
+def branch_series(
+    found: Instantaneous, direction: Sequence[Fraction], prime: int, order: int
+) -> list[nmod_poly] | None:
+    """The half tangents of a branch that leaves a singular configuration in a direction, up to an order.
+
+    ``direction`` are factors of the speeds. The terms of order k are free but for those that the independent equations
+    give; what the others ask of order k + 1 is linear in them. None if this does not determine them, up to the
+    parameter, or cannot be fulfilled.
+
+    Examples
+    --------
+    >>> from pkm_exact.geometry.reader import read_linkage
+    >>> from pkm_exact.mobility.instantaneous_mobility import instantaneous
+    >>> singular = instantaneous(read_linkage("models/chains/seven-link-oblique.toml"))
+    >>> branch_series(singular, [Fraction(1), Fraction(0)], 101, 3) is None
+    True
+    """
+    matrix, twists = residues(found.loops.matrix, prime), residues(found.loops.twists, prime)
+    speeds, along = residues(found.speeds, prime), residues([direction], prime)
+    if matrix is None or twists is None or speeds is None or along is None or not any(along[0]):
+        return None
+    solved = _Split(found, matrix, prime)
+    if not solved.is_regular:
+        return None
+    start = [sum(y * row[k] for y, row in zip(along[0], speeds, strict=True)) % prime for k in range(len(twists))]
+    half = [nmod_poly([0, value], prime) for value in start]
+    gauge = next(k for k, y in enumerate(along[0]) if y)
+    moving = [row for k, row in enumerate(speeds) if k != gauge]
+
+    def left_at(tried: Sequence[nmod_poly], power: int) -> tuple[list[int], list[int]]:
+        return solved.split([int(part[power]) for part in closures(found, twists, tried, prime, power + 1)])
+
+    def moved(values: Sequence[int], power: int) -> list[nmod_poly]:
+        return [part + nmod_poly([0] * power + [x], prime) for part, x in zip(half, values, strict=True)]
+
+    still = left_at(half, 3)[1]
+    columns = [[(a - b) % prime for a, b in zip(left_at(moved(row, 2), 3)[1], still, strict=True)] for row in moving]
+    slopes = nmod_mat(len(still), len(columns), [column[i] for i in range(len(still)) for column in columns], prime)
+    if int(slopes.rank()) < len(columns):
+        return None
+    for k in range(2, order + 1):
+        given, rest = left_at(half, k)
+        if any(rest):
+            return None
+        half = moved(solved.correction(given), k)
+        factors = _solution(slopes, [-value for value in left_at(half, k + 1)[1]], prime)
+        if factors is None:
+            return None
+        half = moved([sum(y * row[i] for y, row in zip(factors, moving, strict=True)) for i in range(len(twists))], k)
+    return half
+
+
+class _Split:
+    """Independent equations, solved for some half tangents, and what is left of the others without these."""
+
+    def __init__(self, found: Instantaneous, matrix: Sequence[Sequence[int]], prime: int) -> None:
+        names = found.linkage.freedoms
+        free = [k for k, name in enumerate(names) if name not in found.locked]
+        self.rows, self.columns = minor_places(found.loops.matrix, free)
+        self.prime, self.size = prime, len(names)
+        self.others = [k for k in range(len(matrix)) if k not in self.rows]
+        count = len(self.rows)
+        minor = nmod_mat(count, count, [matrix[i][j] for i in self.rows for j in self.columns], prime)
+        self.is_regular = bool(count) and bool(self.others) and int(minor.det()) != 0
+        if self.is_regular:
+            self.inverse = minor.inv()
+            self.linear = nmod_mat([[matrix[i][j] for j in self.columns] for i in self.others], prime) * self.inverse
+
+    def split(self, values: Sequence[int]) -> tuple[list[int], list[int]]:
+        """Of terms of one order those of the independent equations, and those of the others less their multiples."""
+        given = [values[i] for i in self.rows]
+        follows = (self.linear * nmod_mat(len(given), 1, given, self.prime)).entries()
+        return given, [(values[i] - int(x)) % self.prime for i, x in zip(self.others, follows, strict=True)]
+
+    def correction(self, given: Sequence[int]) -> list[int]:
+        """The terms of the half tangents that make up for those of the independent equations."""
+        found = [0] * self.size
+        steps = (self.inverse * nmod_mat(len(given), 1, [-value for value in given], self.prime)).entries()
+        for column, step in zip(self.columns, steps, strict=True):
+            found[column] = int(step)
+        return found
+
+
+def _solution(matrix: nmod_mat, right: Sequence[int], prime: int) -> list[int] | None:
+    """The x with A x = b, of a matrix whose columns are independent; None if there is none."""
+    count = matrix.ncols()
+    rows = [[*map(int, row), value] for row, value in zip(matrix.tolist(), right, strict=True)]
+    reduced, rank = nmod_mat(rows, prime).rref()
+    if rank > count:
+        return None
+    return [int(reduced[k, count]) for k in range(count)]
