@@ -70,6 +70,7 @@ golden: $(VENV)/.installed
 	done
 	@mkdir -p certs/statics certs/regions certs/mobility
 	@$(BIN)/certify-poses statics models/3-rpr-merlet-p.toml --position 5,9/2 --half-tangent 1/3 --limits speeds=1 --limits forces=2 --limits length=3 -o certs/statics/3-rpr-merlet-p.json >/dev/null
+	@$(BIN)/certify-poses statics models/dual-v.toml --position 0,0 --half-tangent 0 --modes +-+- --limits speeds=1 --limits forces=2 --limits length=3 -o certs/statics/dual-v.json >/dev/null
 	@$(BIN)/certify-poses region models/3-rpr-merlet-p.toml certs/regions/3-rpr-merlet-p.toml -o certs/regions/3-rpr-merlet-p.json >/dev/null
 	@$(BIN)/certify-poses statics certs/3-rps.json --model models/3-rps.toml --pose 2 --limits speeds=1 --limits forces=2 --limits length=3 --load 0,0,-10 -o certs/statics/3-rps.json >/dev/null
 	@$(BIN)/certify-poses region models/rolland-6-6.toml certs/regions/rolland-6-6.toml -o certs/regions/rolland-6-6.json >/dev/null

@@ -42,8 +42,17 @@ def machine(freedoms: Sequence[int], rods: Sequence[Numbers], **entries: Any) ->
     return content | entries
 
 
+def driven(content: Content, directions: Sequence[Numbers | None]) -> Content:
+    """The same as version 3, with how actuators move the base joints."""
+    legs = [
+        leg | {"direction": None if n is None else [str(Fraction(x)) for x in n]}
+        for leg, n in zip(content["legs"], directions, strict=True)
+    ]
+    return content | {"version": 3, "legs": legs}
+
+
 def rows_of(content: Content) -> tuple[list[list[Fraction]], list[float]]:
-    """The rows R_i and the lengths."""
+    """The rows R_i and the lengths; of driven legs the rows as positive p_i divide them, and these."""
     g = [Fraction(x) for x in content["metric"]]
     c = [Fraction(x) for x in content["position"]]
     r = [[Fraction(x) for x in row] for row in content["rotation"]]
@@ -58,8 +67,13 @@ def rows_of(content: Content) -> tuple[list[list[Fraction]], list[float]]:
             g[0] * g[1] * (arm[0] * d[1] - arm[1] * d[0]),
         ]
         whole = [*(w * x for w, x in zip(g, d, strict=True)), *moment]
-        rows.append([Fraction(whole[k]) for k in content["freedoms"]])
-        lengths.append(sqrt(sum(w * x * x for w, x in zip(g, d, strict=True))))
+        direction, side = entry.get("direction"), 1
+        size = sqrt(sum(w * x * x for w, x in zip(g, d, strict=True)))
+        if direction is not None:
+            speed = sum((w * Fraction(n) * x for w, n, x in zip(g, direction, d, strict=True)), Fraction(0))
+            side, size = (1 if speed > 0 else -1), abs(float(speed))
+        rows.append([side * Fraction(whole[k]) for k in content["freedoms"]])
+        lengths.append(size)
     return rows, lengths
 
 

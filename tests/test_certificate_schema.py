@@ -26,6 +26,7 @@ from pkm_exact.certify import (
     region_build_2,
     statics_box_build,
     statics_build,
+    statics_driven_build,
     system_build,
     tolerance_build,
 )
@@ -44,6 +45,7 @@ REGIONS = "region-certificate-1.schema.json"
 REGIONS_2 = "region-certificate-2.schema.json"
 STATICS = "statics-certificate-1.schema.json"
 STATICS_2 = "statics-certificate-2.schema.json"
+STATICS_3 = "statics-certificate-3.schema.json"
 LINKS = "links-certificate-1.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
@@ -68,7 +70,7 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     "name",
     [
         *(POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, MOBILITY_3, PLATFORM),
-        *(REGIONS, REGIONS_2, STATICS, LINKS, STATICS_2),
+        *(REGIONS, REGIONS_2, STATICS, LINKS, STATICS_2, STATICS_3),
     ],
 )
 def test_schemas_are_schemas(name: str) -> None:
@@ -249,6 +251,9 @@ def test_the_page_of_statics_defines_every_key_in_its_order() -> None:
     assert _tables("Format", "### Claims", "certificates-statics.md") == [_keys(root)]
     second = _schema(STATICS_2)
     page = (CERTS.parent / "docs" / "certificates-statics.md").read_text()
+    assert _keys(_schema(STATICS_3)) == _keys(root)
+    third = page.partition("## Version 3")[2]
+    assert all(f"`{key}`" in third for key in _schema(STATICS_3)["properties"]["legs"]["items"]["properties"])
     keys, parts = page.partition("## Version 2")[2].partition("### What is claimed")[0].split("| part |")
     assert re.findall(r"^\| `(\w+)` \|", keys, re.M) == list(second["properties"])
     for name in ("solution", "velocity_polytope", "wrench_polytope", "ellipsoid"):
@@ -287,6 +292,7 @@ def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
         links_build,
         region_build_2,
         statics_box_build,
+        statics_driven_build,
     )
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")

@@ -260,6 +260,7 @@ OF_A_KIND = {
     "region, version 2": lambda: golden("regions/3-rpr-merlet-p"),
     "statics": lambda: golden("statics/3-rpr-merlet-p"),
     "statics, version 2": lambda: golden("statics/3-rps"),
+    "statics, version 3": lambda: golden("statics/dual-v"),
     "links": lambda: golden("links/four-bar"),
 }
 

@@ -8,17 +8,19 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
+import numpy as np
 import pytest
 from certificate_tools import both, golden
 from samples import model
 from test_statics import POSES, at, vector
 
-from pkm_exact import Mechanism
+from pkm_exact import Mechanism, read_robot
 from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import check_bytes
-from pkm_exact.certify.statics_box_build import statics_box_certificate
+from pkm_exact.certify.statics_box_build import any_statics_certificate, statics_box_certificate
 from pkm_exact.certify.statics_build import statics_certificate
+from pkm_exact.certify.statics_driven_build import driven_legs, statics_driven_certificate
 from pkm_exact.certify.statics_of_poses import at_certified_poses
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
@@ -27,7 +29,7 @@ from pkm_exact.motions.motion_groups import PLANAR, SPHERICAL
 from pkm_exact.statics.machine_at_pose import machine_at
 
 Capture = pytest.CaptureFixture[str]
-SCHEMA, SECOND = (Path(pure.__file__).with_name(f"statics-certificate-{k}.schema.json") for k in (1, 2))
+SCHEMA, SECOND, THIRD = (Path(pure.__file__).with_name(f"statics-certificate-{k}.schema.json") for k in (1, 2, 3))
 
 
 def redundant() -> Mechanism:
@@ -294,6 +296,63 @@ def test_poses_of_certificates_have_certificates(name: str) -> None:
     assert len(verdict.lines) == 7 - len(left_out)
     assert bool(left_out) == (name in ("dual-v", "3-rpr-triple"))
     jsonschema.Draft202012Validator(json.loads(SECOND.read_text())).validate(content)
+
+
+EXACT = {
+    "dual-v": ({"position": [0, 0], "half_tangent": 0}, "+-+-"),
+    "h4": ({"position": [0, 0, -42], "quaternion": [1, 0, 0, 0]}, "++++"),
+}
+
+
+@pytest.mark.parametrize("name", EXACT)
+def test_slides_and_cranks_at_exact_poses_have_certificates(name: str) -> None:
+    """The polytopes that are printed, corner by corner."""
+    at = read_robot(f"models/{name}.toml").at(EXACT[name][0], modes=EXACT[name][1])
+    measures = at.measures(speeds=1, forces=2, length=3)
+    content, left_out = any_statics_certificate(model(name), measures)
+    assert (content["version"], left_out) == (3, {})
+    jsonschema.Draft202012Validator(json.loads(THIRD.read_text())).validate(content)
+    verdict = both(canonical_bytes(content))
+    assert verdict.status == "accepted", verdict.lines
+    assert at.jacobian is not None
+    rows = at.jacobian.to_numpy()
+    lengths = [driven_length(content, k) for k in range(len(rows))]
+    points = [[sum(float(Fraction(c)) * size for c, size in zip(line, lengths, strict=True)) for line in vertex]
+              for vertex in content["velocity_polytope"]["vertices"]]  # fmt: skip
+    speeds = np.abs(np.array(points) / np.sqrt(squares_of_columns(content)) @ rows.T)
+    assert speeds.max() < 1 + 1e-12
+    assert np.isclose(speeds, 1).sum(axis=1).min() >= rows.shape[1]
+    assert len(points) == len(at.velocity_polytope(1).vertices)
+    # With a load forces are what is asked for, which version 2 encloses.
+    assert any_statics_certificate(model(name), measures, [1] * len(at.twist))[0]["version"] == 2
+
+
+def test_knees_that_are_not_rational_have_none() -> None:
+    robot = read_robot("models/3-rrr.toml")
+    at = robot.at({"position": ["31/5", "-19/5"], "half_tangent": "-1/14"}, modes="+++")
+    assert driven_legs(at) is None
+    with pytest.raises(InputError, match="legs alone, 12 at most, with rational joints"):
+        statics_driven_certificate(at.measures(speeds=1))
+    with pytest.raises(InputError, match="by lengths, slides or cranks, with rational joints"):
+        any_statics_certificate(model("3-rrr"), at.measures(speeds=1))
+
+
+def driven_length(content: dict[str, Any], number: int) -> float:
+    """|p_i| of a leg, in ordinary arithmetic."""
+    g, c = (np.array([float(Fraction(x)) for x in content[key]]) for key in ("metric", "position"))
+    turn = np.array([[float(Fraction(x)) for x in row] for row in content["rotation"]])
+    a, b, n = (
+        np.array([float(Fraction(x)) for x in content["legs"][number][key]])
+        for key in ("base", "platform", "direction")
+    )
+    return abs(float(g * n @ (c + turn @ b - a)))
+
+
+def squares_of_columns(content: dict[str, Any]) -> list[float]:
+    """k_j of the freedoms."""
+    g = [float(x) for x in content["metric"]]
+    whole = [1 / g[0], 1 / g[1], 1 / g[2], 1 / (g[1] * g[2]), 1 / (g[2] * g[0]), 1 / (g[0] * g[1])]
+    return [whole[k] for k in content["freedoms"]]
 
 
 def test_what_is_in_a_box_is_what_is_said_of_the_pose() -> None:

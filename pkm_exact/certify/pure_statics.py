@@ -114,15 +114,15 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
     if body.get("version") == 2:
         return pure.checks_beside("pure_statics_box", "a statics certificate of version 2")(body)
     pure.well_formed(
-        body.get("format") == FORMAT and type(body.get("version")) is int and body["version"] == 1,
-        f"format: not a {FORMAT}, version 1 or 2",
+        body.get("format") == FORMAT and type(body.get("version")) is int and body["version"] in (1, 3),
+        f"format: not a {FORMAT}, version 1, 2 or 3",
     )
     values = fields(body, "certificate", KEYS)
     name, unit = values[2:4]
     for text, where in ((name, "name"), (unit, "unit")):
         pure.well_formed(isinstance(text, str), f"{where}: not a text")
         pure.affordable(len(text) <= pure.MAX_TEXT, f"{where}: more than {pure.MAX_TEXT} characters")
-    machine = read_machine(values[4:9])
+    machine = read_machine(values[4:9], driven=body["version"] == 3)
     count, n = len(machine.rows), machine.freedoms
     speeds = None if values[9] is None else vector(values[9], "speeds", count)
     pure.well_formed(speeds is None or min(speeds) > 0, "speeds: one is not positive")
@@ -143,8 +143,8 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
     return checks(machine, speeds, forces, length, (velocity, wrench, ellipsoid, indices))
 
 
-def read_machine(values: Sequence[Any]) -> Machine:
-    """The legs at the pose: R_i, l_i^2 and k_j."""
+def read_machine(values: Sequence[Any], *, driven: bool) -> Machine:
+    """The legs at the pose: R_i, l_i^2 and k_j; of driven ones R_i times the sign of p_i, and p_i^2."""
     metric = integers(values[0], "metric", 3)
     pure.well_formed(min(metric) > 0, "metric: one is not positive")
     pure.well_formed(isinstance(values[1], list), "freedoms: not a list")
@@ -155,14 +155,14 @@ def read_machine(values: Sequence[Any]) -> Machine:
     lines = entries_of(values[3], "rotation", 3)
     rotation = [vector(line, f"rotation[{k}]", 3) for k, line in enumerate(lines, 1)]
     legs = list_of(values[4], "legs", MAX_LEGS)
-    joints = [joints_of(leg, f"legs[{number}]") for number, leg in enumerate(legs, 1)]
+    joints = [leg_of(leg, f"legs[{number}]", driven=driven) for number, leg in enumerate(legs, 1)]
     pure.well_formed(len(joints) >= len(freedoms), "legs: fewer than freedoms")
     for i, j in product(range(3), range(3)):
         found = sum((g * r[i] * r[j] for g, r in zip(metric, rotation, strict=True)), Fraction(0))
         pure.require(found == (metric[i] if i == j else 0), "rotation: not one in the metric")
     pure.require(determinant([list(line) for line in rotation]) == 1, "rotation: its determinant is not 1")
     rows, squares = [], []
-    for number, (a, b) in enumerate(joints, 1):
+    for number, (a, b, direction) in enumerate(joints, 1):
         arm = [sum((r * x for r, x in zip(line, b, strict=True)), Fraction(0)) for line in rotation]
         d = [c + x - y for c, x, y in zip(position, arm, a, strict=True)]
         square = sum((g * x * x for g, x in zip(metric, d, strict=True)), Fraction(0))
@@ -170,6 +170,10 @@ def read_machine(values: Sequence[Any]) -> Machine:
         whole = [g * x for g, x in zip(metric, d, strict=True)]
         for j, k in ((1, 2), (2, 0), (0, 1)):
             whole.append(metric[j] * metric[k] * (arm[j] * d[k] - arm[k] * d[j]))
+        if direction is not None:
+            speed = sum((g * n * x for g, n, x in zip(metric, direction, d, strict=True)), Fraction(0))
+            pure.require(speed != 0, f"legs[{number}]: its actuator does not move it")
+            square, whole = speed**2, [-x for x in whole] if speed < 0 else whole
         rows.append(tuple(whole[place] for place in freedoms))
         squares.append(square)
     g1, g2, g3 = metric
@@ -178,10 +182,11 @@ def read_machine(values: Sequence[Any]) -> Machine:
     return Machine(tuple(rows), tuple(squares), tuple(columns[place] for place in freedoms), turning)
 
 
-def joints_of(value: Any, where: str) -> tuple[Row, Row]:
-    """The joints of a leg."""
-    base, platform = fields(value, where, "base platform")
-    return vector(base, f"{where}.base", 3), vector(platform, f"{where}.platform", 3)
+def leg_of(value: Any, where: str, *, driven: bool) -> tuple[Row, Row, Row | None]:
+    """The joints of a leg, and the velocity of its base joint; None where its length is what is actuated."""
+    base, platform, *others = fields(value, where, "base platform direction" if driven else "base platform")
+    direction = vector(others[0], f"{where}.direction", 3) if driven and others[0] is not None else None
+    return vector(base, f"{where}.base", 3), vector(platform, f"{where}.platform", 3), direction
 
 
 def read_velocity(value: Any, count: int, n: int) -> tuple[list[tuple[int, int]], list[tuple[Row, ...]]]:

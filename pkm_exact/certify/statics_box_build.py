@@ -23,6 +23,7 @@ from pkm_exact.certify.statics_box_parts import (
     wrench_entry,
 )
 from pkm_exact.certify.statics_build import is_for_legs_alone, short_weights, statics_certificate
+from pkm_exact.certify.statics_driven_build import driven_legs, statics_driven_certificate
 from pkm_exact.certify.widened import texts
 from pkm_exact.errors import PkmExactError
 from pkm_exact.precision import working_precision
@@ -122,10 +123,19 @@ def any_statics_certificate(
     load: Sequence[Fraction] | None = None,
     solution: Mapping[str, Any] | None = None,
 ) -> tuple[dict[str, Any], dict[str, str]]:
-    """Version 1 at an exact pose of legs alone, else version 2, and why parts of it are not there."""
-    if machine is None or not is_for_legs_alone(machine, measures.freedom.at):
+    """The certificate of what was asked, and why parts of it are not there.
+
+    Version 1 at an exact pose of legs alone, version 3 if slides and cranks drive them and no load is given, else
+    version 2.
+    """
+    at: AtPose = measures.freedom.at  # type: ignore[assignment]
+    left_out = dict[str, str]()
+    if machine is not None and is_for_legs_alone(machine, at):
+        content = statics_certificate(machine, measures)
+    elif load is None and driven_legs(at) is not None:
+        content = statics_driven_certificate(measures)
+    else:
         return statics_box_certificate(measures, load, solution)
-    content, left_out = statics_certificate(machine, measures), dict[str, str]()
     for name, (limit, reason) in _NOT_CERTIFIED.items():
         if content[name] is None and (limit == "" or content[limit] is not None):
             left_out[name] = reason

@@ -89,7 +89,7 @@ def boxed_machine(at: AtPose) -> BoxedMachine:
     InputError
         If it is not one of those that have certificates, or the box is too wide.
     """
-    legs = tuple(_leg(at, k) for k in range(len(at.held.actuators)))
+    legs = tuple(boxed_leg(at, k) for k in range(len(at.held.actuators)))
     if not 1 <= len(legs) <= MOST_LEGS:
         raise InputError(_LEGS)
     constraints = tuple(_form(at.equations[index]) for index in at.held.structural)
@@ -135,7 +135,8 @@ class _Named:
         return self.at.metric
 
 
-def _leg(at: AtPose, number: int) -> BoxedLeg:
+def boxed_leg(at: AtPose, number: int) -> BoxedLeg:
+    """The leg that an actuator drives; a refusal if it drives anything else, or all is not rational."""
     equation = at.equations[at.held.actuators[number].equation]
     form, rates = equation.form, equation.rates
     if len(rates) != 1 or rates[0].actuator != number:

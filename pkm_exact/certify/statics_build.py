@@ -6,7 +6,8 @@ folder.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 from typing import TYPE_CHECKING, Any, Final
@@ -52,29 +53,45 @@ def statics_certificate(machine: Machine, measures: Measures) -> dict[str, Any]:
     >>> len(content["velocity_polytope"]["vertices"]), len(content["wrench_polytope"]["facets"])
     (8, 6)
     """
+    at = measures.freedom.at
+    legs = [{"base": _texts(base), "platform": _texts(platform)} for base, platform in _legs(machine, at)]
+    rows = [[Fraction(x) / 2 for x in row.wrench] for row in at.exact_rows or ()]
+    squares = [equation.rates[0].value_squared or Fraction(0) for equation in at.equations]
+    return sealed(exact_content(VERSION, measures, legs, Driven(rows, squares)))
+
+
+@dataclass(frozen=True)
+class Driven:
+    """Rows R_i of the legs in rational coordinates and the squares of what they are divided by, l_i."""
+
+    rows: list[list[Fraction]]
+    squares: list[Fraction]
+
+
+def exact_content(
+    version: int, measures: Measures, legs: Sequence[Mapping[str, Any]], driven: Driven
+) -> dict[str, Any]:
+    """The content of a certificate of an exact pose, without its digest."""
     at, limits = measures.freedom.at, measures.limits
-    legs = _legs(machine, at)
     ends = limits.force_ends
-    return sealed(
-        {
-            "format": FORMAT,
-            "version": VERSION,
-            "name": at.name,
-            "unit": at.unit,
-            "metric": list(map(str, at.metric)),
-            "freedoms": list(at.motion.twist),
-            "position": _texts(at.position),
-            "rotation": [_texts(row) for row in at.rotation],
-            "legs": [{"base": _texts(leg[0]), "platform": _texts(leg[1])} for leg in legs],
-            "speeds": None if limits.speeds is None else _texts(limits.speeds),
-            "forces": None if ends is None else [_texts(pair) for pair in zip(*ends, strict=True)],
-            "length": None if limits.length is None else str(limits.length),
-            "velocity_polytope": None if limits.speeds is None else _velocity(at, limits.speeds),
-            "wrench_polytope": None if ends is None else _wrench(measures, *ends),
-            "ellipsoid": None if limits.speeds is None else _ellipsoid(measures, limits.speeds),
-            "indices": _indices(measures),
-        }
-    )
+    return {
+        "format": FORMAT,
+        "version": version,
+        "name": at.name,
+        "unit": at.unit,
+        "metric": list(map(str, at.metric)),
+        "freedoms": list(at.motion.twist),
+        "position": _texts(at.position),
+        "rotation": [_texts(row) for row in at.rotation],
+        "legs": list(legs),
+        "speeds": None if limits.speeds is None else _texts(limits.speeds),
+        "forces": None if ends is None else [_texts(pair) for pair in zip(*ends, strict=True)],
+        "length": None if limits.length is None else str(limits.length),
+        "velocity_polytope": None if limits.speeds is None else _velocity(driven, limits.speeds),
+        "wrench_polytope": None if ends is None else _wrench(measures, driven.rows, *ends),
+        "ellipsoid": None if limits.speeds is None else _ellipsoid(measures, driven, limits.speeds),
+        "indices": _indices(measures),
+    }
 
 
 def is_for_legs_alone(machine: Machine, at: PoseRows) -> bool:
@@ -105,17 +122,8 @@ def _texts(values: Sequence[Any]) -> list[str]:
     return [str(Fraction(value)) for value in values]
 
 
-def _rows(at: PoseRows) -> list[list[Fraction]]:
-    """R_i: half the derivative of the squared length."""
-    return [[Fraction(x) / 2 for x in row.wrench] for row in at.exact_rows or ()]
-
-
-def _squares(at: PoseRows) -> list[Fraction]:
-    return [equation.rates[0].value_squared or Fraction(0) for equation in at.equations]
-
-
-def _velocity(at: PoseRows, speeds: Sequence[Fraction]) -> dict[str, Any]:
-    rows, squares = _rows(at), _squares(at)
+def _velocity(driven: Driven, speeds: Sequence[Fraction]) -> dict[str, Any]:
+    rows, squares = driven.rows, driven.squares
     bounds = []
     for speed, square in zip(speeds, squares, strict=True):
         bound = speed * RootSum.root(square)
@@ -144,8 +152,10 @@ def _vertex(key: Sequence[tuple[int, int]], rows: list[list[Fraction]], speeds: 
     return found
 
 
-def _wrench(measures: Measures, low: Sequence[Fraction], high: Sequence[Fraction]) -> dict[str, Any] | None:
-    rows, facets = _rows(measures.freedom.at), []
+def _wrench(
+    measures: Measures, rows: Sequence[Sequence[Fraction]], low: Sequence[Fraction], high: Sequence[Fraction]
+) -> dict[str, Any] | None:
+    facets = []
     zonotope = wrench_zonotope(measures.freedom, low, high)
     if zonotope is None or not all(map(any, rows)):
         return None  # not exact, or a leg exerts nothing: its force is at no end of its range at a vertex
@@ -162,13 +172,12 @@ def _wrench(measures: Measures, low: Sequence[Fraction], high: Sequence[Fraction
     return {"facets": facets, "vertices": [list(cell) for cell in zonotope.cells]}
 
 
-def _ellipsoid(measures: Measures, speeds: Sequence[Fraction]) -> dict[str, Any] | None:
+def _ellipsoid(measures: Measures, driven: Driven, speeds: Sequence[Fraction]) -> dict[str, Any] | None:
     """A rational ellipsoid in the polytope that the weights prove to be nearly the largest; None if they do not."""
     from pkm_exact.statics.largest_ellipsoid import largest_ellipsoid
 
-    at = measures.freedom.at
-    rows = _rows(at)
-    bounds = [speed * speed * square for speed, square in zip(speeds, _squares(at), strict=True)]
+    at, rows = measures.freedom.at, driven.rows
+    bounds = [speed * speed * square for speed, square in zip(speeds, driven.squares, strict=True)]
     try:
         found = largest_ellipsoid(measures.freedom.scaled(measures.limits.length, speeds), at.twist)
     except PkmExactError:

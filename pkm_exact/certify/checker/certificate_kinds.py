@@ -160,6 +160,13 @@ def _statics(body: dict[str, Any]) -> Iterator[str]:
     return check_statics(read_statics(body))
 
 
+def _driven_statics(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.statics_checks import check_statics
+    from pkm_exact.certify.checker.statics_document import read_statics
+
+    return check_statics(read_statics(body, is_driven=True))
+
+
 def _box_statics(body: dict[str, Any]) -> Iterator[str]:
     from pkm_exact.certify.checker.statics_box_checks import check_box_statics
     from pkm_exact.certify.checker.statics_box_document import read_box_statics
@@ -179,4 +186,5 @@ KINDS: Final = (
     CertificateKind(LINKS, 1, _links),
     CertificateKind(STATICS, 1, _statics),
     CertificateKind(STATICS, 2, _box_statics),
+    CertificateKind(STATICS, 3, _driven_statics),
 )

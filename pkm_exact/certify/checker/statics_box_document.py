@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any, Final
 
 from pkm_exact.certify.checker.spelling import choice, count, entries, integer, items, positive, rational, text
-from pkm_exact.certify.checker.statics_document import FORMAT, MAX_LEGS, MAX_VERTICES
+from pkm_exact.certify.checker.statics_document import FORMAT, MAX_LEGS, MAX_VERTICES, vector_of, whole
 from pkm_exact.certify.checker.verdict import malformed, too_large
 
 KEYS: Final = (
@@ -122,7 +122,7 @@ def read_box_statics(body: dict[str, Any]) -> BoxStatics:
     text(values["unit"], "unit")
     if values["solution"] is not None:
         _solution(values["solution"])
-    metric = items(values["metric"], "metric", 3, _whole)
+    metric = items(values["metric"], "metric", 3, whole)
     if min(metric) <= 0:
         raise malformed("metric: one is not positive")
     freedoms = _places(values["freedoms"], "freedoms", range(6))
@@ -130,7 +130,7 @@ def read_box_statics(body: dict[str, Any]) -> BoxStatics:
         if isinstance(values[name], list) and len(values[name]) > most:
             raise too_large(f"{name}: more than {most} entries")
     legs = items(values["legs"], "legs", None, _leg)
-    forms = items(values["constraints"], "constraints", None, _vector(FORM))
+    forms = items(values["constraints"], "constraints", None, vector_of(FORM))
     free = _places(values["free"], "free", freedoms)
     n, f, m = len(freedoms), len(free), len(legs)
     if f != n - len(forms):
@@ -173,17 +173,6 @@ def read_box_statics(body: dict[str, Any]) -> BoxStatics:
     )
 
 
-def _whole(value: Any, where: str) -> int:
-    number = rational(value, where)
-    if number.denominator != 1:
-        raise malformed(f"{where}: not an integer")
-    return int(number)
-
-
-def _vector(length: int) -> Any:
-    return lambda value, where: items(value, where, length, rational)
-
-
 def _ends_of(length: int) -> Any:
     return lambda value, where: items(value, where, length, _ends)
 
@@ -218,7 +207,7 @@ def _solution(value: Any) -> None:
 
 def _leg(value: Any, where: str) -> BoxLeg:
     base, platform, direction = entries(value, where, ("base", "platform", "direction"))
-    read = _vector(3)
+    read = vector_of(3)
     return BoxLeg(
         read(base, f"{where}.base"),
         read(platform, f"{where}.platform"),
@@ -299,7 +288,7 @@ def _ellipsoid(value: Any, m: int, f: int) -> BoxEllipsoid:
     if not 0 <= part < 1:
         raise malformed("ellipsoid.gap: not from 0 to below 1")
     return BoxEllipsoid(
-        items(weights, "ellipsoid.weights", m, rational), items(matrix, "ellipsoid.matrix", f, _vector(f)), part
+        items(weights, "ellipsoid.weights", m, rational), items(matrix, "ellipsoid.matrix", f, vector_of(f)), part
     )
 
 

@@ -82,13 +82,13 @@ def effort(document: StaticsDocument, *others: Numbers) -> int:
     return 1 + (len(document.columns) * bits // 300) ** 2
 
 
-def read_statics(body: dict[str, Any]) -> StaticsDocument:
-    """The content of a certificate; a refusal if it is not one."""
+def read_statics(body: dict[str, Any], *, is_driven: bool = False) -> StaticsDocument:
+    """The content of a certificate of version 1, or of version 3 if it is driven; a refusal if it is not one."""
     values = dict(zip(KEYS, entries(body, "certificate", KEYS), strict=True))
     choice(values["format"], "format", (FORMAT,))
     text(values["name"], "name")
     text(values["unit"], "unit")
-    rows, squares, columns, turning = _machine(values)
+    rows, squares, columns, turning = _machine(values, _driven_leg if is_driven else _leg)
     count, n = len(rows), len(columns)
     speeds = values["speeds"]
     speeds = None if speeds is None else items(speeds, "speeds", count, positive)
@@ -118,14 +118,16 @@ def read_statics(body: dict[str, Any]) -> StaticsDocument:
     )
 
 
-def _whole(value: Any, where: str) -> int:
+def whole(value: Any, where: str) -> int:
+    """An integer, as a text."""
     number = rational(value, where)
     if number.denominator != 1:
         raise malformed(f"{where}: not an integer")
     return int(number)
 
 
-def _vector(length: int) -> Any:
+def vector_of(length: int) -> Any:
+    """Reads so many rational numbers."""
     return lambda value, where: items(value, where, length, rational)
 
 
@@ -141,39 +143,54 @@ def _ends(value: Any, where: str) -> Numbers:
     return low, high
 
 
-def _machine(values: dict[str, Any]) -> tuple[tuple[Numbers, ...], Numbers, Numbers, tuple[bool, ...]]:
-    g = items(values["metric"], "metric", 3, _whole)
+def _machine(values: dict[str, Any], leg: Any) -> tuple[tuple[Numbers, ...], Numbers, Numbers, tuple[bool, ...]]:
+    g = items(values["metric"], "metric", 3, whole)
     if min(g) <= 0:
         raise malformed("metric: one is not positive")
     freedoms = items(values["freedoms"], "freedoms", None, integer)
     if not freedoms or list(freedoms) != sorted(set(freedoms)) or not set(freedoms) <= set(range(6)):
         raise malformed("freedoms: not increasing numbers from 0 to 5")
     c = items(values["position"], "position", 3, rational)
-    r = items(values["rotation"], "rotation", 3, _vector(3))
+    r = items(values["rotation"], "rotation", 3, vector_of(3))
     _limited(values["legs"], "legs", MAX_LEGS)
-    legs = items(values["legs"], "legs", None, _leg)
+    legs = items(values["legs"], "legs", None, leg)
     if len(legs) < len(freedoms):
         raise malformed("legs: fewer than freedoms")
     _require_rotation(r, g)
     rows, squares = [], []
-    for number, (a, b) in enumerate(legs, 1):
+    for number, (a, b, n) in enumerate(legs, 1):
         arm = [line[0] * b[0] + line[1] * b[1] + line[2] * b[2] for line in r]
         d = [c[i] + arm[i] - a[i] for i in range(3)]
         square = g[0] * d[0] ** 2 + g[1] * d[1] ** 2 + g[2] * d[2] ** 2
         if square == 0:
             raise rejected(f"legs[{number}]: has length 0")
         force = [g[i] * d[i] for i in range(3)]
+        speed = Fraction(1) if n is None else sum((x * y for x, y in zip(force, n, strict=True)), Fraction(0))
+        if speed == 0:
+            raise rejected(f"legs[{number}]: its actuator does not move it")
+        side = 1 if speed > 0 else -1
         # The moment of the covariant force, in rational coordinates.
         moment = [g[k] * (g[j] * arm[j]) * d[k] - g[j] * (g[k] * arm[k]) * d[j] for j, k in ((1, 2), (2, 0), (0, 1))]
-        rows.append(tuple((*force, *moment)[place] for place in freedoms))
-        squares.append(square)
+        rows.append(tuple(side * (*force, *moment)[place] for place in freedoms))
+        squares.append(square if n is None else speed * speed)
     inverse = [Fraction(1, x) for x in (*g, g[1] * g[2], g[2] * g[0], g[0] * g[1])]
     return tuple(rows), tuple(squares), tuple(inverse[k] for k in freedoms), tuple(k >= 3 for k in freedoms)
 
 
-def _leg(value: Any, where: str) -> tuple[Numbers, Numbers]:
+def _leg(value: Any, where: str) -> tuple[Numbers, Numbers, Numbers | None]:
+    """Joints of a leg whose length is actuated."""
     base, platform = entries(value, where, ("base", "platform"))
-    return items(base, f"{where}.base", 3, rational), items(platform, f"{where}.platform", 3, rational)
+    return items(base, f"{where}.base", 3, rational), items(platform, f"{where}.platform", 3, rational), None
+
+
+def _driven_leg(value: Any, where: str) -> tuple[Numbers, Numbers, Numbers | None]:
+    """Joints, and how the actuator moves the base joint; None where the length is what is actuated."""
+    base, platform, direction = entries(value, where, ("base", "platform", "direction"))
+    return (
+        items(base, f"{where}.base", 3, rational),
+        items(platform, f"{where}.platform", 3, rational),
+        None if direction is None else items(direction, f"{where}.direction", 3, rational),
+    )
 
 
 def _require_rotation(r: tuple[Numbers, ...], g: tuple[int, ...]) -> None:
@@ -198,7 +215,7 @@ def _velocity(value: Any, count: int, n: int) -> VelocityClaim:
         if not (1 <= leg <= count and side in (1, -1)):
             raise malformed(f"{where}.facets: not a leg and a side")
         sides.append((leg - 1, side))
-    points = items(vertices, f"{where}.vertices", None, lambda x, w: items(x, w, n, _vector(count)))
+    points = items(vertices, f"{where}.vertices", None, lambda x, w: items(x, w, n, vector_of(count)))
     return VelocityClaim(tuple(sides), points)
 
 
@@ -210,7 +227,7 @@ def _wrench(value: Any, count: int, n: int) -> WrenchClaim:
 
     def facet(entry: Any, place: str) -> tuple[tuple[int, ...], Numbers]:
         normal, offset = entries(entry, place, ("normal", "offset"))
-        return items(normal, f"{place}.normal", n, _whole), items(offset, f"{place}.offset", count, rational)
+        return items(normal, f"{place}.normal", n, whole), items(offset, f"{place}.offset", count, rational)
 
     def end(entry: Any, place: str) -> int:
         if integer(entry, place) not in (1, -1):
@@ -224,7 +241,7 @@ def _wrench(value: Any, count: int, n: int) -> WrenchClaim:
 def _ellipsoid(value: Any, count: int, n: int) -> EllipsoidClaim:
     weights, matrix = entries(value, "ellipsoid", ("weights", "matrix"))
     return EllipsoidClaim(
-        items(weights, "ellipsoid.weights", count, rational), items(matrix, "ellipsoid.matrix", n, _vector(n))
+        items(weights, "ellipsoid.weights", count, rational), items(matrix, "ellipsoid.matrix", n, vector_of(n))
     )
 
 
