@@ -87,6 +87,7 @@ bench: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/bench_systems.py --json build/bench/systems.json
 	@$(BIN)/python benchmarks/bench_following.py --json build/bench/following.json
 	@$(BIN)/python benchmarks/bench_zonotope.py --json build/bench/zonotope.json
+	@$(BIN)/python benchmarks/bench_statics.py --json build/bench/statics.json
 	@$(BIN)/python benchmarks/bench_tolerances.py --json build/bench/tolerances.json
 
 # Strict: what the builder has doubts about, such as a link that leads nowhere, is an error.

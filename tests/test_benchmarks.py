@@ -104,6 +104,15 @@ def test_zonotopes_are_measured(tmp_path: Path) -> None:
     assert all(row["agree"] and row["seconds"]["pkm_exact"] > 0 for row in rows)
 
 
+def test_statics_are_measured(tmp_path: Path) -> None:
+    words = ["--runs", "1", "--poses", "3000", "--rows", "2", "--json", str(tmp_path / "figures.json")]
+    done = _run("bench_statics.py", *words)
+    assert done.returncode in (0, 1), done.stderr
+    found = json.loads((tmp_path / "figures.json").read_text())
+    assert found["poses_a_second"] > 0 < found["columns_of_a_pose"]
+    assert 0 <= found["widest"] < 1e-9
+
+
 def test_tolerances_are_measured(tmp_path: Path) -> None:
     """What is proved ends before the first singular robot that is seen."""
     model = str(Path(__file__).parent.parent / "models" / "3-rpr-merlet-p.toml")
