@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from pkm_exact.geometry.machine import Machine
     from pkm_exact.geometry.robot import Robot
     from pkm_exact.geometry.tolerances import Tolerances
+    from pkm_exact.numeric.deviations import PoseBounds
     from pkm_exact.numeric.tolerance_result import ToleranceBox, ToleranceResult
     from pkm_exact.roots.interval import Interval
     from pkm_exact.solution import Solution
@@ -121,16 +122,26 @@ def _box_object(box: ToleranceBox) -> dict[str, Any]:
         "dominant": None if box.dominant is None else str(box.dominant),
     }
     if box.bounds is not None:
-        bounds = box.bounds
-        entry |= {
-            "position": [_ends(bound) for bound in bounds.position],
-            "rotation": [[_ends(bound) for bound in row] for row in bounds.rotation],
-            "quaternion": [_ends(bound) for bound in bounds.quaternion],
-            "centroid": [_ends(bound) for bound in bounds.centroid],
-            "position_error": _ends(bounds.position_error),
-            "rotation_error": _ends(bounds.rotation_error),
+        entry |= _bounds_object(box.bounds)
+    if box.followed is not None:
+        followed = box.followed
+        entry["followed"] = {
+            "fraction": str(followed.fraction),
+            "cells": followed.cells,
+            **_bounds_object(followed.bounds),
         }
     return entry
+
+
+def _bounds_object(bounds: PoseBounds) -> dict[str, Any]:
+    return {
+        "position": [_ends(bound) for bound in bounds.position],
+        "rotation": [[_ends(bound) for bound in row] for row in bounds.rotation],
+        "quaternion": [_ends(bound) for bound in bounds.quaternion],
+        "centroid": [_ends(bound) for bound in bounds.centroid],
+        "position_error": _ends(bounds.position_error),
+        "rotation_error": _ends(bounds.rotation_error),
+    }
 
 
 def _ends(interval: Interval) -> list[str]:
@@ -158,16 +169,19 @@ def _print(robot: Robot, result: ToleranceResult) -> None:
 
 def _row(box: ToleranceBox, axes: int) -> tuple[str, ...]:
     dominant = "" if box.dominant is None else str(box.dominant)
-    if box.bounds is None:
-        return str(box.pose), *("?" for _ in range(axes + 2)), _percent(box.fraction), dominant
-    widths = (_decimal(interval.width / 2, up=True) for interval in box.bounds.position[:axes])
-    distance, angle = box.bounds.position_error, box.bounds.rotation_error
+    followed = box.followed
+    bounds = followed.bounds if followed is not None and followed.is_whole else box.bounds
+    share = _percent(box.fraction) if followed is None else f"{_percent(followed.fraction)}, followed"
+    if bounds is None:
+        return str(box.pose), *("?" for _ in range(axes + 2)), share, dominant
+    widths = (_decimal(interval.width / 2, up=True) for interval in bounds.position[:axes])
+    distance, angle = bounds.position_error, bounds.rotation_error
     return (
         str(box.pose),
         *widths,
         f"{_decimal(distance.lo)} to {_decimal(distance.hi, up=True)}",
         f"{_decimal(angle.lo * _DEGREES[0])} to {_decimal(angle.hi * _DEGREES[1], up=True)}",
-        _percent(box.fraction),
+        share,
         dominant,
     )
 
@@ -175,8 +189,19 @@ def _row(box: ToleranceBox, axes: int) -> tuple[str, ...]:
 def _singular(box: ToleranceBox) -> str:
     if not box.fraction:
         return f"pose {box.pose}: singular, or too close to a singularity for any tolerance"
+    followed = box.followed
+    if followed is not None and followed.is_whole:
+        return (
+            f"pose {box.pose}: followed over all robots within tolerance, and none is singular there; the numbers are "
+            "bounds of the pose that the nominal one becomes, but there may be other poses within them: a box that "
+            f"holds one only is proved for {_percent(box.fraction)} of the tolerance. The certificate does not cover "
+            "this, and lists the pose as not proved"
+        )
+    share = f"pose {box.pose}: proved for {_percent(box.fraction)} of the tolerance"
+    if followed is not None:
+        share += f" with a box, and followed for {_percent(followed.fraction)} without a singularity"
     return (
-        f"pose {box.pose}: proved for {_percent(box.fraction)} of the tolerance, not for all of it: beyond, a "
+        f"{share}, not for all of it: beyond, a "
         f"singularity is neither found nor excluded; what moves the platform most is the {box.dominant}"
     )
 

@@ -185,11 +185,14 @@ def tolerance_html(result: ToleranceResult) -> str:
 
 def _tolerance_cells(box: ToleranceBox, axes: int) -> tuple[str, ...]:
     dominant = "" if box.dominant is None else str(box.dominant)
-    share = f"{float(100 * box.fraction):.3g} %"
-    if box.bounds is None:
+    followed = box.followed
+    share = f"{float(100 * (box.fraction if followed is None else followed.fraction)):.3g} %"
+    share += "" if followed is None else ", followed"
+    bounds = followed.bounds if followed is not None and followed.is_whole else box.bounds
+    if bounds is None:
         return str(box.pose), *("?" for _ in range(axes + 1)), share, dominant
-    position = (repr(bound).strip("[]") for bound in box.bounds.position[:axes])
-    return str(box.pose), *position, f"at most {decimal_above(box.bounds.position_error.hi)}", share, dominant
+    position = (repr(bound).strip("[]") for bound in bounds.position[:axes])
+    return str(box.pose), *position, f"at most {decimal_above(bounds.position_error.hi)}", share, dominant
 
 
 def decimal_above(value: Fraction) -> str:

@@ -33,6 +33,7 @@ from pkm_exact.numeric.centred import (
 from pkm_exact.numeric.charts import in_chart
 from pkm_exact.numeric.data_errors import data_errors
 from pkm_exact.numeric.deviations import MARGIN, PoseBounds, dominant_influence, pose_bounds
+from pkm_exact.numeric.followed_pose import followed_pose
 from pkm_exact.numeric.linearisation import (
     Linearisation,
     chart_weights,
@@ -138,7 +139,20 @@ def _tolerance_box(near: Linearisation | None, tolerances: Tolerances, number: i
     def is_proved(fraction: Fraction) -> bool:
         return _proved_pose(near, tolerances.scaled(fraction), exponent) is not None
 
-    return ToleranceBox(number, _greatest_fraction(is_proved), None, dominant, None)
+    fraction = _greatest_fraction(is_proved)
+    attained = [_attained(near, tolerances, fraction / part, exponent) for part in (1, 2, 4)]
+    least = [max(errors) for errors in zip(*attained, strict=True)]
+    return ToleranceBox(
+        number, fraction, None, dominant, None, followed_pose(near, tolerances, fraction, least, exponent)
+    )
+
+
+def _attained(
+    near: Linearisation, tolerances: Tolerances, fraction: Fraction, exponent: int
+) -> tuple[Fraction, Fraction]:
+    """Errors of position and rotation that some robot within a fraction of the tolerances has."""
+    found = _proved_pose(near, tolerances.scaled(fraction), exponent) if fraction else None
+    return (Fraction(0), Fraction(0)) if found is None else (found[1].position_error.lo, found[1].rotation_error.lo)
 
 
 def _greatest_fraction(is_proved: Callable[[Fraction], bool]) -> Fraction:

@@ -31,6 +31,31 @@ class ProvedBox:
 
 
 @dataclass(frozen=True)
+class FollowedPose:
+    """What is proved of a pose that has no box: it is followed over robots within tolerance, without a singularity.
+
+    Attributes
+    ----------
+    fraction : Fraction
+        Of all tolerances, for which this is proved; 1 if for all of them.
+    cells : int
+        How many sets of robots were looked at.
+    bounds : PoseBounds
+        Of the pose that the nominal one becomes when the data change to those of any robot within that fraction of
+        the tolerances. Other poses of the robot may have such coordinates too.
+    """
+
+    fraction: Fraction
+    cells: int
+    bounds: PoseBounds
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether all robots within tolerance are covered."""
+        return self.fraction == 1
+
+
+@dataclass(frozen=True)
 class ToleranceBox:
     """What is proved of one pose over all robots within tolerance.
 
@@ -47,6 +72,8 @@ class ToleranceBox:
     dominant : Influence or None
         The datum whose tolerance moves the platform most, to first order.
     proof : ProvedBox or None
+    followed : FollowedPose or None
+        What is proved beyond ``fraction`` without a box; certificates do not have it.
     """
 
     pose: int
@@ -54,6 +81,7 @@ class ToleranceBox:
     bounds: PoseBounds | None
     dominant: Influence | None
     proof: ProvedBox | None
+    followed: FollowedPose | None = None
 
     @property
     def is_proved(self) -> bool:
@@ -126,6 +154,10 @@ class ToleranceResult:
             claim = f"complete: every robot within tolerance has exactly {count} poses, one in each box"
         else:
             claim = "complete: no robot within tolerance has a pose"
+        followed = sum(box.followed is not None and box.followed.is_whole for box in self.boxes)
+        if followed:
+            verb = "is" if followed == 1 else "are"
+            claim = f"{followed} more without a box {verb} followed over all of them; {claim}"
         if not count:
             return f"no pose of the nominal robot is listed; {claim}"
         return f"{proved} of {count} poses have a box for every robot within tolerance; {claim}"

@@ -1,0 +1,230 @@
+"""Poses followed over all robots within tolerance: sampled robots, untrue claims, and what the command says."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import arb
+from samples import solved
+from tolerance_tools import errors_of, poses_near, robots_with
+
+from pkm_exact.certify.check import check_bytes
+from pkm_exact.cli.main import main
+from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.numeric.branch_bounds import branch_bounds
+from pkm_exact.numeric.branch_proof import CellProof, faces, joins, proved_cells
+from pkm_exact.numeric.branch_robot import BranchCell, BranchRobot, ProvedBranch, boxes_of
+from pkm_exact.numeric.branch_search import BranchSearch
+from pkm_exact.numeric.centred import centred_frames, centred_robot
+from pkm_exact.numeric.data_errors import DataErrors, data_errors
+from pkm_exact.numeric.enclosed_arrays import Enclosed, are_positive, exact, lengths, product
+from pkm_exact.numeric.linearisation import Linearisation
+from pkm_exact.numeric.nominal import certified_pose
+from pkm_exact.numeric.tolerance import tolerance_boxes
+from pkm_exact.precision import working_precision
+
+Capture = pytest.CaptureFixture[str]
+MODEL = Path("models/3-rpr-merlet-p.toml")
+NAME = "3-rpr-merlet-p"
+TOLERANCE = "0.03"
+"""Beyond what a box is proved for, at both poses; at the second pose it takes two cells."""
+EXPONENT = 128
+
+
+@cache
+def _near(pose: int) -> Linearisation:
+    solution = solved(NAME)
+    with working_precision(256):
+        robot = centred_robot(solution.problem, centred_frames(solution.problem))
+        found = certified_pose(robot, solution.poses[pose], solution.poses, EXPONENT)
+    assert found is not None
+    return found
+
+
+def _core() -> arb:
+    return arb(2) ** -(EXPONENT // 2)
+
+
+def _errors(pose: int, tolerance: str = TOLERANCE) -> DataErrors:
+    return data_errors(_near(pose).robot, Tolerances.uniform(tolerance))
+
+
+@cache
+def _branch(pose: int) -> tuple[BranchRobot, ProvedBranch]:
+    """What was proved, as it is written down."""
+    with working_precision(256):
+        search = BranchSearch(_near(pose), _errors(pose), _core())
+        cells = search.proved(_errors(pose))
+    assert cells is not None
+    assert search.branch is not None
+    return cells[0].family, search.branch
+
+
+def _is_proved(pose: int, **changed: Any) -> bool:
+    family, branch = _branch(pose)
+    with working_precision(256):
+        return proved_cells(family, replace(branch, **changed), _core()) is not None
+
+
+def _with_cell(branch: ProvedBranch, place: int, **changed: Any) -> tuple[BranchCell, ...]:
+    cells = list(branch.cells)
+    cells[place] = replace(cells[place], **changed)
+    return tuple(cells)
+
+
+def test_sampled_robots_have_their_pose_within_the_bounds() -> None:
+    solution = solved(NAME)
+    tolerances = Tolerances.uniform(TOLERANCE)
+    result = tolerance_boxes(solution.problem, tolerances, solution)
+    assert not any(box.is_proved for box in result.boxes)
+    errors = errors_of(solution.problem, 2000, 3)
+    for box in result.boxes:
+        followed = box.followed
+        assert followed is not None
+        assert followed.is_whole
+        assert followed.cells == (1, 2)[box.pose - 1]
+        pose = solution.poses[box.pose - 1]
+        found = poses_near(robots_with(solution.problem, tolerances, errors), pose)
+        components = followed.bounds.components
+        for k in range(16):
+            assert float(components[k].lo) <= found[:, k].min() <= found[:, k].max() <= float(components[k].hi)
+        moved = np.linalg.norm(found[:, :3] - [float(x.midpoint) for x in pose.position], axis=1)
+        bounds = followed.bounds.position_error
+        assert 0 <= float(bounds.lo) < moved.max() < float(bounds.hi) < 4 * moved.max()
+        assert 0 < float(followed.bounds.rotation_error.lo) < float(followed.bounds.rotation_error.hi) < 0.4
+
+
+@pytest.mark.slow
+def test_a_hexapod_is_followed_farther_than_boxes_reach() -> None:
+    solution = solved("mourrain-l")
+    result = tolerance_boxes(solution.problem, Tolerances.uniform("0.01"), solution, asked=[1])
+    (box,) = result.boxes
+    assert box.followed is not None
+    assert box.followed.is_whole
+    assert box.fraction < Fraction(1, 3)
+
+
+def test_nothing_is_followed_through_a_singularity() -> None:
+    # Random robots off by 0.06 are singular near the first pose.
+    solution = solved(NAME)
+    result = tolerance_boxes(solution.problem, Tolerances.uniform("0.06"), solution)
+    first = result.boxes[0].followed
+    assert first is not None
+    assert Fraction(1, 2) <= first.fraction < 1
+    assert not first.is_whole
+    assert "followed" not in str(result)
+
+
+@pytest.mark.parametrize("pose", [0, 1])
+def test_what_is_written_down_is_proved_again(pose: int) -> None:
+    assert _is_proved(pose)
+
+
+@pytest.mark.parametrize(
+    ("key", "factor"), [("slope", 0.99), ("bend", 0.99), ("joints", 0.99), ("radius", 0.5), ("joints", 8), ("bend", 8)]
+)
+@pytest.mark.parametrize("place", [0, 1])
+def test_claims_that_are_untrue_or_too_weak(key: str, factor: float, place: int) -> None:
+    branch = _branch(1)[1]
+    value = int(getattr(branch.cells[place], key) * factor)
+    assert not _is_proved(1, cells=_with_cell(branch, place, **{key: value}))
+
+
+def test_cells_that_hold_other_poses_are_not_joined() -> None:
+    """Both cells are proved, but the second with a pose that is not on this branch is not joined to the first."""
+    family, branch = _branch(1)
+    with working_precision(256):
+        boxes = boxes_of(branch.reach, branch.splits)
+        cells = [CellProof(family, cell, box) for cell, box in zip(branch.cells, boxes, strict=True)]
+        ((one, two, middle),) = faces(boxes)
+        assert (one, two) == (0, 1)
+        s = exact([float(v) / 2**48 for v in middle])
+        assert joins(cells[0], cells[1], s)
+        assert cells[1].holds(cells[1].centre, cells[1].middle, 0.0)
+        assert not cells[1].holds(cells[1].centre, cells[1].middle, cells[1].radius)
+        far = replace(branch.cells[1], centre=tuple(v + 2**44 for v in branch.cells[1].centre))
+        assert not joins(cells[0], CellProof(family, far, boxes[1]), s)
+
+
+def test_the_box_of_changes_must_be_wide_enough() -> None:
+    branch = _branch(0)[1]
+    for leg in range(3):
+        reach = tuple(int(r * (0.7 if k == leg else 1)) for k, r in enumerate(branch.reach))
+        assert not _is_proved(0, reach=reach)
+
+
+def test_the_nominal_pose_must_be_on_the_branch() -> None:
+    family, branch = _branch(0)
+    with working_precision(256):
+        cells = proved_cells(family, branch, _core())
+        assert cells is not None
+        nothing = exact(np.zeros(3))
+        assert cells[0].holds(cells[0].centre, nothing, 0.0)
+        moved = Enclosed(cells[0].centre.mid + 0.01, cells[0].centre.rad)
+        assert not cells[0].holds(moved, nothing, 0.0)
+        assert proved_cells(family, branch, arb(1) / 100) is None
+
+
+def test_bounds_that_are_too_wide_for_an_angle() -> None:
+    family, branch = _branch(0)
+    with working_precision(256):
+        cells = proved_cells(family, branch, _core())
+        assert cells is not None
+        assert branch_bounds(_near(0), cells, _core(), (Fraction(0), Fraction(0))) is not None
+        assert branch_bounds(_near(0), cells, arb(4), (Fraction(0), Fraction(0))) is None
+
+
+def test_cells_are_halves_in_turn() -> None:
+    boxes = boxes_of((4, 8), (2, 0, 1, 0, 0))
+    assert boxes == [((-4, 4), (-8, 0)), ((-4, 0), (0, 8)), ((0, 4), (0, 8))]
+    assert faces(boxes) == [(0, 1, [-2, 0]), (0, 2, [2, 0]), (1, 2, [0, 4])]
+    # Cells that have only a corner in common are no neighbours.
+    assert {pair[:2] for pair in faces(boxes_of((1, 1), (1, 2, 0, 0, 2, 0, 0)))} == {(0, 1), (0, 2), (1, 3), (2, 3)}
+
+
+def test_sums_of_products_are_enclosed() -> None:
+    random = np.random.default_rng(5)
+    a, b = (Enclosed(random.normal(size=(4, 4)), np.abs(random.normal(size=(4, 4))) * 1e-3) for _ in range(2))
+    found = product("ij,jk->ik", a, b)
+    for sign in (1, -1):
+        left, right = (m.mid + sign * m.rad * (1 - 1e-12) for m in (a, b))
+        for i in range(4):
+            for k in range(4):
+                true = sum(Fraction(left[i, j]) * Fraction(right[j, k]) for j in range(4))
+                assert abs(true - Fraction(found.mid[i, k])) <= Fraction(found.rad[i, k])
+                assert found.rad[i, k] < 0.1
+    assert 5 <= lengths(exact([3.0, 4.0])) < 5.001
+
+
+def test_matrices_that_are_nearly_singular_are_not_called_positive() -> None:
+    matrix = np.array([[1.0, 1.0], [1.0, 1.0 + 1e-3]])
+    assert are_positive(exact(matrix))
+    assert not are_positive(Enclosed(matrix, np.full((2, 2), 6e-4)))
+    assert not are_positive(exact([[[2.0, 0.0], [0.0, 1.0]], [[1.0, 2.0], [2.0, 1.0]]]))
+    assert not are_positive(exact([[float("nan")]]))
+
+
+def test_the_command_says_that_the_certificate_does_not_cover_it(tmp_path: Path, capsys: Capture) -> None:
+    path = tmp_path / "tolerance.json"
+    assert main(["solve", str(MODEL), "--tolerance", TOLERANCE, "-o", str(path)]) == 3
+    text = capsys.readouterr().out
+    assert "0 of 2 poses have a box for every robot within tolerance; 2 more without a box are followed" in text
+    assert text.count("100 %, followed") == 2
+    assert text.count("The certificate does not cover this, and lists the pose as not proved") == 2
+    assert json.loads(path.read_text())["unproved"] == [1, 2]
+    assert check_bytes(path.read_bytes()).status == "accepted"
+
+
+def test_json_has_what_is_followed(capsys: Capture) -> None:
+    assert main(["solve", str(MODEL), "--tolerance", "0.06", "--format", "json"]) == 3
+    box = json.loads(capsys.readouterr().out)["tolerance"]["boxes"][0]
+    assert not box["proved"]
+    assert Fraction(box["proved_fraction"]) < Fraction(box["followed"]["fraction"]) < 1
+    assert len(box["followed"]["position"]) == 3
