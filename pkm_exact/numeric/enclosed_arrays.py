@@ -64,7 +64,7 @@ def enclosed(values: Sequence[arb | Sequence[arb]]) -> Enclosed:
     Examples
     --------
     >>> third = enclosed([arb(1) / 3])
-    >>> 0 < third.rad[0] < 1e-16
+    >>> bool(0 < third.rad[0] < 1e-16)
     True
     """
     array = np.array([_ends(row) if isinstance(row, arb) else [_ends(v) for v in row] for row in values])
