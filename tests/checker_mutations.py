@@ -189,8 +189,27 @@ def _text(node: ast.AST, old: ast.AST | None = None, new: ast.AST | None = None)
 
 
 def uses(checker: str, name: str) -> set[tuple[str, int]]:
-    """The lines of a checker that use a constant, and those that a condition with it guards."""
-    return {(str(path), line) for path in SOURCES[checker] for line in _lines_by_name(path).get(name, ())}
+    """The lines of a checker that use a constant, or one made of it, and those that a condition with it guards."""
+    names, waiting = {name}, [name]
+    while waiting:
+        used = waiting.pop()
+        others = {other for path in SOURCES[checker] for other in _made_of(path).get(used, ())} - names
+        names |= others
+        waiting += others
+    return {(str(path), line) for path in SOURCES[checker] for used in names for line in _lines_by_name(path)[used]}
+
+
+@cache
+def _made_of(path: Path) -> dict[str, set[str]]:
+    """For each name the constants of a module that are computed from it."""
+    found: dict[str, set[str]] = defaultdict(set)
+    for statement in ast.parse(path.read_text(encoding="utf-8")).body:
+        if isinstance(statement, ast.Assign | ast.AnnAssign) and statement.value is not None:
+            targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]
+            for node in ast.walk(statement.value):
+                if isinstance(node, ast.Name):
+                    found[node.id] |= {target.id for target in targets if isinstance(target, ast.Name)}
+    return found
 
 
 @cache

@@ -2,6 +2,7 @@
 
 import pytest
 from forged_ideal import ROWS as THIRD
+from forged_ideal_shapes import ROWS as SHAPES
 from forged_mobility import ROWS as FIRST
 from forged_second_order import ROWS as SECOND
 from tables_of_rows import merged
@@ -10,7 +11,7 @@ from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import check_bytes
 
-ROWS = merged(FIRST, SECOND, THIRD)
+ROWS = merged(FIRST, SECOND, THIRD, SHAPES)
 
 
 @pytest.mark.parametrize("name", ROWS)

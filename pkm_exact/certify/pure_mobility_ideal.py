@@ -144,10 +144,10 @@ def inverted(minor: list[list[int]]) -> list[list[int]]:
         rows[k], rows[place] = rows[place], rows[k]
         factor = pow(rows[k][k], -1, Q)
         rows[k] = [x * factor % Q for x in rows[k]]
-        for i in range(size):
-            if i != k and rows[i][k]:
-                factor = rows[i][k]
-                rows[i] = [(x - factor * y) % Q for x, y in zip(rows[i], rows[k], strict=True)]
+        rows = [
+            row if i == k else [(x - row[k] * y) % Q for x, y in zip(row, rows[k], strict=True)]
+            for i, row in enumerate(rows)
+        ]
     return [row[size:] for row in rows]
 
 
