@@ -230,11 +230,12 @@ def _parts(quadrics: Sequence[Mapping[_Product, nmod | int]], size: int, p: int,
     """The dimensions of A_0, A_1, .. up to the first that is 0, or to degree ``highest``."""
     yield 1
     yield size
-    symbols = [(i, j) for i in range(size) for j in range(i, size)]
+    symbols: list[_Product] = [(i, j) for i in range(size) for j in range(i, size)]
+    place = {symbol: column for column, symbol in enumerate(symbols)}
     table = nmod_mat(len(quadrics), len(symbols), p)
     for row, quadric in enumerate(quadrics):
-        for column, symbol in enumerate(symbols):
-            table[row, column] = quadric.get(symbol, 0)
+        for symbol, number in quadric.items():
+            table[row, place[symbol]] = number
     part = _quotient(table, symbols)
     for _ in range(2, highest):
         yield part.dimension
