@@ -115,6 +115,27 @@ DEPENDENT: dict[str, Case] = {
     for name, texts in (("last", (ONE, OTHER, THIRD)), ("first", (THIRD, ONE, OTHER)))
 }
 
+# A row whose numbers, over the first, are no small fractions modulo the first prime, though six combinations are 0
+
+HIDDEN = (
+    *(67956373001590533229459338, -795819047774331344277647578, 681945822573107668004544524),
+    *(211880969149941273787118010, -336340513227041437296476414, 1166781352978442131852174025),
+    *(-417910069005219879435966347, -420723554688355596991422224, -157771333008133348871783334),
+)
+"""Of x^8, .., 1; their sum is 0. The combinations are those by which the first checker seeks a denominator."""
+HIDING: dict[str, Case] = {
+    "a polynomial whose combinations hide its denominator": (
+        lambda: system_content(
+            "x,y",
+            ("+".join(f"{c}*x^{8 - k}" for k, c in enumerate(HIDDEN)).replace("+-", "-").replace("*x^0", ""),),
+            claim="positive-dimensional-proved",
+            representation=represented([(1, 0)], (1, 0)),
+            witness={"cause": "fewer-polynomials", "forms": [], "slices": []},
+        ),
+        ACCEPTED,
+    ),
+}
+
 # Steps that name an unknown that there is not
 
 STEPS: dict[str, Case] = {
@@ -161,7 +182,26 @@ def _four_times(scale: Fraction, multiplicity: int = 4, parameter: int = 0) -> C
     return content | counts | complete("exact-elimination", multiplicity, elimination=[])
 
 
-SCALES = {"1": Fraction(1), "1/(2^127 - 1)": Fraction(1, PRIME), "1/3^100": Fraction(1, 3**100)}
+def _open_algebra(number: int) -> Content:
+    """The pose (0, 1) alone, of two ellipses that touch there; the elimination stops before its matrices commute."""
+    pose = Pose((1, 0, 0, 0), (0, 0, 1, 0))
+    constraints: list[Constraint] = [
+        pose.axis_distance((0, 0, 0), (0, 0, 1), (0, 0, 0)),
+        pose.axis_distance((-1, 1, -2), (1, 1, 1), (0, 0, 0)),
+        pose.in_plane((0, 0, 1), (0, 0, 0)),
+    ]
+    counts = {"complex_solutions": number, "distinct_solutions": 1}
+    content = listing("translation", [pose], constraints, 2, 2)
+    return content | counts | complete("exact-elimination", number, elimination=[["0 1 1", "1 0 1"]])
+
+
+SCALES = {
+    "1": Fraction(1),
+    "1/(2^127 - 1)": Fraction(1, PRIME),
+    "1/(2^63 - 25)": Fraction(1, (1 << 63) - 25),
+    "1/3^100": Fraction(1, 3**100),
+}
+"""The primes are those that the checkers try first."""
 MULTIPLE: dict[str, Case] = {
     **{
         f"a pose of multiplicity 4, in units of {name}, at {parameter} times its place": (
@@ -175,6 +215,7 @@ MULTIPLE: dict[str, Case] = {
         f"a pose of multiplicity 4, said to be {number}": (partial(_four_times, Fraction(1), number), REJECTED)
         for number in (3, 5)
     },
+    **{f"a double pose alone, said to be {number}": (partial(_open_algebra, number), REJECTED) for number in (2, 5)},
 }
 
-ALGEBRAS: dict[str, Case] = {**COMMUTING, **FILLED, **LEADING, **DEPENDENT, **STEPS, **HEIGHTS, **MULTIPLE}
+ALGEBRAS: dict[str, Case] = {**COMMUTING, **FILLED, **LEADING, **DEPENDENT, **HIDING, **STEPS, **HEIGHTS, **MULTIPLE}

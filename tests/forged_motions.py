@@ -136,6 +136,22 @@ def _symmetric() -> Iterator[tuple[str, Case]]:
             )
 
 
+SHIFTED = (
+    ((3, 1, 2), (1, 0, 2, -1, 3, 0, 1, 1, 2)),
+    ((1, -2, 1), (2, 1, 0, 1, -1, 3, 0, 2, 1)),
+    ((0, 1, 3), (0, 3, 1, 1, 2, -2, 1, 0, 4)),
+    ((2, 0, -1), (1, 1, 1, 0, 3, 2, -1, 2, 0)),
+    ((1, 1, 0), (3, -1, 2, 0, 1, 1, 2, 0, 1)),
+    ((-1, 2, 2), (0, 2, -1, 3, 1, 0, 1, 1, -3)),
+)
+
+
+def _shifts_of_the_axis() -> Content:
+    """Forms in u, C_3 and R that a shift of the platform along its third axis changes by multiples of 1 - r_33."""
+    forms = [PLACED.linear((0, *u, 0, 0, -u[2], *rotation)) for u, rotation in SHIFTED]
+    return moving(listing("spatial", [PLACED], forms), "symmetry")
+
+
 def _cylinders(place: int) -> Content:
     """All around one line, but for one of them."""
     point, direction = LINES["elsewhere"]
@@ -302,4 +318,5 @@ SLICES: dict[str, Case] = {
     ),
 }
 
-MOTIONS: dict[str, Case] = {**dict(_symmetric()), **COAXIAL, **DEPENDENT, **EQUAL, **SLICES}
+SHIFTS: dict[str, Case] = {"forms that a shift changes by multiples of 1 - r33": (_shifts_of_the_axis, REJECTED)}
+MOTIONS: dict[str, Case] = {**dict(_symmetric()), **SHIFTS, **COAXIAL, **DEPENDENT, **EQUAL, **SLICES}

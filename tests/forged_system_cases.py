@@ -19,6 +19,7 @@ from handmade_systems import (
     handmade,
     hexadecimal,
     listed,
+    multiplied,
     represented,
     system_content,
     trimmed,
@@ -172,6 +173,66 @@ def _lost_rank(bits: int, *more: str) -> Content:
     return ranked(names, texts, represented(points, (1, *(0 for _ in points[0][1:]))), weight, 2 * weight)
 
 
+def _divisible_at_one_power() -> Content:
+    """A polynomial that is 0 at the first of two points only, a true multiple of h at T = 2^80, and of h there alone.
+
+    With h = T (T + c) the second point has the values (Y, Z) = (1 - c, -c) of y and 1, and the polynomial is (c y - 1)
+    times a quartic g: a vector of the lattice of those with g(Y, Z) = 0 modulo 2^80 + c, short where 2^80 follows from
+    its size. The plain checker looks at this power, and sees it by the quotient alone, which is too large.
+    """
+    c = 1023
+    h = {"separating_form": [1, 0], "eliminant": hexadecimal([0, c, 1])}
+    h["numerators"] = [hexadecimal([0, -c]), hexadecimal([1, 1])]
+    quintic = "-6+6149*y-11268*y^2-16877293*y^3-4415276601388*y^4+4534506598773426*y^5"
+    return listed("x,y", (f"x^2+{c}*x", f"{c**2}*y+{c - 2}*x-{c}", quintic), h)
+
+
+def _rooted(*factors: list[int], exponent: int = 8) -> Content:
+    """All roots of a product of polynomials in x, as many as its degree."""
+    h = [Fraction(1)]
+    for factor in factors:
+        h = multiplied(h, factor)
+    whole = [int(c) for c in h]
+    terms = {f"x^{k}" if k > 1 else "x" * k: c for k, c in reversed(list(enumerate(whole)))}
+    options: Content = complete("refined-bezout", len(h) - 1)
+    return listed("x", (_summed(terms).replace("+-", "-"),), one(*whole), exponent=exponent, **options)
+
+
+def _closer_than_grids() -> Content:
+    """The roots 0 and 3/2 of a cell of the grid 2^-4097, which both checkers refuse to look at."""
+    content = _rooted([0, 1], [-3, 1 << 4097], exponent=4200)
+    h = one(0, -3, 1 << 4098)
+    ends = [str(Fraction(n, 1 << 4097)) for n in (1, 2)]
+    values = [str(Fraction((3 << 102) + n, 1 << 4200)) for n in (-1, 1)]
+    solutions = [content["solutions"][0], {"parameter": ends, "values": [values], "multiplicity": 1}]
+    return content | {"polynomials": [[f"{1 << 4098}*x^2", "-3*x"]], "representation": h, "solutions": solutions}
+
+
+NEAR = [(1 << 4000) + 1, -6 << 4000, 9 << 4000]
+"""Roots 2^-2000 above and below 1/3 in the complex plane."""
+FINE: dict[str, Row] = {
+    "roots apart on the finest grid that there is": (_rooted([0, 1], [-3, 1 << 4097], exponent=4200), "accepted"),
+    "roots closer than that": (_closer_than_grids(), "too-large"),
+    "three roots in a cell of the coarsest grid, where a sign changes": (
+        _rooted(*([-k, 1 << 40] for k in (3, 5, 7)), exponent=48),
+        "accepted",
+    ),
+    "a root whose value takes many bits to see, before another": (_rooted([-1, 3], NEAR, [-1, 1]), "accepted"),
+    "a root whose value takes many bits to see, behind another": (_rooted([-1, 3], NEAR, [1, 1]), "accepted"),
+    "a dyadic root where rounding hides that the value is 0": (
+        _rooted([-2437, 1 << 13], [1, *[0] * 12, (1 << 237) + 1]),
+        "accepted",
+    ),
+    "fewer polynomials than variables, nothing said of multiplicity": (
+        listed("x,y", ("x^2-1",), represented([(1, 0)], (1, 0)), multiplicities=None),
+        "accepted",
+    ),
+    "fewer polynomials than variables, a solution called simple": (
+        listed("x,y", ("x^2-1",), represented([(1, 0)], (1, 0)), multiplicities=1),
+        "rejected",
+    ),
+}
+
 P = (1 << pure.MERSENNE[0]) - 1
 BITS = pure.MERSENNE[0] + 9
 CELLS = 3 << 32
@@ -191,6 +252,7 @@ def _cube(c: int, b: int, a: int) -> str:
 
 LINED = represented([(0, 0), (1, 0)], (1, 0))
 MIXED: dict[str, Row] = {
+    "a polynomial divisible by the eliminant at one power of 2 alone": (_divisible_at_one_power(), "rejected"),
     "double roots of 2": (ranked("x", ("x^6-7*x^4+16*x^2-12",), one(6, 0, -5, 0, 1), [1, 2, 2, 1], 6), "accepted"),
     "double roots of 2, called simple": (
         ranked("x", ("x^6-7*x^4+16*x^2-12",), one(6, 0, -5, 0, 1), [2, 1, 1, 2], 6),
@@ -1002,4 +1064,4 @@ FORMAT: dict[str, Row] = {
     "a true multiplicity": (put(MADE["some"], True, "solutions", 0, "multiplicity"), "malformed"),
 }
 
-ROWS: dict[str, Row] = merged(MIXED, WEIGHTS, BOXES, INFINITY, CLAIMS, FORMAT)
+ROWS: dict[str, Row] = merged(MIXED, FINE, WEIGHTS, BOXES, INFINITY, CLAIMS, FORMAT)

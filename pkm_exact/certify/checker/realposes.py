@@ -14,12 +14,12 @@ from typing import Final, TypeAlias
 from flint import arb, ctx, fmpq, fmpz, fmpz_poly
 
 from pkm_exact.certify.checker.budget import ball_cost, charge, limbs, value_cost
-from pkm_exact.certify.checker.descartes import RealRoot, dyadic, real_roots
+from pkm_exact.certify.checker.descartes import MAX_ISOLATION, RealRoot, dyadic, real_roots
 from pkm_exact.certify.checker.document import Ends, ListedPose, Representation
 from pkm_exact.certify.checker.krawczyk import Equations, Isolated, narrowed
 from pkm_exact.certify.checker.solutions import primitive_part
 from pkm_exact.certify.checker.study_motion import Metric, motion
-from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_PRECISION, rejected, too_large
+from pkm_exact.certify.checker.verdict import MAX_PRECISION, rejected, too_large
 
 Cell: TypeAlias = tuple[fmpz, fmpz]
 """The ends of an interval, times the power of 2 of its grid."""
@@ -120,11 +120,11 @@ def _scaled(ball: arb, exponent: int) -> tuple[fmpq, fmpq]:
 
 def parameter_cells(h: fmpz_poly, roots: Sequence[RealRoot]) -> tuple[list[Cell], int]:
     """The isolating intervals on the coarsest grid from 2^-32 on where each holds one root only, and its exponent."""
-    for exponent in range(PARAMETER_EXPONENT, MAX_BOX_EXPONENT + 1):
+    for exponent in range(PARAMETER_EXPONENT, MAX_ISOLATION + 1):
         cells = [root.cell(exponent) for root in roots]
         if len(set(cells)) == len(cells) and all(_holds_one_root(h, cell, exponent) for cell in cells):
             return cells, exponent
-    raise too_large(f"real poses: the roots are not told apart by a grid of 2^-{MAX_BOX_EXPONENT}")
+    raise too_large(f"real poses: the roots are not told apart by a grid of 2^-{MAX_ISOLATION}")
 
 
 def _holds_one_root(h: fmpz_poly, cell: Cell, exponent: int) -> bool:
