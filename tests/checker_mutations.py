@@ -221,6 +221,10 @@ def _lines_by_name(path: Path) -> dict[str, set[int]]:
             for node in ast.walk(statement):
                 if isinstance(node, ast.Name) and node.lineno <= (last.end_lineno or 0):
                     found[node.id].update(range(statement.lineno, (last.end_lineno or 0) + 1))
+        elif isinstance(statement, ast.FunctionDef):
+            for default in (*statement.args.defaults, *filter(None, statement.args.kw_defaults)):
+                if isinstance(default, ast.Name):
+                    found[default.id].update(range(statement.lineno, (statement.end_lineno or 0) + 1))
     return found
 
 

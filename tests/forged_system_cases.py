@@ -223,6 +223,14 @@ FINE: dict[str, Row] = {
         _rooted([-2437, 1 << 13], [1, *[0] * 12, (1 << 237) + 1]),
         "accepted",
     ),
+    **{
+        f"{' and '.join(texts)}, {said} times": (
+            ranked("x,y", texts, represented([(0, 0)], (1, 0)), said, said),
+            "accepted" if said == number else "rejected",
+        )
+        for texts, number in ((("x^2", "y^3"), 6), (("x^3-y^3", "x*y^2"), 9))
+        for said in (number, number + 1)
+    },
     "fewer polynomials than variables, nothing said of multiplicity": (
         listed("x,y", ("x^2-1",), represented([(1, 0)], (1, 0)), multiplicities=None),
         "accepted",

@@ -513,8 +513,9 @@ def test_too_large(path: tuple[str | int, ...], value: Any) -> None:
     assert check_resealed(content).status is Status.TOO_LARGE
 
 
-def test_a_file_over_the_limit_is_not_read() -> None:
-    assert check_bytes(b" " * (verdict.MAX_BYTES + 1)).status is Status.TOO_LARGE
+@pytest.mark.parametrize(("more", "status"), [(0, Status.MALFORMED), (1, Status.TOO_LARGE)])
+def test_a_file_over_the_limit_is_not_read(more: int, status: Status) -> None:
+    assert check_bytes(b" " * ((64 << 20) + more)).status is status
 
 
 def test_a_lone_surrogate_is_text() -> None:
