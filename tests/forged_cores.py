@@ -43,7 +43,7 @@ BOUNDS: dict[str, tuple[Path_, ...]] = {
         *(("quaternion", k) for k in (0, 3)),
         *(("centroid", k) for k in (0, 1)),
     ),
-    "spatial": (("position", 0), ("rotation", 2, 2), ("quaternion", 1), ("centroid", 1)),
+    "spatial": (("position", 0), ("rotation", 2, 2), ("quaternion", 1), ("centroid", 1), ("centroid", 2)),
 }
 
 
@@ -205,7 +205,62 @@ def _imaginary(path: Path_, value: Any) -> Content:
     return with_entry(around(PAIR[:1], FIRST, K), ("boxes", 0, *path), value)
 
 
+def _beyond(place: int) -> Content:
+    """Bounds of the pose that reach beyond the outer box in one coordinate alone, where it is narrower."""
+    content = around(PAIR[:1], FIRST, K)
+    content = with_entry(content, ("boxes", 0, "outer"), [hex(CORE if n == place else 1 << 44) for n in range(4)])
+    path: Path_ = ("boxes", 0, "quaternion", 0) if place == 0 else ("boxes", 0, "centroid", 1)
+    low, high = map(Fraction, at(content, path))
+    more = Fraction(1 << 36, 1 << K)
+    return with_entry(content, path, [str(low - more), str(high + more)])
+
+
+def _error(parts: Fraction) -> Content:
+    """The centre is about 0.6 units from the pose, and the position is proved to differ by twice that at most."""
+    return with_entry(_off("f2", Fraction(3, 4), 1), ("boxes", 0, "position_error"), str(parts / (1 << K)))
+
+
+def _real_pair(box: int, sign: int) -> Content:
+    """A real pose counted as a pair of complex ones, the other left out; the chart makes it the last pair, or first."""
+    content = {key: value for key, value in subject("tolerance, planar, complete").items() if key != "digest"}
+    real = content["boxes"][box]
+    core = 1 << (content["exponent"] - content["exponent"] // 2)
+    pair = {
+        "chart": [[sign * weight, 0] for weight, _ in real["chart"]],
+        "centre": [[hex(sign * int(part, 16)), "0x0"] for part, _ in real["centre"]],
+        "outer": [hex(max(int(width, 16), core)) for width in real["inner"]],
+    }
+    pairs = [*content["pairs"], pair] if sign > 0 else [pair, *content["pairs"]]
+    return content | {"boxes": [], "pairs": pairs}
+
+
+def _near(units: int) -> Content:
+    """One of two poses that differ by so many times 2^-34: too near for the core to be mapped into itself."""
+    y = 6 + Fraction(units, 1 << 34)
+    content = around((PAIR[0], Pose((2, 0, 0, 1), (0, 1, y, 0))), FIRST, K)
+    return content | {"boxes": content["boxes"][:1]}
+
+
+def _wide(weight: int, part: Fraction) -> Content:
+    """An outer box as wide in e0 as a part of e0."""
+    content = around(PAIR[:1], (weight, 0, 0, 0), K)
+    widths = [hex(int(part * (1 << K)) // weight), *[hex(CORE)] * 3]
+    return with_entry(content, ("boxes", 0, "outer"), widths)
+
+
 CORES: dict[str, Case] = {
+    **{f"bounds that reach too far in coordinate {place}": (partial(_beyond, place), REJECTED) for place in (0, 3)},
+    **{
+        f"a position error of {parts} units": (partial(_error, parts), status)
+        for parts, status in ((Fraction(5, 4), ACCEPTED), (Fraction(9, 10), REJECTED))
+    },
+    **{
+        f"the {name} pair is real pose {box}": (partial(_real_pair, box, sign), REJECTED)
+        for name, sign in (("last", 1), ("first", -1))
+        for box in (0, 1)
+    },
+    **{f"another pose {units} 2^-34 away": (partial(_near, units), REJECTED) for units in (90, 120)},
+    **{f"an outer box of 2/5 of e0 = 1/{w}": (partial(_wide, w, Fraction(2, 5)), ACCEPTED) for w in (1, 4)},
     **{
         f"{coordinate} is {sign} (1/2 + {parts} 2^-20) units from the centre": (
             partial(_off, coordinate, parts, sign),
@@ -260,6 +315,10 @@ CORES: dict[str, Case] = {
     **dict(_margins()),
 }
 
+WIDE: dict[str, Callable[[], Content]] = {
+    f"an outer box of 3/5 of e0 = 1/{w}": partial(_wide, w, Fraction(3, 5)) for w in (1, 4)
+}
+"""In balls N(e) may be 0 there, in intervals not: the plain checker accepts what the other one does not prove."""
 PLAIN: dict[str, Callable[[], Content]] = {
     f"{name}, as narrow as the plain checker proves": partial(limit, f"exact-tolerance-{name}") for name in BOUNDS
 }

@@ -295,8 +295,8 @@ def _grids() -> Iterator[tuple[str, Path_, Any, str]]:
     for kind, place, part, sign in product(("boxes", "pairs"), (0, -1), (0, 1), (1, -1)):
         for bits, status in ((114 + 256, "rejected"), (114 + 257, "too-large")):
             yield TOLERANT, (kind, place, "centre", 3, part), hex(sign * ((1 << bits) - 1)), status
-    for kind, place, part in product(("boxes", "pairs"), (1, 2), (0, 1)):
-        yield TOLERANT, (kind, -1, "chart", place, part), 1, "malformed"
+    for kind, box, place, part in product(("boxes", "pairs"), (0, -1), (1, 2), (0, 1)):
+        yield TOLERANT, (kind, box, "chart", place, part), 1, "malformed"
 
 
 def _widths() -> Iterator[tuple[str, Path_, Any, str]]:

@@ -238,16 +238,14 @@ def is_regular(at: Expansion, radii: Sequence[arb], *, real: bool) -> bool:
     """Whether F' is regular, and N(e) not 0, all over the box with these radii, for all robots.
 
     Then Y is regular, and no robot has two solutions there. |1 - Y F'| <= B is shown to have a spectral radius below 1:
-    by a positive vector v with B v < v.
+    by a positive vector v with v - B v = 1.
     """
     box = box_around(radii, real=real)
     bounds = arb_mat([[v.abs_upper() for v in row] for row in at.defect(box, uncertain=True).tolist()])
     size = len(radii)
     unit = arb_mat([[int(i == j) for j in range(size)] for i in range(size)])
-    vector = (unit - bounds).solve(arb_mat(size, 1, [1] * size), nonstop=True).mid()  # NaN is not greater than 0
-    images = (bounds * vector).entries()
-    shrinks = all(v > 0 and image < v for v, image in zip(vector.entries(), images, strict=True))
-    return shrinks and not _norm(at, box).contains(0)
+    vector = (unit - bounds).solve(arb_mat(size, 1, [1] * size), nonstop=True)  # NaN is not greater than 0
+    return all(v > 0 for v in vector.entries()) and not _norm(at, box).contains(0)
 
 
 def holds_at_most_one(at: Expansion, radii: Sequence[arb], *, real: bool) -> bool:
