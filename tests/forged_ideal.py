@@ -144,11 +144,21 @@ HELD_FAR = certificate(
     [],
     [],
 )
+FOURTH = certificate(
+    ring(
+        [(1, 0, 1), (-1, 0, 0), (-1, 0, -1), (-1, -1, 1), (0, -1, 0), (1, 1, -1)],
+        [(1, 0, 0), (1, 1, 0), (1, 1, 0), (1, -1, 0), (1, -1, 0), (1, 0, 0)],
+    ),
+    [],
+    [],
+)
+"""Six hinges with one freedom up to the third order: one equation beside the independent ones."""
 BACKWARDS: Any = [[[0, -1]], [1]]
 TAIL = certificate([*hinges(0, 1, 3), joint("t", "R", "top", "aside", O, [Z])], [], [])
 
 TRUE: dict[str, tuple[Content, Content]] = {
     "five hinges": (FIVE, ideal((0, 0), (0, 0), LOCAL)),
+    "six hinges": (FOURTH, ideal((0, 0), (0, 0), ("local", [[1]], 4))),
     "five hinges, a longer vector": (FIVE, ideal((0, 0), (0, 0), ("local", [["-7/3"]], 3))),
     "five hinges, a greater degree": (FIVE, ideal((0, 0), (0, 0), ("local", [[1]], 12))),
     "five hinges and a dependency": (FIVE, ideal((0, 0), (0, 0), LOCAL, known=[["0", "0", "-1", "1", "0", "0"]])),
@@ -234,6 +244,8 @@ def _local(section: Any, degree: int, most: int = 0) -> Content:
 
 FALSE: dict[str, tuple[Content, Content, str, str]] = {
     "five hinges in the second order": (FIVE, _local([[1]], 2), "rejected", ISOLATED),
+    "six hinges in the third order": (FOURTH, _local([[1]], 3), "rejected", ISOLATED),
+    "six hinges in the second order": (FOURTH, _local([[1]], 2), "rejected", ISOLATED),
     "five hinges on nothing": (FIVE, _local([[0]], 3), "rejected", ISOLATED),
     "Bennett's linkage is not isolated": (BENNETT, _local([[1]], 12), "rejected", ISOLATED),
     "a hinge is not isolated": (OPEN, _local([[1]], 2), "rejected", ISOLATED),
@@ -520,8 +532,27 @@ FALSE: dict[str, tuple[Content, Content, str, str]] = {
         "malformed",
         BELOW,
     ),
-    "the rank with a section": (OPEN, ideal((1, 1), (1, 1), ("rank", [[1]], 0)), "malformed", PARTS),
-    "the rank in a degree": (OPEN, ideal((1, 1), (1, 1), ("rank", [], 2)), "malformed", PARTS),
+    **{
+        f"the rank with parts of another argument, {k}": (
+            OPEN,
+            ideal((1, 1), (1, 1), above, ("curves", [], [], [], [curve(IS_U, MOVES)])),
+            "malformed",
+            PARTS,
+        )
+        for k, above in enumerate([("rank", [[1]], 0), ("rank", [], 2)])
+    },
+    "an argument above of its own": (
+        OPEN,
+        ideal((1, 1), (1, 1), ("words", [], 0), ("curves", [], [], [], [curve(IS_U, MOVES)])),
+        "malformed",
+        "finite.above.argument",
+    ),
+    "an argument below of its own": (
+        TRIANGLE,
+        ideal((0, 0), (0, 0), ("local", [[1]], 2), ("words",)),
+        "malformed",
+        "finite.below.argument",
+    ),
     "an order": (FIVE, ideal((0, 0), (0, 0), ("order", [], 3)), "malformed", "finite.above.argument"),
     "a curve of version 2": (
         OPEN,
