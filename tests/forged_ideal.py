@@ -144,21 +144,16 @@ HELD_FAR = certificate(
     [],
     [],
 )
-FOURTH = certificate(
-    ring(
-        [(1, 0, 1), (-1, 0, 0), (-1, 0, -1), (-1, -1, 1), (0, -1, 0), (1, 1, -1)],
-        [(1, 0, 0), (1, 1, 0), (1, 1, 0), (1, -1, 0), (1, -1, 0), (1, 0, 0)],
-    ),
-    [],
-    [],
-)
-"""Six hinges with one freedom up to the third order: one equation beside the independent ones."""
+SIX_POINTS = [(1, 0, 1), (-1, 0, 0), (-1, 0, -1), (-1, -1, 1), (0, -1, 0), (1, 1, -1)]
+SIX_AXES = [(1, 0, 0), (1, 1, 0), (1, 1, 0), (1, -1, 0), (1, -1, 0), (1, 0, 0)]
+SIX = [certificate(ring(SIX_POINTS[k:] + SIX_POINTS[:k], SIX_AXES[k:] + SIX_AXES[:k]), [], []) for k in range(6)]
+"""Hinges with one freedom up to the third order, from each of them on: one equation beside the independent ones."""
 BACKWARDS: Any = [[[0, -1]], [1]]
 TAIL = certificate([*hinges(0, 1, 3), joint("t", "R", "top", "aside", O, [Z])], [], [])
 
 TRUE: dict[str, tuple[Content, Content]] = {
     "five hinges": (FIVE, ideal((0, 0), (0, 0), LOCAL)),
-    "six hinges": (FOURTH, ideal((0, 0), (0, 0), ("local", [[1]], 4))),
+    **{f"six hinges, {k}": (made, ideal((0, 0), (0, 0), ("local", [[1]], 4))) for k, made in enumerate(SIX)},
     "five hinges, a longer vector": (FIVE, ideal((0, 0), (0, 0), ("local", [["-7/3"]], 3))),
     "five hinges, a greater degree": (FIVE, ideal((0, 0), (0, 0), ("local", [[1]], 12))),
     "five hinges and a dependency": (FIVE, ideal((0, 0), (0, 0), LOCAL, known=[["0", "0", "-1", "1", "0", "0"]])),
@@ -244,8 +239,10 @@ def _local(section: Any, degree: int, most: int = 0) -> Content:
 
 FALSE: dict[str, tuple[Content, Content, str, str]] = {
     "five hinges in the second order": (FIVE, _local([[1]], 2), "rejected", ISOLATED),
-    "six hinges in the third order": (FOURTH, _local([[1]], 3), "rejected", ISOLATED),
-    "six hinges in the second order": (FOURTH, _local([[1]], 2), "rejected", ISOLATED),
+    **{
+        f"six hinges in the third order, {k}": (made, _local([[1]], 3), "rejected", ISOLATED)
+        for k, made in enumerate(SIX)
+    },
     "five hinges on nothing": (FIVE, _local([[0]], 3), "rejected", ISOLATED),
     "Bennett's linkage is not isolated": (BENNETT, _local([[1]], 12), "rejected", ISOLATED),
     "a hinge is not isolated": (OPEN, _local([[1]], 2), "rejected", ISOLATED),
