@@ -2,11 +2,12 @@
 
 import forged_regions
 import forged_regions_2
+import forged_regular
 import pytest
 from region_certificates import verdicts
 from tables_of_rows import merged
 
-ROWS = merged(forged_regions.ROWS, forged_regions_2.ROWS)
+ROWS = merged(forged_regions.ROWS, forged_regions_2.ROWS, forged_regular.ROWS)
 
 
 def is_long(name: str) -> bool:

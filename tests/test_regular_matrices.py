@@ -40,7 +40,7 @@ SMALL = {
 """Model, region and working modes."""
 
 
-def _question(model: str, region: str, modes: str = "", more: str = "kind = 'all'") -> tuple[Any, RegionQuestion]:
+def question_of(model: str, region: str, modes: str = "", more: str = "kind = 'all'") -> tuple[Any, RegionQuestion]:
     machine = region_machine(machine_of(model))
     signs = f"working_modes = {list(modes)}" if modes else ""
     text = f"[region]\n{region}\n[conditions]\nno_type_2 = true\n{signs}\n[answer]\n{more}\n"
@@ -50,7 +50,7 @@ def _question(model: str, region: str, modes: str = "", more: str = "kind = 'all
 def _answer(monkeypatch: pytest.MonkeyPatch, most: int, *question: str) -> RegionAnswer:
     monkeypatch.setattr(region_solver, "MOST_OF_DETERMINANT", most)
     kind = "map" if question[0] == "3-rrr" else "all"
-    return answered(*_question(*question, more=f"kind = '{kind}'\nsteps = 9"))
+    return answered(*question_of(*question, more=f"kind = '{kind}'\nsteps = 9"))
 
 
 @pytest.mark.parametrize("name", SMALL)
@@ -80,13 +80,13 @@ def test_parts_inside_have_determinants_of_one_sign(monkeypatch: pytest.MonkeyPa
 
 
 def test_a_general_hexapod_in_boxed_orientation_is_regular() -> None:
-    answer = answered(*_question("rolland-6-6", TURNED))
+    answer = answered(*question_of("rolland-6-6", TURNED))
     assert answer.by_matrix
     assert answer.is_proved
 
 
 def test_a_box_with_a_singular_pose_is_refuted() -> None:
-    answer = answered(*_question("rolland-6-6", WIDE))
+    answer = answered(*question_of("rolland-6-6", WIDE))
     assert answer.counterexample is not None
     rows = smaller_rows(answer.machine, *placed_legs(answer.machine, answer.question.chart, answer.question.conditions))
     signs = []
@@ -98,7 +98,7 @@ def test_a_box_with_a_singular_pose_is_refuted() -> None:
 
 
 def test_a_determinant_that_is_zero_at_a_pose_refutes() -> None:
-    machine, question = _question("3-rpr-merlet-p", "position = [[4, 6], [4, 6]]\ndegrees = [-5, 5]")
+    machine, question = question_of("3-rpr-merlet-p", "position = [[4, 6], [4, 6]]\ndegrees = [-5, 5]")
     asked = asked_of(machine, question.chart, question.conditions, most_of_determinant=-1)
     assert asked.matrix is not None
     row = asked.matrix.rows[0]
@@ -110,7 +110,7 @@ def test_a_determinant_that_is_zero_at_a_pose_refutes() -> None:
 @pytest.mark.parametrize("name", ["planar, singular", "hexapod, turned", "joints beside", "cranks"])
 def test_rows_are_smaller_and_their_determinant_the_same(name: str) -> None:
     model, region, modes = SMALL[name]
-    machine, question = _question(model, region, modes)
+    machine, question = question_of(model, region, modes)
     pose, placed = placed_legs(machine, question.chart, question.conditions)
     rows, smaller = wrench_rows(machine, pose, placed), smaller_rows(machine, pose, placed)
     count = len(question.chart.variables)

@@ -52,6 +52,7 @@ MAX_POWERS: Final = 5
 MAX_PARAMETERS: Final = 4
 MAX_COEFFICIENTS: Final = 1 << 20
 ROOT_BITS: Final = 80
+DIGITS: Final = 48
 PRECISIONS: Final = (64, 256, 1024)
 ZERO: Final = Fraction(0)
 
@@ -112,6 +113,12 @@ class Region(NamedTuple):
     joints: tuple[Numbers, ...] = ()
     directions: tuple[Numbers | None, ...] = ()
     member: Numbers | None = None
+    by_matrix: bool = False
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """What is asked, in the words of the certificate."""
+        return (*self.asked[:-1], "regular") if self.by_matrix else self.asked
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -126,7 +133,12 @@ def read(body: dict[str, Any]) -> Region:
     pure.well_formed(known, "format: not a pkm_exact region certificate, version 1 or 2")
     second, keys = version == 2, KEYS_2 if version == 2 else KEYS
     found = dict(zip(keys.split(), pure.an_object(body, "certificate", keys), strict=True))
-    region = first_part(found, second=second)
+    by_matrix = second and isinstance(found["conditions"], list) and found["conditions"][-1:] == ["regular"]
+    if by_matrix:
+        found["conditions"] = [*found["conditions"][:-1], "no_type_2"]
+    region = first_part(found, second=second)._replace(by_matrix=by_matrix)
+    alone = not by_matrix or not (region.chart.path or region.chart.parameters)
+    pure.well_formed(alone, "conditions: regular has neither a path nor parameters beside it")
     return second_part(region, found) if second else region
 
 
@@ -549,7 +561,7 @@ class Conditions(NamedTuple):
     region: Any
     shape: list[Signed]
     roots: list[Polynomial]
-    determinant: Polynomial | None
+    determinant: Polynomial | Matrix | None
 
 
 def pairwise_of(corners: Sequence[Numbers], number: int) -> Iterator[tuple[Fraction, Fraction]]:
@@ -670,10 +682,9 @@ class Equations:
                 parts.append(Pair(self, legs[i], legs[j]).condition(way))
         if "no_type_1" in region.asked:
             parts += [Signed(leg.square if leg.root is None else leg.root, "+") for leg in legs]
-        determinant = None
-        if "no_type_2" in region.asked:
-            determinant = self.determinant(legs)
-            parts.append(Signed(determinant, "/"))
+        determinant = self.singular(legs)
+        if determinant is not None:
+            parts.append(determinant if isinstance(determinant, Matrix) else Signed(determinant, "/"))
         shape = [Signed(self.shape(*part), "0+") for part in region.shape]
         inside: list[Any] = [*shape, *self.tube()]
         for leg, pair in zip(legs, region.joints, strict=False):
@@ -735,13 +746,29 @@ class Equations:
             moment.append(plus(*terms))
         return [*force, *moment]
 
+    def singular(self, legs: Sequence[Placed]) -> Polynomial | Matrix | None:
+        """The determinant, or the matrix, if it is asked for."""
+        if self.region.by_matrix:
+            return self.matrix(legs)
+        return self.determinant(legs) if "no_type_2" in self.region.asked else None
+
     def determinant(self, legs: Sequence[Placed]) -> Polynomial:
         """Of the rows of legs and of the other constraints, on the freedoms."""
+        return self.expanded(self.square([leg.row() for leg in legs]))
+
+    def matrix(self, legs: Sequence[Placed]) -> Matrix:
+        """The same rows, but those of legs of own length over N, and none multiplied with another."""
+        rows = self.square([leg.row() if leg.leg.axes else leg.own_row() for leg in legs])
+        roots = [self.driven.index(k) if leg.leg.axes else None for k, leg in enumerate(legs)]
+        return matrix_of(rows, [*roots, *[None] * (len(rows) - len(roots))], self.count)
+
+    def square(self, rows: list[list[Polynomial]]) -> list[list[Polynomial]]:
+        """The rows of legs, and those of other constraints, on the freedoms: as many of these as of those."""
         freedoms = FREEDOMS[self.region.robot.motion]
-        rows = [leg.row() for leg in legs] + [self.wrench(form) for form in self.region.robot.forms]
+        rows = rows + [self.wrench(form) for form in self.region.robot.forms]
         square = len(rows) == len(freedoms)
         pure.well_formed(square, "conditions: as many equations as freedoms are needed for no_type_2")
-        return self.expanded([[row[k] for k in freedoms] for row in rows])
+        return [[row[k] for k in freedoms] for row in rows]
 
     def expanded(self, rows: list[list[Polynomial]]) -> Polynomial:
         """A determinant: the minors of the last rows, from those of one row less."""
@@ -882,6 +909,18 @@ class Placed:
             moment.append(plus((weight, times(b[j], k[l])), (-weight, times(b[l], k[j]))))
         return [*force, *moment]
 
+    def own_row(self) -> list[Polynomial]:
+        """Its row over N, of its own length: e, and b x (C - A)."""
+        eq, b = self.equations, self.arm
+        g = eq.g
+        o = [
+            plus((1, eq.entry(c)), (-1, eq.number(a)))
+            for c, a in zip(eq.region.chart.position, self.leg.base, strict=True)
+        ]
+        force = [plus((weight, x)) for weight, x in zip(g, self.rod, strict=True)]
+        turned = [plus((1, times(b[i - 2], o[i - 1])), (-1, times(b[i - 1], o[i - 2]))) for i in range(3)]
+        return [*force, *(plus((g[i - 2] * g[i - 1], x)) for i, x in enumerate(turned))]
+
 
 class Pair:
     """Two legs that must be apart, in the letters of the specification: m, n, U, V, W, A, B."""
@@ -983,6 +1022,8 @@ def table_of(polynomial: Polynomial, box: Sequence[Numbers], roots: int) -> Tabl
     """The coefficients on a box."""
     count = len(box)
     degrees = tuple(max((key[k] for key in polynomial), default=0) for k in range(count))
+    if isinstance(polynomial, Wide):
+        degrees = polynomial.degrees
     used = tuple(k for k in range(roots) if any(key[count + k] for key in polynomial))
     pure.well_formed(all(key[count + k] <= 1 for key in polynomial for k in used), "conditions: a root appears squared")
     size = prod(d + 1 for d in degrees) << len(used)
@@ -1093,6 +1134,178 @@ def rational_root(square: Fraction, *, up: bool) -> Fraction:
 
 
 # ---------------------------------------------------------------------------------------------------------------------
+# Matrices that are regular
+# ---------------------------------------------------------------------------------------------------------------------
+
+
+class Wide(dict[tuple[int, ...], Fraction]):
+    """A polynomial whose table has at least certain degrees."""
+
+    degrees: tuple[int, ...] = ()
+
+
+class Matrix(NamedTuple):
+    """That a square matrix is regular: its rows, and the place of the root of each, or none."""
+
+    rows: list[list[Wide]]
+    roots: list[int | None]
+
+
+def matrix_of(rows: Sequence[Sequence[Polynomial]], roots: Sequence[int | None], count: int) -> Matrix:
+    """The condition: entries of a column get the same degrees in the variables, of which there are so many."""
+    found = [[Wide(entry) for entry in row] for row in rows]
+    for column in zip(*found, strict=True):
+        most = tuple(max((key[k] for entry in column for key in entry), default=0) for k in range(count))
+        for entry in column:
+            entry.degrees = most
+    return Matrix(found, list(roots))
+
+
+def is_regular(matrix: Matrix, part: Part) -> bool:
+    """Whether I - E has leading minors above 0, with E the greatest coefficients of I - C M on a part."""
+    tables = [[part.table(entry) for entry in row] for row in matrix.rows]
+    size = len(tables)
+    columns = []
+    for column in zip(*tables, strict=True):
+        words = sum(table.denominator.bit_length() + table.exponent for table in column) // 64 + 1
+        pure.spend(size * sum(map(cost_of, column)) * size_factor(words // 8, 1))
+        columns.append(column_of(column, matrix.roots, part))
+    longest = max(scale.bit_length() + most_of(low, high) for low, high, scale in columns) * size // 64 + 1
+    pure.spend(100 * size**3 * size_factor(longest, longest))
+    # Rows of M are multiplied by nothing, columns by their scales.
+    middles = [[min(low[k]) + max(high[k]) for low, high, _ in columns] for k in range(size)]
+    inverse = inverse_of(middles)
+    if inverse is None:
+        return False
+    entries, divisor = inverse
+    rest: list[list[int]] = []
+    for i in range(size):
+        exact = [Fraction(2 * columns[i][2] * entry, divisor) for entry in entries[i]]
+        near = [first_digits(value) for value in exact]
+        unit = lcm(*(value.denominator for value in near))
+        weights = [int(value * unit) for value in near]
+        row = []
+        for j, (low, high, scale) in enumerate(columns):
+            one = unit * scale if i == j else 0
+            row.append(one - distance(weights, low, high, one))
+        rest.append(row)
+    return has_positive_minors(rest)
+
+
+def most_of(low: Sequence[Sequence[int]], high: Sequence[Sequence[int]]) -> int:
+    """The length of the longest number in two tables."""
+    return max(map(pure.most_bits, (*low, *high)))
+
+
+def column_of(
+    tables: Sequence[Table], roots: Sequence[int | None], part: Part
+) -> tuple[list[list[int]], list[list[int]], int]:
+    """By rows the lesser and the greater of the coefficients at both ends of the root, all times a number."""
+    scale = lcm(*(table.denominator << table.exponent for table in tables))
+    scale *= max((end.denominator for k in roots if k is not None for end in part.ends[k]), default=1)  # powers of two
+    lows, highs = [], []
+    for table, root in zip(tables, roots, strict=True):
+        factor = scale // (table.denominator << table.exponent)
+        zeros = [0] * prod(d + 1 for d in table.degrees)
+        constant = table.parts.get((0,) * len(table.roots), zeros)
+        if root is None or not table.roots:
+            lows.append([factor * value for value in constant])
+            highs.append(lows[-1])
+            continue
+        one, other = (int(factor * end) for end in part.ends[root])
+        pairs = [
+            (factor * a + one * b, factor * a + other * b) for a, b in zip(constant, table.parts[(1,)], strict=True)
+        ]
+        lows.append([min(pair) for pair in pairs])
+        highs.append([max(pair) for pair in pairs])
+    return lows, highs, scale
+
+
+def inverse_of(matrix: Sequence[Sequence[int]]) -> tuple[list[list[int]], int] | None:
+    """The inverse of a matrix of integers: integers and what they are divided by; none if it is singular."""
+    size = len(matrix)
+    rows = [[*row, *(int(i == k) for k in range(size))] for i, row in enumerate(matrix)]
+    divisor = 1
+    for p in range(size):
+        chosen = next((r for r in range(p, size) if rows[r][p]), None)
+        if chosen is None:
+            return None
+        rows[p], rows[chosen] = rows[chosen], rows[p]
+        pivot = rows[p]
+        for r in range(size):
+            if r != p:
+                factor = rows[r][p]
+                rows[r] = [(pivot[p] * x - factor * y) // divisor for x, y in zip(rows[r], pivot, strict=True)]
+        divisor = pivot[p]
+    return [row[size:] for row in rows], divisor
+
+
+def first_digits(value: Fraction) -> Fraction:
+    """A number with its first binary digits only, nearer to 0."""
+    top, bottom = abs(value.numerator), value.denominator
+    shift = DIGITS - top.bit_length() + bottom.bit_length()
+    whole = (top << max(shift, 0)) // (bottom << max(-shift, 0))
+    if whole >> DIGITS:
+        whole, shift = whole // 2, shift - 1
+    found = Fraction(whole << max(-shift, 0), 1 << max(shift, 0))
+    return -found if value < 0 else found
+
+
+def distance(weights: Sequence[int], low: Sequence[Sequence[int]], high: Sequence[Sequence[int]], one: int) -> int:
+    """The greatest distance of a number from what the rows between bounds add up to, with weights."""
+    under = [b if w < 0 else a for w, a, b in zip(weights, low, high, strict=True)]
+    over = [a if w < 0 else b for w, a, b in zip(weights, low, high, strict=True)]
+    least = min(sum(map(int.__mul__, weights, values)) for values in zip(*under, strict=True))
+    most = max(sum(map(int.__mul__, weights, values)) for values in zip(*over, strict=True))
+    return max(one - least, most - one)
+
+
+def has_positive_minors(matrix: Sequence[Sequence[int]]) -> bool:
+    """Whether the determinants of the first 1, 2, .. rows and columns are positive: pivots without division."""
+    rows, divisor = [list(row) for row in matrix], 1
+    while rows:
+        first, *others = rows
+        if first[0] <= 0:
+            return False
+        rows = [
+            [(first[0] * x - row[0] * y) // divisor for x, y in zip(row[1:], first[1:], strict=True)] for row in others
+        ]
+        divisor = first[0]
+    return True
+
+
+def determinant_at(matrix: Matrix, point: Numbers, count: int) -> Polynomial:
+    """The determinant at a point, a polynomial in the roots, of which there are so many; each is in one row."""
+    lines = []
+    for row, root in zip(matrix.rows, matrix.roots, strict=True):
+        choices: list[tuple[int | None, list[Fraction]]] = [(None, [value_at(entry, point, ()) for entry in row])]
+        if root is not None:
+            choices.append((root, [value_at(entry, point, (root,)) for entry in row]))
+        lines.append(choices)
+    found: Polynomial = {}
+    words = words_of([value for choices in lines for _, row in choices for value in row])
+    for chosen in combinations_of(*lines):
+        pure.spend(20_000 * len(lines) ** 3 * size_factor(len(lines) * words, len(lines) * words))
+        used = {root for root, _ in chosen}
+        key = (0,) * len(point) + tuple(int(k in used) for k in range(count))
+        found[key] = found.get(key, ZERO) + determinant_of([row for _, row in chosen])
+    return {key: value for key, value in found.items() if value}
+
+
+def determinant_of(matrix: Sequence[Sequence[Fraction]]) -> Fraction:
+    """That of a rational matrix."""
+    rows, found = [list(row) for row in matrix], Fraction(1)
+    while rows:
+        place = next((k for k, row in enumerate(rows) if row[0]), None)
+        if place is None:
+            return ZERO
+        first = rows.pop(place)
+        found *= -first[0] if place % 2 else first[0]
+        rows = [[x - row[0] / first[0] * y for x, y in zip(row[1:], first[1:], strict=True)] for row in rows]
+    return found
+
+
+# ---------------------------------------------------------------------------------------------------------------------
 # Checks
 # ---------------------------------------------------------------------------------------------------------------------
 
@@ -1106,7 +1319,7 @@ def checks(region: Region) -> Iterator[str]:
     """One line per claim that is proved."""
     require_held(region)
     found = Equations(region).all()
-    yield f"conditions: {', '.join(region.asked)}, as polynomials in {', '.join(region.chart.names)}"
+    yield f"conditions: {', '.join(region.named)}, as polynomials in {', '.join(region.chart.names)}"
     if region.claim == "not-all":
         nothing = not region.paving and not region.inside and not region.undecided and region.measure is None
         pure.well_formed(nothing, "paving: there is one, but a pose refutes the question")
@@ -1212,8 +1425,10 @@ class Part:
                 self.tables[name] = self.above.split[name][self.side]
         return self.tables[name]
 
-    def range(self, test: Signed) -> tuple[Any, Any]:
-        """The least and the greatest coefficient."""
+    def range(self, test: Signed | Matrix) -> Any:
+        """The least and the greatest coefficient; of a matrix whether it is regular."""
+        if isinstance(test, Matrix):
+            return is_regular(test, self)
         name = id(test.polynomial)
         if name not in self.known:
             table = self.table(test.polynomial)
@@ -1267,8 +1482,9 @@ class Designs:
         self.letters = enumerate(region.paving, 1)
         self.good = ("or", [opposite(found.region), found.asked])
         self.sided: dict[str, Any] = {}
+        determinant = found.determinant if isinstance(found.determinant, dict) else {}
         for sign, factor in (("+", 1), ("-", -1)):
-            side = Signed(plus((factor, found.determinant or {})), "+")
+            side = Signed(plus((factor, determinant)), "+")
             self.sided[sign] = ("and", [found.region, *(Signed(root, "0+") for root in found.roots), side])
 
     def letter(self) -> tuple[int, str]:
@@ -1332,8 +1548,10 @@ class Designs:
         return holds(self.sided[letter], part.range)
 
 
-def holds(condition: Any, ranges: Callable[[Signed], tuple[Any, Any]]) -> bool:
+def holds(condition: Any, ranges: Callable[[Any], Any]) -> bool:
     """Whether a condition holds all over a part."""
+    if isinstance(condition, Matrix):
+        return bool(ranges(condition))
     if isinstance(condition, Signed):
         low, high = ranges(condition)
         return bool(low > 0 or (condition.sign == "0+" and low >= 0) or (condition.sign == "/" and high < 0))
@@ -1341,8 +1559,10 @@ def holds(condition: Any, ranges: Callable[[Signed], tuple[Any, Any]]) -> bool:
     return all(results) if condition[0] == "and" else any(results)
 
 
-def fails(condition: Any, ranges: Callable[[Signed], tuple[Any, Any]]) -> bool:
+def fails(condition: Any, ranges: Callable[[Any], Any]) -> bool:
     """Whether a condition holds nowhere in a part."""
+    if isinstance(condition, Matrix):
+        return False
     if isinstance(condition, Signed):
         if condition.sign == "/":
             return False
@@ -1363,7 +1583,7 @@ def refuted(region: Region, found: Conditions) -> str:
         return "claim: not all poses of the region are good, as one shows"
     pair = len(region.points) == 2 and found.determinant is not None and not region.joints
     pure.well_formed(pair, "counterexample: neither one pose, nor two between which a determinant changes its sign")
-    signs = [sign_at(found.determinant or {}, point, found.roots) for point in region.points]
+    signs = [determinant_sign(found.determinant or {}, point, found.roots) for point in region.points]
     apart = sorted(signs, key=repr) == [-1, 1]
     pure.require(apart, "counterexample: the determinants are not proved to have opposite signs")
     return "claim: not all poses of the region are good, as the determinant has both signs in it, which is connected"
@@ -1380,6 +1600,8 @@ def is_kept(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bool
 
 def is_broken(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bool:
     """Whether a condition is proved to fail at a pose."""
+    if isinstance(condition, Matrix):
+        return determinant_sign(condition, point, roots) == 0
     if isinstance(condition, Signed):
         sign = sign_at(condition.polynomial, point, roots)
         if sign is None:
@@ -1387,6 +1609,13 @@ def is_broken(condition: Any, point: Numbers, roots: Sequence[Polynomial]) -> bo
         return {"+": sign <= 0, "0+": sign < 0, "/": sign == 0}[condition.sign]
     results = (is_broken(part, point, roots) for part in condition[1])
     return any(results) if condition[0] == "and" else all(results)
+
+
+def determinant_sign(determinant: Polynomial | Matrix, point: Numbers, roots: Sequence[Polynomial]) -> int | None:
+    """The sign at a point of a determinant, or of that of a matrix."""
+    if isinstance(determinant, Matrix):
+        determinant = determinant_at(determinant, point, len(roots))
+    return sign_at(determinant, point, roots)
 
 
 def value_at(polynomial: Polynomial, point: Numbers, used: tuple[int, ...]) -> Fraction:

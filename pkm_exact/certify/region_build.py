@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 FORMAT: Final = "pkm_exact region certificate"
 VERSION: Final = 1
+_MATRIX: Final = {"no_type_2": "regular"}
+"""What is asked otherwise where the matrix stands in the place of its determinant."""
 CONE_ANGLES: Final = (30, 45, 60, 90, 120, 135, 150, 180)
 """In degrees: those whose cosines have rational squares."""
 
@@ -35,9 +37,8 @@ def region_certificate(answer: RegionAnswer) -> dict[str, Any]:
     """
     question, machine = answer.question, answer.machine
     require_words(machine, question)
-    if answer.by_matrix:
-        raise InputError("-o: certificates have no word yet for a matrix that is regular; leave -o out")
-    return sealed(second_version(_content(answer), answer) if needs_second(machine, question) else _content(answer))
+    second = answer.by_matrix or needs_second(machine, question)
+    return sealed(second_version(_content(answer), answer) if second else _content(answer))
 
 
 def designs_certificate(machine: RegionMachine, question: RegionQuestion, found: Designs) -> dict[str, Any]:
@@ -67,7 +68,7 @@ def _content(answer: RegionAnswer) -> dict[str, Any]:
             {"constant": str(part.constant), "linear": texts(part.linear), "weights": texts(part.weights)}
             for part in question.shape
         ],
-        "conditions": list(question.conditions.asked),
+        "conditions": [_MATRIX.get(name, name) if answer.by_matrix else name for name in question.conditions.asked],
         "modes": list(question.conditions.modes),
         "claim": claim_of(answer),
         "axes": list(answer.axes),

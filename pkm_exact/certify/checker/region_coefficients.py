@@ -15,6 +15,7 @@ from typing import Any, Final
 import numpy as np
 
 from pkm_exact.certify.checker.budget import charge
+from pkm_exact.certify.checker.region_regular import Regular
 from pkm_exact.certify.checker.region_ring import number_words, polynomial_words, size_factor
 from pkm_exact.certify.checker.verdict import malformed, too_large
 
@@ -86,7 +87,8 @@ class Part:
         key = id(polynomial)
         if key not in self._tables:
             if self._parent is None:
-                self._tables[key] = _table_of(polynomial, box)
+                is_matrix = isinstance(polynomial, Regular)
+                self._tables[key] = polynomial.table(box) if is_matrix else _table_of(polynomial, box)
             else:
                 self._tables[key] = self._parent.half(polynomial, box, self._axis)[self._upper]
         return self._tables[key]

@@ -16,6 +16,8 @@ MOST_SHAPES: Final = 64
 MOST_STEPS: Final = 120
 NAMES: Final = ("x", "y", "z", "roll", "pitch", "yaw")
 CONDITIONS: Final = ("reachable", "limits", "no_type_1", "no_type_2")
+REGULAR: Final = "regular"
+"""In version 2 in the place of ``no_type_2``."""
 CLAIMS: Final = ("all", "not-all", "undecided", "map")
 TWISTS: Final = {
     "spatial": (0, 1, 2, 3, 4, 5),
@@ -145,6 +147,12 @@ class RegionDocument:
     directions: tuple[Vector | None, ...] = ()
     member: Vector | None = None
     parameters: tuple[str, ...] = ()
+    by_matrix: bool = False
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """The conditions as the certificate names them: ``by_matrix`` the last one is "regular"."""
+        return (*self.conditions[:-1], REGULAR) if self.by_matrix else self.conditions
 
 
 def read_region(body: dict[str, Any], first: tuple[str, ...] = (), last: tuple[str, ...] = ()) -> RegionDocument:

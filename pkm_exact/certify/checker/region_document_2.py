@@ -9,8 +9,10 @@ from typing import Any, Final
 
 from pkm_exact.certify.checker.region_document import (
     CHART,
+    CONDITIONS,
     KEYS,
     LEG,
+    REGULAR,
     ROBOT,
     LegEntry,
     RegionDocument,
@@ -40,7 +42,8 @@ def read_region_2(body: dict[str, Any]) -> RegionDocument:
     parameters = read_parameters(chart.pop("parameters"))
     split = items(robot["legs"], "robot.legs", None, _split)
     robot["legs"], axes = [leg for leg, _ in split], [axis for _, axis in split]
-    plain = {key: values[key] for key in KEYS} | {"robot": robot, "chart": chart}
+    asked, by_matrix = _conditions(values["conditions"])
+    plain = {key: values[key] for key in KEYS} | {"robot": robot, "chart": chart, "conditions": asked}
     names = tuple(f"p{k}" for k in range(1, len(parameters) + 1))
     found = read_region(plain, () if path is None else (ALONG,), names)
     member = items(values["member"], "member", None, rational)
@@ -56,7 +59,10 @@ def read_region_2(body: dict[str, Any]) -> RegionDocument:
         directions=items(values["directions"], "directions", None, _direction),
         member=member or None,
         parameters=parameters,
+        by_matrix=by_matrix,
     )
+    if by_matrix and (path is not None or parameters):
+        raise malformed("conditions: regular has neither a path nor parameters beside it")
     require_varied(document)
     _require_axes(document)
     _require_place(document)
@@ -75,6 +81,13 @@ def compared_pairs(document: RegionDocument) -> list[tuple[int, int]]:
 
 def _share_a_joint(one: LegEntry, base: Any, platform: Any, other: LegEntry, base_2: Any, platform_2: Any) -> bool:
     return bool(platform == platform_2 or (not one.axes and not other.axes and base == base_2))
+
+
+def _conditions(value: object) -> tuple[object, bool]:
+    """The conditions with no_type_2 in the place of regular, and whether that was there."""
+    if not isinstance(value, list) or not value or value[-1] != REGULAR:
+        return value, False
+    return [*value[:-1], CONDITIONS[-1]], True
 
 
 def _split(value: object, where: str) -> tuple[dict[str, Any], Vector | None]:

@@ -14,6 +14,7 @@ from pkm_exact.certify.checker.region_document import RegionDocument
 from pkm_exact.certify.checker.region_document_2 import require_held
 from pkm_exact.certify.checker.region_polynomials import RegionEquations
 from pkm_exact.certify.checker.region_proofs import LETTER, is_proved, ranges_on
+from pkm_exact.certify.checker.region_regular import Regular
 from pkm_exact.certify.checker.region_ring import (
     Condition,
     Conditions,
@@ -35,7 +36,7 @@ def check_region(document: RegionDocument) -> Iterator[str]:
         raise malformed("shape: a weight is negative")
     require_held(document)
     conditions = RegionEquations(document).conditions()
-    yield f"conditions: {', '.join(document.conditions)}, as polynomials in {', '.join(document.variables)}"
+    yield f"conditions: {', '.join(document.asked)}, as polynomials in {', '.join(document.variables)}"
     if document.claim == "not-all":
         if document.paving or document.inside or document.undecided or document.measure is not None:
             raise malformed("paving: there is one, but a pose refutes the question")
@@ -138,7 +139,7 @@ def _refuted(document: RegionDocument, conditions: Conditions) -> str:
         return "claim: not all poses of the region are good, as one shows"
     if len(document.points) != 2 or conditions.determinant is None or document.joints:
         raise malformed("counterexample: neither one pose, nor two between which a determinant changes its sign")
-    signs = [_sign(conditions.determinant, point, conditions.roots) for point in document.points]
+    signs = [_determinant_sign(conditions.determinant, point, conditions.roots) for point in document.points]
     if None in signs or signs[0] != -(signs[1] or 0) or not signs[0]:
         raise rejected("counterexample: the determinants are not proved to have opposite signs")
     return "claim: not all poses of the region are good, as the determinant has both signs in it, which is connected"
@@ -155,6 +156,8 @@ def _holds(condition: Condition, point: Sequence[Fraction], roots: Sequence[Any]
 
 
 def _fails(condition: Condition, point: Sequence[Fraction], roots: Sequence[Any]) -> bool:
+    if isinstance(condition, Regular):
+        return _determinant_sign(condition, point, roots) == 0
     if isinstance(condition, Signed):
         sign = _sign(condition.polynomial, point, roots)
         if sign is None:
@@ -165,6 +168,13 @@ def _fails(condition: Condition, point: Sequence[Fraction], roots: Sequence[Any]
     word, parts = condition
     failing = (_fails(part, point, roots) for part in parts)
     return any(failing) if word == "and" else all(failing)
+
+
+def _determinant_sign(determinant: Any, point: Sequence[Fraction], roots: Sequence[Any]) -> int | None:
+    """The sign at a point of a determinant, or of that of a matrix."""
+    if isinstance(determinant, Regular):
+        determinant = determinant.determinant_at(point)
+    return _sign(determinant, point, roots)
 
 
 def _value(polynomial: Any, point: Sequence[Fraction], used: tuple[int, ...]) -> Fraction:

@@ -10,6 +10,7 @@ from typing import Any
 from pkm_exact.certify.checker.region_document import SQUARED_COSINES, Cone, LegEntry, RegionDocument
 from pkm_exact.certify.checker.region_pairs import legs_apart
 from pkm_exact.certify.checker.region_parameters import RODS, scale_of, varied_joints
+from pkm_exact.certify.checker.region_regular import Regular, own_length_row, regular_of
 from pkm_exact.certify.checker.region_ring import Condition, Conditions, PlacedLeg, RegionRing, Signed
 from pkm_exact.certify.checker.verdict import malformed, rejected
 
@@ -53,8 +54,12 @@ class RegionEquations:
             parts += [Signed(leg.value[0] if leg.root is None else leg.root, "+") for leg in legs]
         determinant = None
         if "no_type_2" in document.conditions:
-            determinant = self._determinant(legs)
-            parts.append(Signed(determinant, "/"))
+            if document.by_matrix:
+                determinant = self._matrix(legs)
+                parts.append(determinant)
+            else:
+                determinant = self._determinant(legs)
+                parts.append(Signed(determinant, "/"))
         shape = tuple(Signed(self._shape(part), "0+") for part in document.shape)
         region: list[Condition] = [*shape, *self._tube()]
         for entry, leg, pair in zip(document.legs, legs, document.joints, strict=False):
@@ -250,7 +255,21 @@ class RegionEquations:
             moment.append(total)
         return [*force, *moment]
 
+    def _matrix(self, legs: Sequence[PlacedLeg]) -> Regular:
+        """The rows of the determinant, those of legs of own length without a factor N."""
+        document, ring = self._document, self._ring
+        rows, names = self._rows(legs), [leg.name for leg in legs]
+        for k, (entry, leg) in enumerate(zip(document.legs, legs, strict=True)):
+            if not entry.axes:
+                row = own_length_row(ring, leg.arm, leg.rod, entry.base, document.place)
+                rows[k] = [row[j] for j in document.twist]
+        return regular_of(ring, rows, [*names, *("" for _ in rows[len(names) :])])
+
     def _determinant(self, legs: Sequence[PlacedLeg]) -> Any:
+        return self._expanded(self._rows(legs))
+
+    def _rows(self, legs: Sequence[PlacedLeg]) -> list[list[Any]]:
+        """Of legs and forms, on the freedoms."""
         ring, g, twist = self._ring, self._document.metric, self._document.twist
         rows = []
         for leg in legs:
@@ -265,7 +284,7 @@ class RegionEquations:
         rows += [self._wrench(form) for form in self._document.forms]
         if len(rows) != len(twist):
             raise malformed("conditions: as many equations as freedoms are needed for no_type_2")
-        return self._expanded([[row[j] for j in twist] for row in rows])
+        return [[row[j] for j in twist] for row in rows]
 
     def _expanded(self, rows: list[list[Any]]) -> Any:
         """The determinant, along the first column again and again, minors remembered."""

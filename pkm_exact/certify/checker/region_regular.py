@@ -1,0 +1,255 @@
+"""That a matrix of polynomials is regular all over a part, of region certificates of version 2: exactly, in integers.
+
+The matrix is that of the wrenches, of which ``no_type_2`` takes the determinant; the condition is called "regular". Its
+section in ``docs/certificates-regions.md`` defines the test, and says why it is one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+from math import comb, lcm
+from typing import Any, Final
+
+import numpy as np
+from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
+
+from pkm_exact.certify.checker.budget import charge
+from pkm_exact.certify.checker.region_ring import RegionRing, number_words, polynomial_words, size_factor
+
+DIGITS: Final = 48
+"""Binary ones of the entries of the approximate inverse."""
+
+Box = Sequence[tuple[Fraction, Fraction]]
+Ends = Sequence[tuple[Fraction, Fraction]]
+
+
+@dataclass(frozen=True, eq=False)
+class Regular:
+    """A matrix that must be regular: its rows, and of each the place of its root among the y, or None."""
+
+    rows: tuple[tuple[Any, ...], ...]
+    roots: tuple[int | None, ...]
+
+    def table(self, box: Box) -> MatrixTable:
+        """Its coefficients on the whole box."""
+        return MatrixTable(
+            self.roots, tuple(_column(column, self.roots, box) for column in zip(*self.rows, strict=True))
+        )
+
+    def determinant_at(self, point: Sequence[Fraction]) -> Any:
+        """Its determinant at a point, with the roots as variables; each is in one row."""
+        ring, count, size = self.rows[0][0].context(), len(point), len(self.rows)
+        options = []
+        for row, root in zip(self.rows, self.roots, strict=True):
+            parts = [[_value(entry, point, None) for entry in row]]
+            if root is not None:
+                parts.append([_value(entry, point, root) for entry in row])
+            options.append(parts)
+        terms: dict[tuple[int, ...], Any] = {}
+        words = number_words(*(x for parts in options for row in parts for x in row))
+        for choice in product(*(range(len(parts)) for parts in options)):
+            charge(5000 + 100 * size**3 * size_factor(size * words, size * words))
+            rows = [parts[k] for parts, k in zip(options, choice, strict=True)]
+            found = fmpq_mat([[fmpq(x.numerator, x.denominator) for x in row] for row in rows]).det()
+            used = {root for root, k in zip(self.roots, choice, strict=True) if k}
+            key = (0,) * count + tuple(int(k in used) for k in range(ring.nvars() - count))
+            terms[key] = terms.get(key, fmpq(0)) + found
+        return ring.from_dict(terms)
+
+
+def regular_of(ring: RegionRing, rows: Sequence[Sequence[Any]], names: Sequence[str]) -> Regular:
+    """The condition on a matrix; ``names`` are those of the roots of its rows, empty where there is none."""
+    driven = [name for name in ring.named if name in names]
+    return Regular(tuple(map(tuple, rows)), tuple(driven.index(name) if name else None for name in names))
+
+
+def own_length_row(
+    ring: RegionRing, arm: Sequence[Any], rod: Sequence[Any], base: Sequence[Fraction], place: Sequence[Any]
+) -> list[Any]:
+    """The wrench of a leg of its own length without the factor N: forces, then moments."""
+    g = ring.g
+    way = [ring.entry(c) - ring.number(a) for c, a in zip(place, base, strict=True)]
+    moment = []
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        moment.append(g[j] * g[k] * (ring.times(arm[j], way[k]) - ring.times(arm[k], way[j])))
+    return [*(g[i] * rod[i] for i in range(3)), *moment]
+
+
+@dataclass(frozen=True, eq=False)
+class _Column:
+    """Integers, times 2^-exponent over a denominator: by rows, powers of their roots, and the variables."""
+
+    values: Any
+    denominator: int
+    bits: int
+    exponent: int = 0
+
+    @property
+    def words(self) -> int:
+        return (self.bits + self.exponent) // 64 + 1
+
+
+@dataclass(frozen=True, eq=False)
+class MatrixTable:
+    """The coefficients of all columns of a matrix on a part."""
+
+    roots: tuple[int | None, ...]
+    columns: tuple[_Column, ...]
+
+    def charge(self, times: int) -> None:
+        """Work that looks so often at every coefficient."""
+        for column in self.columns:
+            charge(1000 + 5 * times * column.values.size * (4 + column.words))
+
+    def halved(self, variable: int) -> tuple[MatrixTable, MatrixTable]:
+        """Those on the lower and on the upper half along a variable."""
+        self.charge(2 + max(column.values.shape[2 + variable] for column in self.columns))
+        halves = [_halved(column, 2 + variable) for column in self.columns]
+        first, second = (MatrixTable(self.roots, tuple(pair[side] for pair in halves)) for side in (0, 1))
+        return first, second
+
+    def range_of(self, ends: Ends) -> tuple[int, int]:
+        """1 and 1 if the matrix is proved to be regular all over the part, otherwise 0 and 0."""
+        return (1, 1) if self.is_regular(ends) else (0, 0)
+
+    def is_regular(self, ends: Ends) -> bool:
+        """Whether the matrix is proved to be regular all over the part; ``ends`` are bounds of the roots there."""
+        size = len(self.roots)
+        self.charge(3 * size)
+        units = [_unit(ends, root) for root in self.roots]
+        bounds = [self._bounds(column, ends, units) for column in self.columns]
+        scales = [column.denominator << column.exponent for column in self.columns]
+        middle = fmpz_mat([[fmpz(min(low[k]) + max(high[k])) for low, high in bounds] for k in range(size)])
+        longest = max(column.words + number_words(column.denominator) for column in self.columns)
+        words = size * (longest + number_words(*units))
+        charge(20_000 + 10 * size**3 * size_factor(words, words))
+        if middle.det() == 0:
+            return False
+        inverse = middle.inv()
+        rows = []
+        for i, scale in enumerate(scales):
+            near = [
+                _leading(Fraction(int(x.p), int(x.q)) * 2 * scale * unit) / unit
+                for x, unit in zip(_row(inverse, i), units, strict=True)
+            ]
+            common = lcm(*(x.denominator for x in near))
+            weights = [int(x * common) for x in near]
+            row = []
+            for j, (low, high) in enumerate(bounds):
+                whole = common * scales[j] if i == j else 0
+                far = _farthest(weights, low, high, whole)
+                row.append(whole - far)
+            rows.append(row)
+        return all(fmpz_mat([row[:k] for row in rows[:k]]).det() > 0 for k in range(1, size + 1))
+
+    def _bounds(self, column: _Column, ends: Ends, units: Sequence[int]) -> tuple[Any, Any]:
+        """By rows the lesser and the greater of the coefficients at both ends of the row's root, times its unit."""
+        flat = column.values.reshape(*column.values.shape[:2], -1)
+        if all(root is None for root in self.roots):
+            return flat[:, 0], flat[:, 0]
+        low, high = flat[:, 0].copy(), flat[:, 0].copy()
+        for k, (root, unit) in enumerate(zip(self.roots, units, strict=True)):
+            if root is not None:
+                one, other = (flat[k, 0] * unit + flat[k, 1] * int(end * unit) for end in ends[root])
+                low[k], high[k] = np.minimum(one, other), np.maximum(one, other)
+        return low, high
+
+
+def _unit(ends: Ends, root: int | None) -> int:
+    """What makes the ends of a root integers."""
+    return 1 if root is None else lcm(*(end.denominator for end in ends[root]))
+
+
+def _row(matrix: Any, i: int) -> list[Any]:
+    return [matrix[i, k] for k in range(matrix.ncols())]
+
+
+def _farthest(weights: Sequence[int], low: Any, high: Any, whole: int) -> int:
+    """The greatest absolute value of a number less the combinations of what is between bounds."""
+    least = sum(w * (low[k] if w > 0 else high[k]) for k, w in enumerate(weights))
+    if low is high:
+        return int(max(abs(whole - min(least)), abs(whole - max(least))))
+    greatest = sum(w * (high[k] if w > 0 else low[k]) for k, w in enumerate(weights))
+    return int(max(abs(whole - min(least)), abs(whole - max(greatest))))
+
+
+def _leading(value: Fraction) -> Fraction:
+    """A number without its binary digits after the first ``DIGITS``."""
+    if not value:
+        return value
+    size = value.numerator.bit_length() - value.denominator.bit_length()
+    power = DIGITS - size if abs(value) < Fraction(2) ** size else DIGITS - 1 - size
+    unit = Fraction(2) ** power
+    return Fraction(int(value * unit)) / unit
+
+
+def _halved(column: _Column, axis: int) -> tuple[_Column, _Column]:
+    level = np.moveaxis(column.values, axis, 0)
+    degree = len(level) - 1
+    low, high = [level[0] << degree], [level[-1] << degree]
+    for power in range(degree - 1, -1, -1):
+        level = level[:-1] + level[1:]
+        low.append(level[0] << power)
+        high.insert(0, level[-1] << power)
+    first, second = (
+        _Column(
+            np.moveaxis(np.array(part, dtype=object), 0, axis),
+            column.denominator,
+            column.bits,
+            column.exponent + degree,
+        )
+        for part in (low, high)
+    )
+    return first, second
+
+
+def _column(entries: Sequence[Any], roots: Sequence[int | None], box: Box) -> _Column:
+    """The coefficients of a column on a box, all of its degrees."""
+    count = len(box)
+    degrees = [max(max(0, int(entry.degrees()[k])) for entry in entries) for k in range(count)]
+    shape = (len(entries), 1 + any(root is not None for root in roots), *(degree + 1 for degree in degrees))
+    size = int(np.prod(shape, dtype=object))
+    ends = number_words(*(end for pair in box for end in pair))
+    words = max(map(polynomial_words, entries)) + ends * max(degrees)
+    charge(4000 * size * (1 + max(degrees)) * size_factor(words // 5, words // 5))
+    values = np.full(shape, Fraction(0), dtype=object)
+    for k, (entry, root) in enumerate(zip(entries, roots, strict=True)):
+        for exponents, coefficient in entry.to_dict().items():
+            power = 0 if root is None else int(exponents[count + root])
+            values[(k, power, *map(int, exponents[:count]))] = Fraction(int(coefficient.p), int(coefficient.q))
+    for variable, (low, high) in enumerate(box):
+        axis = 2 + variable
+        turned = np.tensordot(_to_bernstein(degrees[variable], low, high - low), values, axes=(1, axis))
+        values = np.moveaxis(turned, 0, axis)
+    denominator = lcm(*(x.denominator for x in values.reshape(-1)))
+    whole = np.array([int(x * denominator) for x in values.reshape(-1)], dtype=object).reshape(shape)
+    return _Column(whole, denominator, max(abs(x).bit_length() for x in whole.reshape(-1)))
+
+
+def _to_bernstein(degree: int, low: Fraction, width: Fraction) -> Any:
+    """From powers of x to Bernstein coefficients on [low, low + width]."""
+    found = np.full((degree + 1, degree + 1), Fraction(0), dtype=object)
+    for i, power in product(range(degree + 1), repeat=2):
+        for j in range(min(i, power) + 1):
+            share = Fraction(comb(i, j) * comb(power, j), comb(degree, j))
+            found[i, power] += share * low ** (power - j) * width**j
+    return found
+
+
+def _value(polynomial: Any, point: Sequence[Fraction], root: int | None) -> Fraction:
+    """The value at a point of the terms without roots, or of what a root is multiplied by."""
+    count, total = len(point), Fraction(0)
+    degree = sum(max(0, int(d)) for d in polynomial.degrees()[:count])
+    words = polynomial_words(polynomial) + number_words(*point) * degree
+    charge(2000 * (1 + len(polynomial)) * size_factor(words // 5, words // 5))
+    for exponents, coefficient in polynomial.to_dict().items():
+        if [k for k, e in enumerate(exponents[count:]) if e] == ([] if root is None else [root]):
+            term = Fraction(int(coefficient.p), int(coefficient.q))
+            for x, exponent in zip(point, exponents, strict=False):
+                term *= x ** int(exponent)
+            total += term
+    return total

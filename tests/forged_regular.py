@@ -1,0 +1,170 @@
+"""Region certificates whose matrix of wrenches is said to be regular, with what both checkers must say of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from typing import Any
+
+import forged_regions
+from forged_regions import (
+    BROKEN,
+    COPLANAR,
+    GOOD,
+    INSIDE,
+    NO_FAILURE,
+    ONE_SIGN,
+    OUTSIDE,
+    PUSHED,
+    SMALL,
+    TWO_SIGNS,
+    Row,
+    as_map,
+)
+from handmade_regions import Content, leg, region, second
+
+BESIDE = "conditions: regular has neither"
+ORDER = "conditions: none, or not in their order"
+UNKNOWN = "conditions[1]"
+SECOND = "paving: the part of letter 2"
+
+
+def regular(content: Content, **entries: Any) -> Content:
+    """A certificate of version 1 with no_type_2 as one of version 2 with regular in its place."""
+    names = ["regular" if name == "no_type_2" else name for name in content["conditions"]]
+    return second(content, **{"conditions": names, **entries})
+
+
+def determinant_rows() -> Iterator[tuple[str, Row]]:
+    """All certificates made by hand that ask for a determinant: the matrix says the same of them."""
+    for name, (content, status, line) in forged_regions.ROWS.items():
+        if "no_type_2" in content["conditions"] and status != "malformed":
+            yield f"{name}, regular", (regular(content), status, line)
+
+
+def pushed(sizes: Sequence[Any], **entries: Any) -> Content:
+    """Three rods, in the directions of the axes at (0, 0, 0) and so long: a move changes all of them alike."""
+    rods = [leg([-Fraction(size) * (k == j) for j in range(3)], (0, 0, 0)) for k, size in enumerate(sizes)]
+    place = {"variables": ["x", "y"], "place": ["x", "y", 0], "axes": [0, 1]}
+    return regular(region(rods, **{**PUSHED, **place, **entries}))
+
+
+def _about(x: Any, y: Any) -> list[list[Fraction]]:
+    return [[-Fraction(x), Fraction(x)], [-Fraction(y), Fraction(y)]]
+
+
+_NEAR = pushed((1, 1, 1), box=_about("1/8", "1/8"))
+
+
+def _named(*names: str) -> Content:
+    return _NEAR | {"conditions": list(names)}
+
+
+def _limited(most: Any, **entries: Any) -> Content:
+    """Rods about 1 long that are at most so long, and regular."""
+    content = pushed((1, 1, 1), **{"box": _about("3/4", "1/8"), "conditions": ["limits", "regular"], **entries})
+    for entry in content["robot"]["legs"]:
+        entry["reach"] = ["0", str(most)]
+    return content
+
+
+def _shown(content: Content, *points: list[str]) -> Content:
+    """The claim that poses refute it."""
+    said = {"claim": "not-all", "paving": "", "inside": 0, "member": [], "counterexample": list(points)}
+    return content | said
+
+
+def mapped(content: Content, word: str, greatest: str = "0") -> Content:
+    """A map of version 2."""
+    return as_map(content, word) | {"member": [], "undecided": word.count("u"), "measure": ["0", greatest]}
+
+
+CASES: dict[str, Row] = {
+    # E is h_j / d_i in row i and column j: its spectral radius is the sum of h_i / d_i.
+    "spectral radius 3/4, rows of 17/4": (pushed((1, "1/8", 1), box=_about("1/2", "1/32")), "accepted", GOOD),
+    "spectral radius 1": (pushed((1, "1/8", 1), box=_about("1/2", "1/16")), "rejected", INSIDE),
+    "spectral radius hardly below 1": (
+        pushed((1, "1/8", 1), box=_about("1/2", Fraction(1, 16) - SMALL)),
+        "accepted",
+        GOOD,
+    ),
+    "spectral radius hardly above 1": (
+        pushed((1, "1/8", 1), box=_about("1/2", Fraction(1, 16) + SMALL)),
+        "rejected",
+        INSIDE,
+    ),
+    "the first entry is 1": (pushed((1, 1, 1), box=_about(1, "1/8")), "rejected", INSIDE),
+    "the second entry is 1": (pushed((1, 1, 1), box=_about("1/8", 1)), "rejected", INSIDE),
+    "negative middles": (pushed((-1, "-1/8", 1), box=_about("1/2", "1/32")), "accepted", GOOD),
+    "a singular middle": (pushed((1, 0, 1), box=_about("1/2", "1/32")), "rejected", INSIDE),
+    "halved twice": (
+        pushed((1, 1, 1), box=_about("31/32", "31/32"), axes=[0, 1], paving="ssiisii"),
+        "rejected",
+        "paving: the part of letter 3",
+    ),
+    "the lower half is singular": (
+        pushed((1, 1, 1), box=[["-33/32", "3/4"], ["-1/8", "1/8"]], paving="sii"),
+        "rejected",
+        SECOND,
+    ),
+    "the upper half is singular": (
+        pushed((-1, 1, 1), box=[["-3/4", "33/32"], ["-1/8", "1/8"]], paving="sii"),
+        "rejected",
+        "paving: the part of letter 3",
+    ),
+    "nowhere": (mapped(pushed((1, 0, 1), box=_about("1/2", "1/32")), "o"), "rejected", OUTSIDE),
+    "undecided": (mapped(pushed((1, 0, 1), box=_about("1/2", "1/32")), "u", "1/16"), "accepted", "measure"),
+    # The name of the condition, and what may stand beside it.
+    "version 1": (region(COPLANAR, **{**PUSHED, "conditions": ["regular"]}), "malformed", UNKNOWN),
+    "beside no_type_2": (_named("no_type_2", "regular"), "malformed", ORDER),
+    "twice": (_named("regular", "regular"), "malformed", "conditions[1]"),
+    "not the last": (_named("regular", "no_type_1"), "malformed", "conditions[1]"),
+    "no name": (_named(), "malformed", ORDER),
+    "another name": (_named("regulars"), "malformed", UNKNOWN),
+    "a name in place of names": (_NEAR | {"conditions": "regular"}, "malformed", "conditions"),
+    "beside a path": (
+        regular(
+            region(COPLANAR, **{**PUSHED, "variables": ["along"], "place": [0, 0, 0], "box": [[0, 1]]}),
+            path=[[1], [0, 1], [0], [0]],
+        ),
+        "malformed",
+        BESIDE,
+    ),
+    "beside a parameter": (
+        regular(region(COPLANAR, **{**PUSHED, "box": [[0, 1]]}), parameters={"base.joints.1.1": [0, 1]}),
+        "malformed",
+        BESIDE,
+    ),
+    "fewer rows than freedoms": (
+        regular(region(COPLANAR[:2], **{**PUSHED, "modes": [0, 0]})),
+        "malformed",
+        "conditions: as many",
+    ),
+    "a mode unnamed": (
+        regular(region([*COPLANAR[:2], leg((0, 0, 0), (0, 0, 1), direction=(1, 0, 0), rod=25)], **PUSHED)),
+        "malformed",
+        "modes",
+    ),
+    "beside no_type_1": (_named("no_type_1", "regular"), "accepted", GOOD),
+    "beside limits": (_limited(2), "accepted", GOOD),
+    "beside limits that fail": (_limited(1), "rejected", INSIDE),
+    "limits, with what is singular": (_limited(3, box=_about(2, "1/8")), "rejected", INSIDE),
+    "limits that fail, shown": (_shown(_limited(1), ["3/4", "0"]), "accepted", BROKEN),
+    "limits that hold, shown": (_shown(_limited(2), ["3/4", "0"]), "rejected", NO_FAILURE),
+    "singular, shown beside limits": (_shown(_limited(3, box=_about(2, "1/8")), ["-1", "0"]), "accepted", BROKEN),
+    "hardly singular, shown": (
+        _shown(_limited(3, box=_about(2, "1/8")), [str(SMALL - 1), "0"]),
+        "rejected",
+        NO_FAILURE,
+    ),
+    "two signs": (_shown(pushed((1, 1, 1), box=_about(2, 1)), ["-1", "-1"], ["1", "1"]), "accepted", TWO_SIGNS),
+    "one sign": (_shown(pushed((1, 1, 1), box=_about(2, 1)), ["1", "0"], ["1", "1"]), "rejected", ONE_SIGN),
+    "a sign and 0": (_shown(pushed((1, 1, 1), box=_about(2, 1)), ["-1", "0"], ["1", "1"]), "rejected", ONE_SIGN),
+    "two signs beside joint values": (
+        _shown(pushed((1, 1, 1), box=_about(2, 1)), ["-1", "-1"], ["1", "1"]) | {"joints": [["0", "9"]] * 3},
+        "malformed",
+        "counterexample: neither",
+    ),
+}
+
+ROWS = dict(determinant_rows()) | {f"regular, {name}": row for name, row in CASES.items()}
