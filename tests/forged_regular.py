@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from random import Random
 from typing import Any
 
 import forged_regions
@@ -21,7 +22,7 @@ from forged_regions import (
     Row,
     as_map,
 )
-from handmade_regions import Content, leg, region, second
+from handmade_regions import Content, leg, random_legs, region, second, texts
 
 BESIDE = "conditions: regular has neither"
 ORDER = "conditions: none, or not in their order"
@@ -82,6 +83,8 @@ def mapped(content: Content, word: str, greatest: str = "0") -> Content:
 CASES: dict[str, Row] = {
     # E is h_j / d_i in row i and column j: its spectral radius is the sum of h_i / d_i.
     "spectral radius 3/4, rows of 17/4": (pushed((1, "1/8", 1), box=_about("1/2", "1/32")), "accepted", GOOD),
+    "odd middles": (pushed((1, 1, 1), box=[[0, 1], [0, 3]]), "accepted", GOOD),
+    "odd middles, larger": (pushed((3, 5, 1), box=[[0, 1], [-2, 3]]), "accepted", GOOD),
     "spectral radius 1": (pushed((1, "1/8", 1), box=_about("1/2", "1/16")), "rejected", INSIDE),
     "spectral radius hardly below 1": (
         pushed((1, "1/8", 1), box=_about("1/2", Fraction(1, 16) - SMALL)),
@@ -97,18 +100,19 @@ CASES: dict[str, Row] = {
     "the second entry is 1": (pushed((1, 1, 1), box=_about("1/8", 1)), "rejected", INSIDE),
     "negative middles": (pushed((-1, "-1/8", 1), box=_about("1/2", "1/32")), "accepted", GOOD),
     "a singular middle": (pushed((1, 0, 1), box=_about("1/2", "1/32")), "rejected", INSIDE),
+    "a column of zeros": (pushed((1, 1, 0), box=_about("1/2", "1/32")), "rejected", INSIDE),
     "halved twice": (
         pushed((1, 1, 1), box=_about("31/32", "31/32"), axes=[0, 1], paving="ssiisii"),
         "rejected",
         "paving: the part of letter 3",
     ),
     "the lower half is singular": (
-        pushed((1, 1, 1), box=[["-33/32", "3/4"], ["-1/8", "1/8"]], paving="sii"),
+        pushed((1, 1, 1), box=[["-33/32", "3/4"], ["-1/64", "1/64"]], paving="sii"),
         "rejected",
         SECOND,
     ),
     "the upper half is singular": (
-        pushed((-1, 1, 1), box=[["-3/4", "33/32"], ["-1/8", "1/8"]], paving="sii"),
+        pushed((-1, 1, 1), box=[["-3/4", "33/32"], ["-1/64", "1/64"]], paving="sii"),
         "rejected",
         "paving: the part of letter 3",
     ),
@@ -167,4 +171,50 @@ CASES: dict[str, Row] = {
     ),
 }
 
-ROWS = dict(determinant_rows()) | {f"regular, {name}": row for name, row in CASES.items()}
+
+def turned(types: str, seed: int) -> Content:
+    """A planar robot that moves and turns in a box about a pose."""
+    random = Random(seed)
+    content = region(
+        motion="planar",
+        variables=["x", "y", "yaw"],
+        place=["x", "y", 0],
+        turns=[[1, 0], [1, 0], ["yaw"]],
+        box=[["-1/2", "1"], ["1/3", 1], ["-1/4", "1/5"]],
+        conditions=["no_type_2"],
+    )
+    random_legs(types, content, random)
+    return regular(content)
+
+
+def wide(content: Content, size: Fraction) -> Content:
+    """The same about the middle of its box, so many times as wide."""
+    box = [[Fraction(end) for end in pair] for pair in content["chart"]["box"]]
+    ends = [[(a + b) / 2 - (b - a) / 2 * size, (a + b) / 2 + (b - a) / 2 * size] for a, b in box]
+    return content | {"chart": content["chart"] | {"box": texts(ends)}}
+
+
+def border_rows() -> Iterator[tuple[str, Row]]:
+    """The widest boxes that are proved, to 2^-64, and the next ones: every digit of the test matters."""
+    for name, size in WIDEST.items():
+        types, seed = name.split()
+        content = (
+            regular(forged_regions.ROWS[f"{name}: not 0"][0]) if types == "determinant" else turned(types, int(seed))
+        )
+        yield f"{name}, widest", (wide(content, Fraction(size, 1 << 64)), "accepted", GOOD)
+        yield f"{name}, wider", (wide(content, Fraction(size + 1, 1 << 64)), "rejected", INSIDE)
+
+
+WIDEST = {
+    "determinant 3": 20046119394478641064264,
+    "determinant 6": 11790170781144683812421,
+    "determinant 12": 48082055477404935231513,
+    "determinant 14": 74469939938289616100062,
+    "lll 1": 9711783158888550068,
+    "lll 2": 10395294226531680383,
+    "lsl 3": 10563669052452975922,
+    "lsl 6": 22481585214243036698,
+    "sss 4": 8245418377430189981,
+}
+
+ROWS = dict((*determinant_rows(), *border_rows())) | {f"regular, {name}": row for name, row in CASES.items()}

@@ -1167,11 +1167,9 @@ def is_regular(matrix: Matrix, part: Part) -> bool:
     size = len(tables)
     columns = []
     for column in zip(*tables, strict=True):
-        words = sum(table.denominator.bit_length() + table.exponent for table in column) // 64 + 1
-        pure.spend(size * sum(map(cost_of, column)) * size_factor(words // 8, 1))
+        spend_on_column(column)
         columns.append(column_of(column, matrix.roots, part))
-    longest = max(scale.bit_length() + most_of(low, high) for low, high, scale in columns) * size // 64 + 1
-    pure.spend(100 * size**3 * size_factor(longest, longest))
+    spend_on_inverse(columns)
     # Rows of M are multiplied by nothing, columns by their scales.
     middles = [[min(low[k]) + max(high[k]) for low, high, _ in columns] for k in range(size)]
     inverse = inverse_of(middles)
@@ -1186,15 +1184,24 @@ def is_regular(matrix: Matrix, part: Part) -> bool:
         weights = [int(value * unit) for value in near]
         row = []
         for j, (low, high, scale) in enumerate(columns):
-            one = unit * scale if i == j else 0
+            one = unit * scale * (i == j)
             row.append(one - distance(weights, low, high, one))
         rest.append(row)
     return has_positive_minors(rest)
 
 
-def most_of(low: Sequence[Sequence[int]], high: Sequence[Sequence[int]]) -> int:
-    """The length of the longest number in two tables."""
-    return max(map(pure.most_bits, (*low, *high)))
+def spend_on_column(tables: Sequence[Table]) -> None:
+    """The work of making the tables of a column multiples of one number, and of looking at them for every row."""
+    words = sum(table.denominator.bit_length() + table.exponent for table in tables) // 64 + 1
+    pure.spend(len(tables) * sum(map(cost_of, tables)) * size_factor(words // 8, 1))
+
+
+def spend_on_inverse(columns: Sequence[tuple[list[list[int]], list[list[int]], int]]) -> None:
+    """The work of an inverse, and of minors."""
+    size = len(columns)
+    longest = max(scale.bit_length() + max(map(pure.most_bits, (*low, *high))) for low, high, scale in columns)
+    words = size * longest // 64 + 1
+    pure.spend(100 * size**3 * size_factor(words, words))
 
 
 def column_of(
@@ -1202,16 +1209,16 @@ def column_of(
 ) -> tuple[list[list[int]], list[list[int]], int]:
     """By rows the lesser and the greater of the coefficients at both ends of the root, all times a number."""
     scale = lcm(*(table.denominator << table.exponent for table in tables))
-    scale *= max((end.denominator for k in roots if k is not None for end in part.ends[k]), default=1)  # powers of two
+    scale *= lcm(*(end.denominator for k in roots if k is not None for end in part.ends[k]))
     lows, highs = [], []
-    for table, root in zip(tables, roots, strict=True):
+    for table in tables:
         factor = scale // (table.denominator << table.exponent)
-        zeros = [0] * prod(d + 1 for d in table.degrees)
-        constant = table.parts.get((0,) * len(table.roots), zeros)
-        if root is None or not table.roots:
+        constant = table.parts[(0,) * len(table.roots)]
+        if not table.roots:
             lows.append([factor * value for value in constant])
             highs.append(lows[-1])
             continue
+        (root,) = table.roots
         one, other = (int(factor * end) for end in part.ends[root])
         pairs = [
             (factor * a + one * b, factor * a + other * b) for a, b in zip(constant, table.parts[(1,)], strict=True)
@@ -1242,19 +1249,16 @@ def inverse_of(matrix: Sequence[Sequence[int]]) -> tuple[list[list[int]], int] |
 
 def first_digits(value: Fraction) -> Fraction:
     """A number with its first binary digits only, nearer to 0."""
-    top, bottom = abs(value.numerator), value.denominator
-    shift = DIGITS - top.bit_length() + bottom.bit_length()
-    whole = (top << max(shift, 0)) // (bottom << max(-shift, 0))
-    if whole >> DIGITS:
-        whole, shift = whole // 2, shift - 1
-    found = Fraction(whole << max(-shift, 0), 1 << max(shift, 0))
-    return -found if value < 0 else found
+    unit = Fraction(2) ** (value.numerator.bit_length() - value.denominator.bit_length() - DIGITS)
+    if int(value / unit).bit_length() > DIGITS:
+        unit *= 2
+    return int(value / unit) * unit
 
 
 def distance(weights: Sequence[int], low: Sequence[Sequence[int]], high: Sequence[Sequence[int]], one: int) -> int:
     """The greatest distance of a number from what the rows between bounds add up to, with weights."""
-    under = [b if w < 0 else a for w, a, b in zip(weights, low, high, strict=True)]
-    over = [a if w < 0 else b for w, a, b in zip(weights, low, high, strict=True)]
+    under = [a if w == abs(w) else b for w, a, b in zip(weights, low, high, strict=True)]
+    over = [b if w == abs(w) else a for w, a, b in zip(weights, low, high, strict=True)]
     least = min(sum(map(int.__mul__, weights, values)) for values in zip(*under, strict=True))
     most = max(sum(map(int.__mul__, weights, values)) for values in zip(*over, strict=True))
     return max(one - least, most - one)

@@ -73,8 +73,7 @@ def own_length_row(
     g = ring.g
     way = [ring.entry(c) - ring.number(a) for c, a in zip(place, base, strict=True)]
     moment = []
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
+    for j, k in ((1, 2), (2, 0), (0, 1)):
         moment.append(g[j] * g[k] * (ring.times(arm[j], way[k]) - ring.times(arm[k], way[j])))
     return [*(g[i] * rod[i] for i in range(3)), *moment]
 
@@ -88,10 +87,6 @@ class _Column:
     bits: int
     exponent: int = 0
 
-    @property
-    def words(self) -> int:
-        return (self.bits + self.exponent) // 64 + 1
-
 
 @dataclass(frozen=True, eq=False)
 class MatrixTable:
@@ -100,33 +95,26 @@ class MatrixTable:
     roots: tuple[int | None, ...]
     columns: tuple[_Column, ...]
 
-    def charge(self, times: int) -> None:
-        """Work that looks so often at every coefficient."""
-        for column in self.columns:
-            charge(1000 + 5 * times * column.values.size * (4 + column.words))
-
     def halved(self, variable: int) -> tuple[MatrixTable, MatrixTable]:
         """Those on the lower and on the upper half along a variable."""
-        self.charge(2 + max(column.values.shape[2 + variable] for column in self.columns))
+        charge_looks(self.columns, 3 + max(max(column.values.shape[2:]) for column in self.columns))
         halves = [_halved(column, 2 + variable) for column in self.columns]
         first, second = (MatrixTable(self.roots, tuple(pair[side] for pair in halves)) for side in (0, 1))
         return first, second
 
     def range_of(self, ends: Ends) -> tuple[int, int]:
-        """1 and 1 if the matrix is proved to be regular all over the part, otherwise 0 and 0."""
-        return (1, 1) if self.is_regular(ends) else (0, 0)
+        """Twice 1 if the matrix is proved to be regular all over the part, otherwise twice 0."""
+        return (int(self.is_regular(ends)),) * 2
 
     def is_regular(self, ends: Ends) -> bool:
         """Whether the matrix is proved to be regular all over the part; ``ends`` are bounds of the roots there."""
         size = len(self.roots)
-        self.charge(3 * size)
+        charge_looks(self.columns, 6 * size)
         units = [_unit(ends, root) for root in self.roots]
         bounds = [self._bounds(column, ends, units) for column in self.columns]
         scales = [column.denominator << column.exponent for column in self.columns]
         middle = fmpz_mat([[fmpz(min(low[k]) + max(high[k])) for low, high in bounds] for k in range(size)])
-        longest = max(column.words + number_words(column.denominator) for column in self.columns)
-        words = size * (longest + number_words(*units))
-        charge(20_000 + 10 * size**3 * size_factor(words, words))
+        charge_inverse(self.columns, units)
         if middle.det() == 0:
             return False
         inverse = middle.inv()
@@ -140,17 +128,15 @@ class MatrixTable:
             weights = [int(x * common) for x in near]
             row = []
             for j, (low, high) in enumerate(bounds):
-                whole = common * scales[j] if i == j else 0
+                whole = common * scales[j] * (i == j)
                 far = _farthest(weights, low, high, whole)
                 row.append(whole - far)
             rows.append(row)
-        return all(fmpz_mat([row[:k] for row in rows[:k]]).det() > 0 for k in range(1, size + 1))
+        return _has_positive_minors(rows)
 
     def _bounds(self, column: _Column, ends: Ends, units: Sequence[int]) -> tuple[Any, Any]:
         """By rows the lesser and the greater of the coefficients at both ends of the row's root, times its unit."""
-        flat = column.values.reshape(*column.values.shape[:2], -1)
-        if all(root is None for root in self.roots):
-            return flat[:, 0], flat[:, 0]
+        flat = column.values.reshape(len(self.roots), 2, -1)
         low, high = flat[:, 0].copy(), flat[:, 0].copy()
         for k, (root, unit) in enumerate(zip(self.roots, units, strict=True)):
             if root is not None:
@@ -161,26 +147,32 @@ class MatrixTable:
 
 def _unit(ends: Ends, root: int | None) -> int:
     """What makes the ends of a root integers."""
-    return 1 if root is None else lcm(*(end.denominator for end in ends[root]))
+    return lcm(*(end.denominator for end in (() if root is None else ends[root])))
 
 
 def _row(matrix: Any, i: int) -> list[Any]:
     return [matrix[i, k] for k in range(matrix.ncols())]
 
 
+def _has_positive_minors(rows: list[list[int]]) -> bool:
+    """Whether the determinants of the first 1, 2, .. rows and columns are positive: by elimination without division."""
+    while rows:
+        (pivot, *upper), *lower = rows
+        if pivot <= 0:
+            return False
+        rows = [[pivot * x - first * y for x, y in zip(rest, upper, strict=True)] for first, *rest in lower]
+    return True
+
+
 def _farthest(weights: Sequence[int], low: Any, high: Any, whole: int) -> int:
     """The greatest absolute value of a number less the combinations of what is between bounds."""
-    least = sum(w * (low[k] if w > 0 else high[k]) for k, w in enumerate(weights))
-    if low is high:
-        return int(max(abs(whole - min(least)), abs(whole - max(least))))
-    greatest = sum(w * (high[k] if w > 0 else low[k]) for k, w in enumerate(weights))
+    least = sum(w * (a if w == abs(w) else b) for w, a, b in zip(weights, low, high, strict=True))
+    greatest = sum(w * (b if w == abs(w) else a) for w, a, b in zip(weights, low, high, strict=True))
     return int(max(abs(whole - min(least)), abs(whole - max(greatest))))
 
 
 def _leading(value: Fraction) -> Fraction:
     """A number without its binary digits after the first ``DIGITS``."""
-    if not value:
-        return value
     size = value.numerator.bit_length() - value.denominator.bit_length()
     power = DIGITS - size if abs(value) < Fraction(2) ** size else DIGITS - 1 - size
     unit = Fraction(2) ** power
@@ -210,12 +202,10 @@ def _halved(column: _Column, axis: int) -> tuple[_Column, _Column]:
 def _column(entries: Sequence[Any], roots: Sequence[int | None], box: Box) -> _Column:
     """The coefficients of a column on a box, all of its degrees."""
     count = len(box)
-    degrees = [max(max(0, int(entry.degrees()[k])) for entry in entries) for k in range(count)]
-    shape = (len(entries), 1 + any(root is not None for root in roots), *(degree + 1 for degree in degrees))
-    size = int(np.prod(shape, dtype=object))
-    ends = number_words(*(end for pair in box for end in pair))
-    words = max(map(polynomial_words, entries)) + ends * max(degrees)
-    charge(4000 * size * (1 + max(degrees)) * size_factor(words // 5, words // 5))
+    monomials = [exponents for entry in entries for exponents in entry.monoms()]
+    degrees = [max((int(exponents[k]) for exponents in monomials), default=0) for k in range(count)]
+    shape = (len(entries), 2, *(degree + 1 for degree in degrees))
+    charge_column(entries, degrees, box)
     values = np.full(shape, Fraction(0), dtype=object)
     for k, (entry, root) in enumerate(zip(entries, roots, strict=True)):
         for exponents, coefficient in entry.to_dict().items():
@@ -225,9 +215,40 @@ def _column(entries: Sequence[Any], roots: Sequence[int | None], box: Box) -> _C
         axis = 2 + variable
         turned = np.tensordot(_to_bernstein(degrees[variable], low, high - low), values, axes=(1, axis))
         values = np.moveaxis(turned, 0, axis)
-    denominator = lcm(*(x.denominator for x in values.reshape(-1)))
-    whole = np.array([int(x * denominator) for x in values.reshape(-1)], dtype=object).reshape(shape)
-    return _Column(whole, denominator, max(abs(x).bit_length() for x in whole.reshape(-1)))
+    denominator = lcm(*(x.denominator for x in values.flat))
+    whole = np.array([int(x * denominator) for x in values.flat], dtype=object).reshape(shape)
+    return _Column(whole, denominator, max(abs(x).bit_length() for x in whole.flat))
+
+
+def charge_looks(columns: Sequence[_Column], times: int) -> None:
+    """Work that looks so often at every coefficient."""
+    for column in columns:
+        charge(1000 + 5 * times * column.values.size * (4 + (column.bits + column.exponent) // 64))
+
+
+def charge_value(polynomial: Any, point: Sequence[Fraction]) -> None:
+    """The work of a value at a point."""
+    degree = sum(max(0, int(d)) for d in polynomial.degrees()[: len(point)])
+    words = polynomial_words(polynomial) + number_words(*point) * degree
+    charge(2000 * (1 + len(polynomial)) * size_factor(words // 5, words // 5))
+
+
+def charge_inverse(columns: Sequence[_Column], units: Sequence[int]) -> None:
+    """The work of an inverse and of determinants."""
+    size = len(columns)
+    sizes = (column.bits + column.exponent + column.denominator.bit_length() for column in columns)
+    words = size * (1 + max(sizes) // 64 + number_words(*units))
+    charge(20_000 + 10 * size**3 * size_factor(words, words))
+
+
+def charge_column(entries: Sequence[Any], degrees: Sequence[int], box: Box) -> None:
+    """The work of the coefficients of a column."""
+    size = 2 * len(entries)
+    for degree in degrees:
+        size *= degree + 1
+    ends = number_words(*(end for pair in box for end in pair))
+    words = max(map(polynomial_words, entries)) + ends * max(degrees)
+    charge(4000 * size * (1 + max(degrees)) * size_factor(words // 5, words // 5))
 
 
 def _to_bernstein(degree: int, low: Fraction, width: Fraction) -> Any:
@@ -243,9 +264,7 @@ def _to_bernstein(degree: int, low: Fraction, width: Fraction) -> Any:
 def _value(polynomial: Any, point: Sequence[Fraction], root: int | None) -> Fraction:
     """The value at a point of the terms without roots, or of what a root is multiplied by."""
     count, total = len(point), Fraction(0)
-    degree = sum(max(0, int(d)) for d in polynomial.degrees()[:count])
-    words = polynomial_words(polynomial) + number_words(*point) * degree
-    charge(2000 * (1 + len(polynomial)) * size_factor(words // 5, words // 5))
+    charge_value(polynomial, point)
     for exponents, coefficient in polynomial.to_dict().items():
         if [k for k, e in enumerate(exponents[count:]) if e] == ([] if root is None else [root]):
             term = Fraction(int(coefficient.p), int(coefficient.q))
