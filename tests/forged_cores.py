@@ -248,7 +248,32 @@ def _wide(weight: int, part: Fraction) -> Content:
     return with_entry(content, ("boxes", 0, "outer"), widths)
 
 
+def _outer(pose: Pose, chart: Weights, *parts: Fraction | None) -> Content:
+    """An outer box of these half widths, or that of the core."""
+    content = around([pose], chart, K)
+    widths = [hex(CORE if part is None else int(part * (1 << K))) for part in parts]
+    return with_entry(content, ("boxes", 0, "outer"), widths)
+
+
+def _half(end: int) -> Content:
+    """Only one half of the last bound of a spatial pose."""
+    content = limit("tight-tolerance-spatial")
+    path: Path_ = ("boxes", 0, "centroid", 2)
+    ends = list(map(Fraction, at(content, path)))
+    ends[end] = sum(ends) / 2
+    return with_entry(content, path, list(map(str, ends)))
+
+
 CORES: dict[str, Case] = {
+    **{f"half of the last bound of a spatial pose, end {end}": (partial(_half, end), REJECTED) for end in (0, 1)},
+    "an outer box with singular Jacobians, by one entry of a vector": (
+        partial(_outer, Pose((1, 0, 0, 0), (0, 1, 0, 0)), (2, 0, 0, 0), Fraction(11, 100), None, Fraction(1, 2), None),
+        REJECTED,
+    ),
+    "an outer box with singular Jacobians, by the last entry": (
+        partial(_outer, Pose((1, 0, 0, 2), (0, 1, 3, 0)), (0, 0, 0, 1), Fraction(65, 100), None, None, None),
+        REJECTED,
+    ),
     **{f"bounds that reach too far in coordinate {place}": (partial(_beyond, place), REJECTED) for place in (0, 3)},
     **{
         f"a position error of {parts} units": (partial(_error, parts), status)
@@ -318,6 +343,9 @@ CORES: dict[str, Case] = {
 WIDE: dict[str, Callable[[], Content]] = {
     f"an outer box of 3/5 of e0 = 1/{w}": partial(_wide, w, Fraction(3, 5)) for w in (1, 4)
 }
+WIDE["an outer box where Jacobians are regular and N(e) may be 0"] = partial(
+    _outer, Pose((4, 0, 0, 1), (0, 1, 3, 0)), (4, 0, 0, 0), Fraction(1375, 10000), None, None, None
+)
 """In balls N(e) may be 0 there, in intervals not: the plain checker accepts what the other one does not prove."""
 PLAIN: dict[str, Callable[[], Content]] = {
     f"{name}, as narrow as the plain checker proves": partial(limit, f"exact-tolerance-{name}") for name in BOUNDS
