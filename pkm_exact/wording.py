@@ -8,6 +8,7 @@ from typing import Final
 _LONGEST: Final = 40
 _LONGEST_BITS: Final = 1400
 NO_UNIT: Final = "1"
+TOO_LARGE: Final = "to check it takes more work than checkers allow; they will call it too-large"
 """The unit of lengths that are pure numbers."""
 
 

@@ -17,7 +17,9 @@ from samples import MODELS
 
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import check_counted
+from pkm_exact.certify.checker import budget
 from pkm_exact.certify.pure import check_counted as plainly_counted
+from pkm_exact.cli import region
 from pkm_exact.cli.main import main
 from pkm_exact.regions.region_solver import prepared
 from pkm_exact.regions.region_workers import workers
@@ -334,6 +336,21 @@ def test_an_interrupted_map_goes_on_to_the_same_bytes(tmp_path: Path, monkeypatc
     monkeypatch.setattr(region_solver, "pave_part", pave_part)
     assert main(command) == 0
     assert target.read_bytes() == whole
+
+
+def test_a_certificate_that_checkers_cannot_afford_is_not_written_without_a_word(
+    tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    question, target = tmp_path / "question.toml", str(tmp_path / "out.json")
+    question.write_text(f"{SQUARE}reachable = true\n[answer]\nkind = 'map'\nsteps = 4\n")
+    command = ["region", str(FILES["3-rrr"]), str(question), "-o", target]
+    monkeypatch.setattr(region, "MANY_PARTS", 1)
+    assert main(command) == 0
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(budget, "BASE", 0)
+    monkeypatch.setattr(budget, "PER_BYTE", 1)
+    assert main(command) == 0
+    assert f"{target}: to check it takes more work than checkers allow" in capsys.readouterr().err
 
 
 def test_limits_without_rational_cosines_have_no_certificate(tmp_path: Path, capsys: Capture) -> None:

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from pkm_exact.regions.region_question import RegionQuestion
     from pkm_exact.regions.region_solver import RegionAnswer
 
+MANY_PARTS = 1000
+"""Letters of a paving; no certificate with fewer was ever too large."""
+
 
 @click.command()
 @click.argument("model", type=arguments.FilePath())
@@ -182,10 +185,9 @@ def _designs(
     except InputError as error:
         raise InputError(f"{question}: {error}") from None
     if output is not None:
-        from pkm_exact.certify.build import canonical_bytes
         from pkm_exact.certify.region_build import designs_certificate
 
-        arguments.write_output(output, canonical_bytes(designs_certificate(machine, asked, found)))
+        _write_certificate(designs_certificate(machine, asked, found), output)
     said = designs_report.as_json if layout == "json" else designs_report.as_text
     sys.stdout.write(said(machine, asked, found))
     return ExitCode.WEAKER_CLAIM if found.share(OPEN) == 1 else ExitCode.DONE
@@ -272,7 +274,18 @@ def _stored(machine: RegionMachine, asked: RegionQuestion, run: Any, output: str
 
 
 def _write(answer: RegionAnswer, output: str) -> None:
-    from pkm_exact.certify.build import canonical_bytes
     from pkm_exact.certify.region_build import region_certificate
 
-    arguments.write_output(output, canonical_bytes(region_certificate(answer)))
+    _write_certificate(region_certificate(answer), output)
+
+
+def _write_certificate(content: dict[str, Any], output: str) -> None:
+    """Write it; and if it has many parts, ask whether checkers can afford them."""
+    from pkm_exact.certify.build import canonical_bytes
+    from pkm_exact.certify.check import Status, check_bytes
+    from pkm_exact.wording import TOO_LARGE
+
+    data = canonical_bytes(content)
+    arguments.write_output(output, data)
+    if len(content["paving"]) >= MANY_PARTS and check_bytes(data).status is Status.TOO_LARGE:
+        click.echo(f"{output}: {TOO_LARGE}", err=True)

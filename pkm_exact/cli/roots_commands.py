@@ -137,7 +137,8 @@ def solve(
     if output is not None and data is not None:
         arguments.write_output(output, data)
     from pkm_exact.cli.roots_report import report_roots
-    from pkm_exact.interactive.system_answers import TOO_LARGE, is_beyond_checkers
+    from pkm_exact.interactive.system_answers import is_beyond_checkers
+    from pkm_exact.wording import TOO_LARGE
 
     report_roots(Path(file).name, solution, layout, only_real=only == "real", verbose=verbose)
     if data is not None and is_beyond_checkers(solution, data):

@@ -19,7 +19,7 @@ from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.stages import Progress
 from pkm_exact.systems.system_engine import Proposal, solved_system
 from pkm_exact.systems.system_sources import polynomial_system
-from pkm_exact.wording import shown
+from pkm_exact.wording import TOO_LARGE, shown
 
 if TYPE_CHECKING:
     from pkm_exact.certify.certificate import Certificate
@@ -29,7 +29,6 @@ ORACLES = ("internal", "msolve")
 LEAST_IN_DOUBT: Final = Fraction(1, 400)
 """Real roots times degree times bits of an eliminant, for each operation that checkers allow: no certificate below was
 ever too large."""
-TOO_LARGE: Final = "to check it takes more work than checkers allow; they will call it too-large"
 
 
 @dataclass(frozen=True, repr=False)
