@@ -18,6 +18,7 @@ Capture = pytest.CaptureFixture[str]
 SPATIAL = "mourrain-l"
 
 
+@pytest.mark.slow
 def test_poses_of_a_group_have_one_sign_and_each_pose_is_in_one_group() -> None:
     robot, solution = model("mssm"), boxed("mssm")
     groups = joined_poses(robot, solution)

@@ -396,6 +396,7 @@ CIRCLE = "arc = {{ center = [0.425, 0.425, 0.3], radius = 0.175, degrees = [{0},
 HALVES = (CIRCLE.format(-90, 90), CIRCLE.format(90, 270))
 
 
+@pytest.mark.slow
 def test_half_of_the_circle_of_the_cartesian_manipulator() -> None:
     """Two working modes: one is regular along it, the other crosses singularities of type 2 twice."""
     machine = region_machine(model("3-prrr"))

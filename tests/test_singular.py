@@ -53,6 +53,7 @@ def test_no_pose_is_lost_where_a_rotation_has_no_half_tangent(quaternion: tuple[
     assert holds(robot_at(quaternion, (1, 2, 5)), "SE3", (1, 2, 5)) == ()
 
 
+@pytest.mark.slow
 def test_euler_angles_at_gimbal_lock_are_solved_in_a_turned_frame() -> None:
     (note,) = holds(robot_at(GIMBAL_LOCK, (1, 2, 5)), "AFD1", (1, 2, 5))
     assert "turned by the quaternion" in note
