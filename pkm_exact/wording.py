@@ -8,8 +8,9 @@ from typing import Final
 _LONGEST: Final = 40
 _LONGEST_BITS: Final = 1400
 NO_UNIT: Final = "1"
-TOO_LARGE: Final = "to check it takes more work than checkers allow; they will call it too-large"
 """The unit of lengths that are pure numbers."""
+TOO_LARGE: Final = "to check it takes more work than checkers allow; they will call it too-large"
+"""Of a certificate that was written."""
 
 
 def printable(text: str) -> str:
@@ -28,6 +29,18 @@ def counted(number: int, noun: str) -> str:
     ('1 pose', '0 poses')
     """
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def three_digits(value: Fraction, *, up: bool = False) -> str:
+    """Three significant digits, not more than the value; or not less, if rounded ``up``.
+
+    >>> three_digits(Fraction(2, 3)), three_digits(Fraction(1, 3), up=True), three_digits(Fraction(100))
+    ('0.666', '0.334', '100')
+    """
+    from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+
+    context = Context(prec=3, rounding=ROUND_CEILING if up else ROUND_FLOOR)
+    return f"{context.divide(Decimal(value.numerator), Decimal(value.denominator)):g}"
 
 
 def with_unit(number: str, unit: str) -> str:

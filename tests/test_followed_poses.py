@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import arb
-from samples import solved
+from samples import MODELS, solved
 from tolerance_tools import errors_of, poses_near, robots_with
 
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.cli.main import main
 from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.interactive.display import tolerance_html
 from pkm_exact.numeric.branch_bounds import branch_bounds
 from pkm_exact.numeric.branch_proof import CellProof, faces, joins, proved_cells
 from pkm_exact.numeric.branch_robot import BranchCell, BranchRobot, ProvedBranch, boxes_of
@@ -31,8 +32,9 @@ from pkm_exact.numeric.tolerance import tolerance_boxes
 from pkm_exact.precision import working_precision
 
 Capture = pytest.CaptureFixture[str]
-MODEL = Path("models/3-rpr-merlet-p.toml")
+
 NAME = "3-rpr-merlet-p"
+MODEL = next(path for path in MODELS if path.stem == NAME)
 TOLERANCE = "0.03"
 """Beyond what a box is proved for, at both poses; at the second pose it takes two cells."""
 EXPONENT = 128
@@ -77,6 +79,17 @@ def _with_cell(branch: ProvedBranch, place: int, **changed: Any) -> tuple[Branch
     cells = list(branch.cells)
     cells[place] = replace(cells[place], **changed)
     return tuple(cells)
+
+
+@pytest.mark.parametrize("followed", [False, True])
+def test_a_notebook_does_not_say_more_than_is_proved(followed: bool) -> None:
+    """The share is rounded down."""
+    solution = solved(NAME)
+    result = tolerance_boxes(solution.problem, Tolerances.uniform(TOLERANCE), solution)
+    box, share = result.boxes[0], Fraction(99999, 100000)
+    found = None if box.followed is None else replace(box.followed, fraction=share)
+    changed = replace(box, followed=found) if followed else replace(box, fraction=share, followed=None)
+    assert ">99.9 %" in tolerance_html(replace(result, boxes=(changed,)))
 
 
 def test_sampled_robots_have_their_pose_within_the_bounds() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
@@ -14,6 +13,7 @@ from pkm_exact.cli import arguments
 from pkm_exact.cli.program import ExitCode
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.rational import NumberText, parse_positive
+from pkm_exact.wording import three_digits
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 
 OF_THE_MODEL: Final = "of the model"
 """What ``--tolerance`` without a number stands for."""
-_DIGITS: Final = 3
 _DEGREES: Final = (Fraction(180 * 10**16, 31415926535897933), Fraction(180 * 10**16, 31415926535897932))
 """Bounds for 180 / pi."""
 
@@ -155,8 +154,8 @@ def _print(robot: Robot, result: ToleranceResult) -> None:
     axes = ("x", "y") if planar else ("x", "y", "z")
     t = result.tolerances
     sys.stdout.write(
-        f"\ntolerances [{robot.unit}]: base joints {_decimal(t.base)}, platform joints {_decimal(t.platform)}, "
-        f"lengths {_decimal(t.lengths)}\n{result}\n\n"
+        f"\ntolerances [{robot.unit}]: base joints {three_digits(t.base)}, platform joints {three_digits(t.platform)}, "
+        f"lengths {three_digits(t.lengths)}\n{result}\n\n"
         f"half widths of the boxes and greatest errors over all robots within tolerance: position [{robot.unit}], "
         "rotation [degrees]; the greatest error lies between the two numbers\n"
     )
@@ -174,13 +173,13 @@ def _row(box: ToleranceBox, axes: int) -> tuple[str, ...]:
     share = _percent(box.fraction) if followed is None else f"{_percent(followed.fraction)}, followed"
     if bounds is None:
         return str(box.pose), *("?" for _ in range(axes + 2)), share, dominant
-    widths = (_decimal(interval.width / 2, up=True) for interval in bounds.position[:axes])
+    widths = (three_digits(interval.width / 2, up=True) for interval in bounds.position[:axes])
     distance, angle = bounds.position_error, bounds.rotation_error
     return (
         str(box.pose),
         *widths,
-        f"{_decimal(distance.lo)} to {_decimal(distance.hi, up=True)}",
-        f"{_decimal(angle.lo * _DEGREES[0])} to {_decimal(angle.hi * _DEGREES[1], up=True)}",
+        f"{three_digits(distance.lo)} to {three_digits(distance.hi, up=True)}",
+        f"{three_digits(angle.lo * _DEGREES[0])} to {three_digits(angle.hi * _DEGREES[1], up=True)}",
         share,
         dominant,
     )
@@ -206,11 +205,5 @@ def _singular(box: ToleranceBox) -> str:
     )
 
 
-def _decimal(value: Fraction, *, up: bool = False) -> str:
-    """Three significant digits, rounded down, or up."""
-    context = Context(prec=_DIGITS, rounding=ROUND_CEILING if up else ROUND_FLOOR)
-    return f"{context.divide(Decimal(value.numerator), Decimal(value.denominator)):g}"
-
-
 def _percent(fraction: Fraction) -> str:
-    return f"{_decimal(100 * fraction)} %"
+    return f"{three_digits(100 * fraction)} %"

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
-from decimal import Decimal
 from fractions import Fraction
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Final
@@ -22,7 +21,7 @@ from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.motions.motion import Motion
 from pkm_exact.roots.interval import decimal
-from pkm_exact.wording import counted, printable
+from pkm_exact.wording import counted, printable, three_digits
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -186,26 +185,13 @@ def tolerance_html(result: ToleranceResult) -> str:
 def _tolerance_cells(box: ToleranceBox, axes: int) -> tuple[str, ...]:
     dominant = "" if box.dominant is None else str(box.dominant)
     followed = box.followed
-    share = f"{float(100 * (box.fraction if followed is None else followed.fraction)):.3g} %"
+    share = f"{three_digits(100 * (box.fraction if followed is None else followed.fraction))} %"
     share += "" if followed is None else ", followed"
     bounds = followed.bounds if followed is not None and followed.is_whole else box.bounds
     if bounds is None:
         return str(box.pose), *("?" for _ in range(axes + 1)), share, dominant
     position = (repr(bound).strip("[]") for bound in bounds.position[:axes])
-    return str(box.pose), *position, f"at most {decimal_above(bounds.position_error.hi)}", share, dominant
-
-
-def decimal_above(value: Fraction) -> str:
-    """Three significant digits, not less than the value.
-
-    Examples
-    --------
-    >>> decimal_above(Fraction(1, 3))
-    '0.334'
-    """
-    from decimal import ROUND_CEILING, Context
-
-    return f"{Context(prec=3, rounding=ROUND_CEILING).divide(Decimal(value.numerator), Decimal(value.denominator)):g}"
+    return str(box.pose), *position, f"at most {three_digits(bounds.position_error.hi, up=True)}", share, dominant
 
 
 def _number(value: Fraction) -> str:
