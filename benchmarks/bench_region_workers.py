@@ -1,9 +1,9 @@
 """One worker against several on a question about a region in all six coordinates: wall time and processor time.
 
-    python benchmarks/bench_region_workers.py [WORKERS] [EDGE]
+    python benchmarks/bench_region_workers.py [WORKERS] [DEGREES] [PRECISION]
 
-A cube of positions of Rolland's hexapod about (0, 0, 660) of so many mm, all three angles within 4 degrees. To be run
-on an idle machine: whatever else runs is in the wall time.
+The largest cube of positions of Rolland's hexapod about (0, 0, 660), all three angles within so many degrees, to a
+relative precision. To be run on an idle machine: whatever else runs is in the wall time.
 """
 
 from __future__ import annotations
@@ -15,39 +15,48 @@ import tempfile
 import time
 from hashlib import sha256
 from pathlib import Path
+from statistics import median
 
 MODEL = Path(__file__).parent.parent / "models" / "rolland-6-6.toml"
+RUNS = 3
 QUESTION = """[region]
-position = [[-{0}, {0}], [-{0}, {0}], [{1}, {2}]]
-rpy_degrees = [[-4, 4], [-4, 4], [-4, 4]]
+rpy_degrees = [[-{0}, {0}], [-{0}, {0}], [-{0}, {0}]]
 [conditions]
 no_type_2 = true
 [answer]
-kind = "all"
-steps = 40
+kind = "largest"
+shape = "cube"
+about = [0, 0, 660]
+precision = "{1}"
+steps = 60
 """
 
 
-def timed(question: Path, workers: int, output: Path) -> tuple[float, float, str]:
-    """Wall time, processor time, and a digest of the certificate."""
+def timed(question: Path, workers: int) -> tuple[float, float, str]:
+    """Wall time, processor time, and a digest of what is printed."""
     command = [str(Path(sys.executable).parent / "certify-poses"), "region", str(MODEL), str(question)]
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
-    subprocess.run([*command, "--workers", str(workers), "-o", str(output)], check=False, stdout=subprocess.DEVNULL)
+    done = subprocess.run([*command, "--workers", str(workers), "--format", "json"], check=True, stdout=subprocess.PIPE)
     wall, after = time.monotonic() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
     used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return wall, used, sha256(output.read_bytes()).hexdigest()[:16]
+    return wall, used, sha256(done.stdout).hexdigest()[:16]
 
 
 def main() -> None:
-    """Time one worker, then several."""
-    workers, edge = (int(text) for text in (*sys.argv[1:3], *("2", "1850")[len(sys.argv) - 1 :]))
+    """Time one worker and several, one after the other, and again."""
+    given = sys.argv[1:4]
+    workers, degrees, precision = (*given, *("2", "10", "1/1000")[len(given) :])
+    counts = (1, int(workers))
     with tempfile.TemporaryDirectory() as folder:
         question = Path(folder) / "question.toml"
-        question.write_text(QUESTION.format(edge / 2, 660 - edge / 2, 660 + edge / 2))
-        rows = [timed(question, count, Path(folder) / f"{count}.json") for count in (1, workers)]
-    for count, (wall, used, digest) in zip((1, workers), rows, strict=True):
-        print(f"{count} workers: {wall:.1f} s, processor time {used:.1f} s, certificate {digest}")
-    print(f"share of the time: {rows[1][0] / rows[0][0]:.2f}; the same bytes: {rows[0][2] == rows[1][2]}")
+        question.write_text(QUESTION.format(degrees, precision))
+        rows = [[timed(question, count) for count in counts] for _ in range(RUNS)]
+    for count, of_count in zip(counts, zip(*rows, strict=True), strict=True):
+        wall, used = (median(row[k] for row in of_count) for k in (0, 1))
+        print(f"{count} workers: {wall:.1f} s, processor time {used:.1f} s, answer {of_count[0][2]}")
+    shares = [several[0] / one[0] for one, several in rows]
+    print(f"share of the time: {median(shares):.2f} (of {RUNS}: {min(shares):.2f} to {max(shares):.2f})")
+    print(f"the same bytes: {len({row[2] for pair in rows for row in pair}) == 1}")
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from typing import Any
 
 import jsonschema
 import pytest
-from region_certificates import QUESTIONS, SECOND, answer_of, content_of, verdicts
+from region_certificates import QUESTIONS, SECOND, content_of, verdicts
 from samples import MODELS
 
 from pkm_exact.certify.build import canonical_bytes, sealed
@@ -21,8 +21,6 @@ from pkm_exact.certify.checker import budget
 from pkm_exact.certify.pure import check_counted as plainly_counted
 from pkm_exact.cli import region
 from pkm_exact.cli.main import main
-from pkm_exact.regions.region_solver import prepared
-from pkm_exact.regions.region_workers import workers
 
 Capture = pytest.CaptureFixture[str]
 FILES = {path.stem: path for path in MODELS}
@@ -362,12 +360,6 @@ def test_limits_without_rational_cosines_have_no_certificate(tmp_path: Path, cap
     assert main(["region", str(robot), str(question)]) == 0
     assert main(["region", str(robot), str(question), "-o", str(tmp_path / "out.json")]) == 2
     assert "no rational cosine squared" in capsys.readouterr().err
-
-
-def test_workers_agree_on_answers_too() -> None:
-    answer = answer_of("a prism of a Delta")
-    with workers(answer.machine, 1) as run:
-        assert [paved.word for paved in run(prepared(answer.machine, answer.question), [])] == []
 
 
 @pytest.mark.slow

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from math import comb
 from typing import Any, TypeAlias
 
@@ -50,6 +51,8 @@ def bernstein_coefficients(
     """
     shape = [d + 1 for d in degrees]
     size = int(np.prod(shape)) if shape else 1
+    if not terms:
+        return [Fraction(0)] * size
     values = [fmpq(0)] * size
     for exponents, coefficient in terms.items():
         place = 0
@@ -64,6 +67,7 @@ def bernstein_coefficients(
     return [Fraction(int(value.p), int(value.q)) for value in values]
 
 
+@lru_cache(64)
 def _conversion(degree: int, pair: Pair) -> fmpq_mat:
     """From powers of x to Bernstein coefficients in u, x = low + (high - low) u."""
     low, width = pair[0], pair[1] - pair[0]

@@ -9,7 +9,7 @@ from typing import Final
 
 from pkm_exact.regions.region_legs import OnHinge, OwnLength, RegionMachine
 from pkm_exact.regions.region_question import RegionQuestion
-from pkm_exact.regions.region_solver import RegionAnswer, Run, answered, in_this_process
+from pkm_exact.regions.region_solver import IN_THIS_PROCESS, RegionAnswer, Run, answered
 from pkm_exact.roots.interval import Interval
 
 _ENLARGED: Final = Fraction(1, 2**40)
@@ -58,7 +58,7 @@ def largest(
     question: RegionQuestion,
     resized: Callable[[Fraction], RegionQuestion],
     *,
-    run: Run = in_this_process,
+    run: Run = IN_THIS_PROCESS,
     progress: Callable[[Fraction, bool], None] | None = None,
 ) -> LargestAnswer:
     """The largest cube or ball about a pose for which all is proved, to the precision of the question.
@@ -69,7 +69,7 @@ def largest(
     question : RegionQuestion
     resized : callable
         The question of another size.
-    run : callable
+    run : Run
     progress : callable, optional
         Gets each size and whether it was proved.
     """

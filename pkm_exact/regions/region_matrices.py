@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product as combinations_of
+from math import lcm
 from typing import Any, Final
 
-from flint import fmpq_mat
+from flint import fmpq, fmpz_mat
 
 from pkm_exact.errors import InputError
 from pkm_exact.regions.chart import Chart, Polynomial, PosePolynomials, rational
@@ -94,33 +95,84 @@ def determinant_size(rows: Sequence[Sequence[Polynomial]], variables: int) -> in
     return size << len(roots)
 
 
-def determinant_at(rows: Rows, point: Sequence[Fraction], pose: PosePolynomials) -> Polynomial:
-    """The determinant at a point of the chart, with the roots as variables: each is in one row, and linear there.
+class MatrixAtPoints:
+    """A matrix of polynomials whose determinant is wanted at many rational points, exactly.
+
+    All entries share the values of the monomials at a point, as integers over one denominator; a row is multiplied by a
+    positive number.
+
+    Parameters
+    ----------
+    rows : sequence of sequences of fmpq_mpoly
+        Each root is in one row, and linear there.
+    pose : PosePolynomials
+        Of whose ring they are.
+    variables : int
+        Of the chart; the others are roots.
 
     Examples
     --------
     >>> from flint import Ordering, fmpq_mpoly_ctx
     >>> ring = fmpq_mpoly_ctx.get(("x", "y"), Ordering.lex)
     >>> x, y = ring.gens()
-    >>> pose = PosePolynomials(ring, x, (), ())
-    >>> print(determinant_at(((x + y, 2 * x), (x, x)), (Fraction(3),), pose))
+    >>> matrix = MatrixAtPoints(((x + y, 2 * x), (x, x)), PosePolynomials(ring, x, (), ()), 1)
+    >>> print(matrix.determinant_at((Fraction(3),)))
     3*y - 9
     """
-    at = [rational(x) for x in point]
-    zeros = [rational(0)] * (len(pose.ring.names()) - len(at))
-    used = [sorted({k for entry in row for k, d in enumerate(entry.degrees()[len(at) :]) if d > 0}) for row in rows]
-    values = []
-    for row, roots in zip(rows, used, strict=True):
-        constant = [entry(*at, *zeros) for entry in row]
-        slopes = []
-        for root in roots:
-            ones = [rational(int(k == root)) for k in range(len(zeros))]
-            slopes.append([entry(*at, *ones) - value for entry, value in zip(row, constant, strict=True)])
-        values.append([constant, *slopes])
-    total: dict[tuple[int, ...], Any] = {}
-    for choice in combinations_of(*(range(len(options)) for options in values)):
-        matrix = fmpq_mat([options[k] for options, k in zip(values, choice, strict=True)])
-        chosen = {roots[k - 1] for roots, k in zip(used, choice, strict=True) if k}
-        key = (0,) * len(at) + tuple(int(k in chosen) for k in range(len(zeros)))
-        total[key] = total.get(key, rational(0)) + matrix.det()
-    return pose.ring.from_dict(total)
+
+    def __init__(self, rows: Rows, pose: PosePolynomials, variables: int) -> None:
+        terms = [[_terms(entry, variables) for entry in row] for row in rows]
+        self._ring, self._variables = pose.ring, variables
+        monomials = {e: None for row in terms for entry in row for _, e in entry}
+        self._monomials = list(monomials) or [(0,) * variables]
+        self._degree = max(map(sum, self._monomials))
+        place = {exponents: k for k, exponents in enumerate(self._monomials)}
+        self._options: list[list[tuple[int, ...]]] = []
+        table = []
+        for row in terms:
+            common = lcm(*(int(value.q) for entry in row for value in entry.values()))
+            roots = sorted({root for entry in row for root, _ in entry}, key=lambda root: (any(root), root))
+            self._options.append(roots or [(0,) * (len(pose.ring.names()) - variables)])
+            for root in self._options[-1]:
+                for entry in row:
+                    numbers = [0] * len(place)
+                    for (of, exponents), value in entry.items():
+                        if of == root:
+                            numbers[place[exponents]] = int(value * common)
+                    table.append(numbers)
+        self._table = fmpz_mat(table)
+
+    def determinant_at(self, point: Sequence[Fraction]) -> Polynomial:
+        """The determinant at a point up to a positive factor, with the roots as variables."""
+        values = self._table * fmpz_mat(len(self._monomials), 1, self._powers(point))
+        size, numbers = len(self._options), values.entries()
+        rows, first = [], 0
+        for roots in self._options:
+            rows.append([numbers[first + size * k : first + size * (k + 1)] for k in range(len(roots))])
+            first += size * len(roots)
+        total: dict[tuple[int, ...], Any] = {}
+        for choice in combinations_of(*(range(len(roots)) for roots in self._options)):
+            chosen = [roots[k] for roots, k in zip(self._options, choice, strict=True)]
+            key = (0,) * self._variables + tuple(map(sum, zip(*chosen, strict=True)))
+            matrix = fmpz_mat([options[k] for options, k in zip(rows, choice, strict=True)])
+            total[key] = total.get(key, 0) + matrix.det()
+        return self._ring.from_dict({key: fmpq(value) for key, value in total.items()})
+
+    def _powers(self, point: Sequence[Fraction]) -> list[int]:
+        """The monomials at a point, times the same power of its denominator."""
+        common = lcm(*(x.denominator for x in point))
+        numerators = [x.numerator * (common // x.denominator) for x in point]
+        powers = [[n**k for k in range(self._degree + 1)] for n in (*numerators, common)]
+        values = []
+        for exponents in self._monomials:
+            value = powers[-1][self._degree - sum(exponents)]
+            for of, k in zip(powers, exponents, strict=False):
+                value *= of[k]
+            values.append(value)
+        return values
+
+
+def _terms(entry: Polynomial, variables: int) -> dict[tuple[tuple[int, ...], tuple[int, ...]], Any]:
+    """The coefficients of a polynomial by the powers of the roots and those of the variables."""
+    found = {tuple(map(int, exponents)): value for exponents, value in entry.to_dict().items()}
+    return {(powers[variables:], powers[:variables]): value for powers, value in found.items()}

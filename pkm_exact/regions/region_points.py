@@ -13,7 +13,7 @@ from pkm_exact.precision import working_precision
 from pkm_exact.regions.chart import Polynomial, rational
 from pkm_exact.regions.formula import All, Atom, Formula, Regular, Sign
 from pkm_exact.regions.region_conditions import Asked
-from pkm_exact.regions.region_matrices import determinant_at
+from pkm_exact.regions.region_matrices import MatrixAtPoints
 
 Point = tuple[Fraction, ...]
 
@@ -49,6 +49,7 @@ class PointJudge:
     def __init__(self, asked: Asked, region: Formula) -> None:
         self._asked, self._region = asked, region
         self._known: dict[tuple[int, Point], int | None] = {}
+        self._matrices: dict[int, MatrixAtPoints] = {}
 
     def is_inside(self, point: Point) -> bool:
         """Whether a point of the box is one of the region."""
@@ -97,7 +98,9 @@ class PointJudge:
     def _matrix_sign(self, matrix: Regular, point: Point) -> int | None:
         key = id(matrix), point
         if key not in self._known:
-            self._known[key] = self._sign(determinant_at(matrix.rows, point, self._asked.pose), point)
+            if id(matrix) not in self._matrices:
+                self._matrices[id(matrix)] = MatrixAtPoints(matrix.rows, self._asked.pose, len(point))
+            self._known[key] = self._sign(self._matrices[id(matrix)].determinant_at(point), point)
         return self._known[key]
 
     def _sign(self, polynomial: Polynomial, point: Point) -> int | None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import product
+from itertools import chain, product
 from typing import Any, Final, Protocol
 
 from pkm_exact.errors import InputError
@@ -179,12 +179,30 @@ def points_of(box: Sequence[tuple[Fraction, Fraction]], axes: Sequence[int], par
     return [tuple((low + high) / 2 for low, high in ends), *product(*ends)]
 
 
-Run = Callable[[PreparedQuestion, Sequence[Part]], Iterator[Paved]]
+class Run(Protocol):
+    """Paves parts, in their order, here or elsewhere."""
+
+    def begin(self, question: RegionQuestion) -> None:
+        """Make ready for the parts of a question, while its first parts are paved here."""
+        ...
+
+    def paved(self, ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
+        """Pave parts."""
+        ...
 
 
-def in_this_process(ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
-    """Pave parts one after another."""
-    return (pave_part(ready, part) for part in parts)
+class InThisProcess:
+    """Parts are paved one after another."""
+
+    def begin(self, question: RegionQuestion) -> None:
+        """Nothing is to be done."""
+
+    def paved(self, ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
+        """Pave parts."""
+        return (pave_part(ready, part) for part in parts)
+
+
+IN_THIS_PROCESS: Final = InThisProcess()
 
 
 def pave_part(ready: PreparedQuestion, part: Part) -> Paved:
@@ -199,7 +217,7 @@ def answered(
     machine: RegionMachine,
     question: RegionQuestion,
     *,
-    run: Run = in_this_process,
+    run: Run = IN_THIS_PROCESS,
     store: Store | None = None,
     progress: Callable[[Fraction], None] | None = None,
 ) -> RegionAnswer:
@@ -209,8 +227,7 @@ def answered(
     ----------
     machine : RegionMachine
     question : RegionQuestion
-    run : callable
-        Paves parts, in their order, here or elsewhere.
+    run : Run
     store : Store, optional
         Gets the paving of each part; those in it are not paved again.
     progress : callable, optional
@@ -221,6 +238,7 @@ def answered(
     InputError
         As ``prepared``.
     """
+    run.begin(question)
     ready = prepared(machine, question)
     search = CounterexampleSearch(PointJudge(ready.asked, ready.region), is_connected=question.is_connected)
     is_map = question.answer.kind == "map"
@@ -236,17 +254,17 @@ def answered(
     if search.found is not None or not head.open_parts or last == len(ready.axes):
         return result
     parts = [part for letter, part in leaves(head.word, ready.axes, len(ready.box)) if letter == UNDECIDED]
-    words = [record["word"] for record in store.records] if store is not None else []
-    for number, paved in enumerate(run(ready, parts[len(words) :]), len(words)):
-        words.append(paved.word)
-        if store is not None:
-            store.add({"part": number, "word": paved.word})
+    stored = [record["word"] for record in store.records] if store is not None else []
+    words: list[str] = []
+    rest = (paved.word for paved in run.paved(ready, parts[len(stored) :]))
+    for number, (part, word) in enumerate(zip(parts, chain(stored, rest), strict=True)):
+        words.append(word)
+        if store is not None and number >= len(stored):
+            store.add({"part": number, "word": word})
         if progress is not None:
             progress(Fraction(number + 1, len(parts)))
-    if not is_map:
-        for part, word in zip(parts, words, strict=True):
-            if search.found is None:
-                _look(search, ready, word, part)
+        if not is_map and search.found is None:
+            _look(search, ready, word, part)
     return replace(result, word=spliced(head.word, words), counterexample=search.found)
 
 

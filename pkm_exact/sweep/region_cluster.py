@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from threading import Lock
 from typing import Any, Final
 
@@ -37,18 +38,30 @@ def cluster_run(machine: RegionMachine, address: str) -> Iterator[Run]:
         As ``connected_cluster``.
     """
     with connected_cluster(address) as (distributed, client):
+        yield _Cluster(distributed, client, machine)
 
-        def run(ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
-            most = PARTS_PER_THREAD * max(1, sum(client.nthreads().values()))
-            waiting: deque[Any] = deque()
-            for number, part in enumerate(parts):
-                waiting.append(client.submit(pave_one, machine, ready.question, part, pure=False, priority=-number))
-                if len(waiting) >= most:
-                    yield _result(distributed, waiting.popleft())
-            while waiting:
-                yield _result(distributed, waiting.popleft())
 
-        yield run
+@dataclass(frozen=True)
+class _Cluster:
+    """Workers that may come and go; each makes the question ready with its first part."""
+
+    distributed: Any
+    client: Any
+    machine: RegionMachine
+
+    def begin(self, question: RegionQuestion) -> None:
+        """Nothing is sent before there are parts."""
+
+    def paved(self, ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
+        most = PARTS_PER_THREAD * max(1, sum(self.client.nthreads().values()))
+        waiting: deque[Any] = deque()
+        for number, part in enumerate(parts):
+            job = self.client.submit(pave_one, self.machine, ready.question, part, pure=False, priority=-number)
+            waiting.append(job)
+            if len(waiting) >= most:
+                yield _result(self.distributed, waiting.popleft())
+        while waiting:
+            yield _result(self.distributed, waiting.popleft())
 
 
 def _result(distributed: Any, future: Any) -> Paved:
