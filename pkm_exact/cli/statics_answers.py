@@ -27,9 +27,9 @@ def answers(
     given = given_limits(limits)
     if load_at is not None and load is None:
         raise click.UsageError("--load-at: belongs to --load, give that as well.")
-    if at.jacobian is None and (given or load is not None or stiffness is not None):
+    if at.jacobian is None and not at.held.is_redundant and (given or load is not None or stiffness is not None):
         raise InputError("--limits, --load, --stiffness: there is no J at this pose; give --model, or another pose")
-    if at.jacobian is None:
+    if at.jacobian is None and not at.held.is_redundant:
         return asked_answers(at, {})
     return asked_answers(
         at,

@@ -236,14 +236,18 @@ class Mechanism(Machine):
         field = self.value_field(name)
         return "lengths" if is_square(field) else "slides" if field == "offset" else ""
 
-    def values_at(self, position: Vector, rotation: Matrix) -> dict[str, Fraction]:
+    def values_at(
+        self, position: Vector, rotation: Matrix, moved: Sequence[Constraint] | None = None
+    ) -> dict[str, Fraction]:
         """By how much each linear form of the constraints differs from 0 at a pose, added to the constraint's value.
+
+        Of the constraints as the model has them, or where drives have moved them.
 
         The values that the constraints have at the pose: squared lengths, offsets, products. Constraints without a
         value are left out, and so are quadrics.
         """
         values = {}
-        for constraint in self.constraints:
+        for constraint in self.constraints if moved is None else moved:
             if any(not any(getattr(constraint, field)) for field in _directions(constraint)):
                 continue  # a drive gives it
             forms = constraint.forms(self.metric)

@@ -5,9 +5,10 @@ actuator by -rate q'. So the actuators move with the platform by
 
     W y = rate q',    q' = J t
 
-Of a leg of length q it is |C + R B - A|^2 = q^2, W the derivative of the left side and rate 2 q. Of an offset or a
-product, rate is 1. A drive, a slide or a crank, moves fields of the constraint along a velocity d: F is a polynomial of
-degree 2 in its step h d, so that the rate is (F(-d) - F(d)) / 2, exactly.
+An equation may have several actuators, an actuator several equations: W y = R q'. Of a leg of length q the equation is
+|C + R B - A|^2 = q^2, W the derivative of the left side and rate 2 q. Of an offset or a product, rate is 1. A drive, a
+slide or a crank, moves fields of the constraint along a velocity d: F is a polynomial of degree 2 in its step h d, so
+that the rate is (F(-d) - F(d)) / 2, exactly.
 
 References: Gosselin and Angeles, IEEE Trans. Robotics and Automation 6 (1990), 281-290, for the two Jacobians; Shayya
 et al., IROS 2014, equations (14) to (17).
@@ -81,7 +82,7 @@ class Actuator:
     unit : str
         Of its value: "length", "angle" (radians) or "1".
     equation : int
-        Index of the equation that gives its speed: the first that it enters.
+        Index of the equation that gives its speed: the first that it enters and no other actuator has.
     """
 
     name: str
@@ -98,16 +99,45 @@ class Held:
     equations : tuple of Equation
         In the order of the constraints.
     actuators : tuple of Actuator
+    is_redundant : bool
+        Kinematically: there are more actuators than equations for them, so that q' does not follow from the twist.
     """
 
     equations: tuple[Equation, ...]
     actuators: tuple[Actuator, ...] = ()
+    is_redundant: bool = False
+
+    @property
+    def driven(self) -> tuple[int, ...]:
+        """Indices of the equations that are rows of J_x and J_q: those of the actuators, or all that any enters."""
+        if self.is_redundant:
+            return tuple(index for index, equation in enumerate(self.equations) if equation.rates)
+        return tuple(actuator.equation for actuator in self.actuators)
 
     @property
     def structural(self) -> tuple[int, ...]:
         """Indices of the equations that give no actuator its speed."""
-        driven = {actuator.equation for actuator in self.actuators}
+        driven = set(self.driven)
         return tuple(index for index in range(len(self.equations)) if index not in driven)
+
+    @property
+    def is_diagonal(self) -> bool:
+        """Whether J_q is diagonal for each choice of values: every driven equation has one actuator."""
+        return not self.is_redundant and all(
+            [rate.actuator for rate in self.equations[actuator.equation].rates] == [k]
+            for k, actuator in enumerate(self.actuators)
+        )
+
+    @property
+    def is_entangled(self) -> bool:
+        """Whether a driven equation has several actuators, or an actuator has several equations."""
+        entered = [rate.actuator for equation in self.equations for rate in equation.rates]
+        return len(set(entered)) < len(entered) or not self.is_diagonal
+
+    def given_by(self, equations: Sequence[int]) -> Held:
+        """The same with the speeds of actuators given by these equations."""
+        pairs = zip(self.actuators, equations, strict=True)
+        return replace(self, actuators=tuple(replace(actuator, equation=index) for actuator, index in pairs))
 
 
 @dataclass(frozen=True)
@@ -135,7 +165,7 @@ def held(constraints: Sequence[tuple[str, Constraint]], metric: Metric, motors: 
     Raises
     ------
     InputError
-        If a motor drives a constraint of several equations, or two drive one.
+        If a motor sets the value of a constraint of several equations.
     """
     equations: list[Equation] = []
     places: dict[str, int] = {}
@@ -151,14 +181,49 @@ def held(constraints: Sequence[tuple[str, Constraint]], metric: Metric, motors: 
                 for index, motor in enumerate(motors)
                 if motor.velocities is None and motor.constraint == name
             )
-            equations.append(Equation(title, form, scale, rates))
+            equations.append(Equation(title, form, scale, tuple(sorted(rates, key=lambda rate: rate.actuator))))
     for motor in motors:
-        shared = [other.name for other in motors if other is not motor and other.constraint == motor.constraint]
-        found = dict(constraints)[motor.constraint]
-        if shared or len(_forms(found, metric)) != 1:
-            why = f"and {shared[0]} drive one constraint" if shared else "drives a constraint of several equations"
-            raise InputError(f"{motor.name}: {why}; velocities and forces are not computed for that")
-    return Held(tuple(equations), tuple(Actuator(m.name, m.unit, places[m.constraint]) for m in motors))
+        if motor.velocities is None and len(_forms(dict(constraints)[motor.constraint], metric)) != 1:
+            raise InputError(
+                f"{motor.name}: drives a constraint of several equations; velocities and forces are not computed "
+                "for that"
+            )
+    given = speed_equations(equations, [places[motor.constraint] for motor in motors])
+    first = [places[motor.constraint] for motor in motors]
+    found = tuple(Actuator(m.name, m.unit, place) for m, place in zip(motors, given or first, strict=True))
+    return Held(tuple(equations), found, is_redundant=given is None)
+
+
+def speed_equations(equations: Sequence[Equation], preferred: Sequence[int]) -> list[int] | None:
+    """An equation of its own for each actuator that enters it, the preferred one if it can be; None if there are none.
+
+    Examples
+    --------
+    >>> both = Rate(0), Rate(1)
+    >>> pair = [Equation("a", (), Fraction(1), both), Equation("b", (), Fraction(1), both[:1])]
+    >>> speed_equations(pair, [0, 0]), speed_equations(pair[:1], [0, 0])
+    ([1, 0], None)
+    """
+    entered: list[list[int]] = [[place] for place in preferred]
+    for index, equation in enumerate(equations):
+        for rate in equation.rates:
+            if index not in entered[rate.actuator]:
+                entered[rate.actuator].append(index)
+    owner: dict[int, int] = {}
+
+    def place(actuator: int, seen: set[int]) -> bool:
+        for index in entered[actuator]:
+            if index in seen:
+                continue
+            seen.add(index)
+            if index not in owner or place(owner[index], seen):
+                owner[index] = actuator
+                return True
+        return False
+
+    if not all(place(actuator, set()) for actuator in range(len(preferred))):
+        return None
+    return [index for _, index in sorted((actuator, index) for index, actuator in owner.items())]
 
 
 def _forms(constraint: Constraint, metric: Metric) -> list[AnyForm]:

@@ -10,20 +10,21 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
-from pkm_exact.errors import PkmExactError
+from pkm_exact.errors import InputError, PkmExactError
 from pkm_exact.poses.pose_spelling import ends
 from pkm_exact.roots.interval import Interval
 from pkm_exact.statics.at_pose import AtPose
 from pkm_exact.statics.capability import ordinary_facets, ordinary_vertices
 from pkm_exact.statics.enclosed_matrix import EnclosedMatrix, shown_number
 from pkm_exact.statics.failures_of_actuators import relative_manipulability
-from pkm_exact.statics.forces import Forces, forces
-from pkm_exact.statics.freedom import Freedom
+from pkm_exact.statics.forces import Forces
+from pkm_exact.statics.forward_map import ForwardMap
 from pkm_exact.statics.index_rows import STATICS_INDICES, enclosed_indices, unit_of
 from pkm_exact.statics.largest_ellipsoid import LargestEllipsoid
 from pkm_exact.statics.limits_of_actuators import ActuatorLimits
 from pkm_exact.statics.measures import Measures
 from pkm_exact.statics.pose_rows import TWIST, WRENCH
+from pkm_exact.statics.redundant_kinematics import measures_of
 from pkm_exact.statics.stiffness import stiffness as stiffness_matrix
 
 MOST_FAILURES: Final = 2
@@ -63,7 +64,9 @@ class StaticsAnswers:
     @property
     def _is_partial(self) -> bool:
         """Whether some components of a twist follow from others, as constraints are not actuated."""
-        return self.measures is not None and bool(self.measures.freedom.at.held.structural)
+        return self.measures is not None and len(self.measures.freedom.free.places) < len(
+            self.measures.freedom.at.twist
+        )
 
     def components(self, name: str) -> list[str]:
         """Which components of twists or wrenches the polytope of this name has."""
@@ -161,9 +164,14 @@ def asked_answers(
     >>> sorted(found.polytopes), found.refused["wrench_polytope"]
     (['velocity_polytope'], 'needs limits: forces')
     """
-    if at.jacobian is None:
+    if at.jacobian is None and not at.held.is_redundant:
         return StaticsAnswers(None, {}, {}, {})
-    measures = Measures(Freedom(at), ActuatorLimits.of(limits, len(at.actuated)))
+    try:
+        measures = measures_of(at, ActuatorLimits.of(limits, len(at.actuated)))
+    except InputError as error:
+        if not at.held.is_redundant or limits or load is not None or stiffness is not None:
+            raise
+        return StaticsAnswers(None, {}, {"forward": str(error)}, {})
     indices, refused = enclosed_indices(measures)
     polytopes = {
         "velocity_polytope": _tried("velocity_polytope", refused, lambda: _velocity(at, measures)),
@@ -175,8 +183,8 @@ def asked_answers(
         refused,
         {name: found for name, found in polytopes.items() if found is not None},
         _tried("ellipsoid", refused, lambda: _largest(at, measures)),
-        None if load is None else forces(at, load),
-        None if stiffness is None else stiffness_matrix(measures.freedom, stiffness),
+        None if load is None else at.borne(load),
+        None if stiffness is None else _stiffness(measures, stiffness),
         _tried("failures", refused, lambda: _failures(measures)),
         load,
     )
@@ -201,6 +209,11 @@ def _wrenches(at: AtPose, measures: Measures) -> Any:
 
 def _largest(at: AtPose, measures: Measures) -> Any:
     return at.ellipsoid(measures.known("speeds"), measures.limits.length)
+
+
+def _stiffness(measures: Measures, stiffness: Sequence[Fraction]) -> EnclosedMatrix:
+    forward: ForwardMap | None = measures.freedom.forward
+    return stiffness_matrix(measures.freedom, stiffness) if forward is None else forward.stiffness(stiffness)
 
 
 def _failures(measures: Measures) -> Any:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from flint import arb_mat
@@ -12,16 +13,21 @@ from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.inverse import Matrix
 from pkm_exact.geometry.rational import parse_rational
 from pkm_exact.polytopes.polytope import Polytope
+from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 from pkm_exact.statics.actuated_equations import Held
+from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.capability import velocity_polytope, wrench_polytope
+from pkm_exact.statics.enclosed_matrix import EnclosedMatrix
+from pkm_exact.statics.entangled_rows import regular_choice
 from pkm_exact.statics.forces import Forces, forces
-from pkm_exact.statics.freedom import Freedom
+from pkm_exact.statics.forward_map import ForwardMap
 from pkm_exact.statics.index_rows import enclosed_indices
 from pkm_exact.statics.largest_ellipsoid import LargestEllipsoid, largest_ellipsoid
 from pkm_exact.statics.limits_of_actuators import ActuatorLimits
 from pkm_exact.statics.measures import Measures
 from pkm_exact.statics.pose_rows import PoseRows
+from pkm_exact.statics.redundant_kinematics import measures_of
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -64,9 +70,14 @@ class AtPose(PoseRows):
         """
         return enclosed_indices(self.measures(**limits))[0]
 
+    @cached_property
+    def forward(self) -> EnclosedMatrix | None:
+        """T in t = T q', with more actuators than equations for them (``statics.forward_map``); else None."""
+        return ForwardMap(self).matrix if self.held.is_redundant else None
+
     def measures(self, **limits: Any) -> Measures:
         """What indices are computed from."""
-        return Measures(Freedom(self), ActuatorLimits.of(limits, len(self.actuated)))
+        return measures_of(self, ActuatorLimits.of(limits, len(self.actuated)))
 
     def velocity_polytope(self, speeds: Any) -> Polytope:
         """The twists that actuators with these greatest speeds can follow; one number is that of all."""
@@ -97,7 +108,11 @@ class AtPose(PoseRows):
 
     def forces(self, load: Sequence[Any]) -> Forces:
         """The actuator forces that bear a load on the platform, about its origin (``statics.forces``)."""
-        return forces(self, [parse_rational(x, f"load[{k}]") for k, x in enumerate(load, 1)])
+        return self.borne([parse_rational(x, f"load[{k}]") for k, x in enumerate(load, 1)])
+
+    def borne(self, load: Sequence[Any]) -> Forces:
+        """The same of a load that has been read, or that is enclosed."""
+        return ForwardMap(self).forces(load) if self.held.is_redundant else forces(self, load)
 
     def __repr__(self) -> str:
         return f"<AtPose: {self}>"
@@ -106,7 +121,7 @@ class AtPose(PoseRows):
 def at_rational_pose(machine: Any, held: Held, position: Vector, rotation: Matrix) -> AtPose:
     """A machine at a rational pose of its metric."""
     who = machine.name, machine.unit, machine.motion, machine.metric
-    return AtPose(*who, held, position, rotation, is_exact=True)
+    return _regular(AtPose(*who, held, position, rotation, is_exact=True))
 
 
 def at_box(
@@ -121,4 +136,14 @@ def at_box(
     """A machine at a pose that lies in a box of ordinary coordinates."""
     who = machine.name, machine.unit, machine.motion, machine.metric
     box = tuple(position), tuple(map(tuple, rotation))
-    return AtPose(*who, held, *box, is_exact=False, known_rank=rank, is_multiple=is_multiple)
+    return _regular(AtPose(*who, held, *box, is_exact=False, known_rank=rank, is_multiple=is_multiple))
+
+
+def _regular(at: AtPose) -> AtPose:
+    """The same with equations for the speeds of its actuators that give them at this pose, if there are such."""
+    held = at.held
+    if not held.is_entangled:
+        return at
+    with working_precision(BITS):
+        chosen = regular_choice(held, at.exact_rows, () if at.is_exact else at.ball_rows)
+    return at if chosen is held else replace(at, held=chosen)

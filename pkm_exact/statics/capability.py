@@ -13,19 +13,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import combinations, product
 from typing import Any
 
-from flint import arb, arb_mat
+from flint import arb
 
 from pkm_exact.polytopes.enclosures import ball_of, interval_of
-from pkm_exact.polytopes.polytope import Facet, Polytope
-from pkm_exact.polytopes.signs import UndecidedError, sign
+from pkm_exact.polytopes.polytope import Polytope
 from pkm_exact.polytopes.slabs import Slabs
 from pkm_exact.polytopes.zonotope import Zonotope
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
 from pkm_exact.statics.ball_rows import BITS
+from pkm_exact.statics.ball_zonotope import ball_zonotope, section_by_facets
 from pkm_exact.statics.freedom import Freedom
 
 
@@ -43,12 +42,18 @@ def velocity_slabs(freedom: Freedom, speeds: Sequence[Fraction]) -> Slabs:
 
 def velocity_polytope(freedom: Freedom, speeds: Sequence[Fraction]) -> Polytope:
     """The same by vertices and facets."""
+    if freedom.forward is not None:
+        found: Polytope = freedom.forward.velocity_polytope(speeds)
+        return found
     with working_precision(BITS):
         return velocity_slabs(freedom, speeds).polytope()
 
 
 def velocity_section(freedom: Freedom, speeds: Sequence[Fraction], kept: Sequence[int]) -> Polytope:
     """The twists whose components at other places than the kept ones are 0, by vertices and facets."""
+    if freedom.forward is not None:
+        found: Polytope = freedom.forward.velocity_section(speeds, kept)
+        return found
     with working_precision(BITS):
         whole = velocity_slabs(freedom, speeds)
         rows = tuple(tuple(row[j] for j in kept) for row in whole.rows)
@@ -67,74 +72,36 @@ def wrench_zonotope(freedom: Freedom, low: Sequence[Fraction], high: Sequence[Fr
 
 def wrench_polytope(freedom: Freedom, low: Sequence[Fraction], high: Sequence[Fraction]) -> Polytope:
     """The same by vertices and facets, exact or in balls."""
+    if freedom.forward is not None:
+        section: Polytope = freedom.forward.wrench_polytope(low, high)
+        return section
     with working_precision(BITS):
         found = wrench_zonotope(freedom, low, high)
         if found is not None:
             return found.polytope()
         jacobian = freedom.free_jacobian
         rows = [[jacobian[i, j] for j in range(jacobian.ncols())] for i in range(jacobian.nrows())]
-        return _ball_zonotope(rows, low, high)
+        return ball_zonotope(rows, low, high)
 
 
 def wrench_section(
     freedom: Freedom, low: Sequence[Fraction], high: Sequence[Fraction], kept: Sequence[int]
 ) -> Polytope:
     """The wrenches whose components at other places than the kept ones are 0, by vertices and facets."""
+    if freedom.forward is not None:
+        section: Polytope = freedom.forward.wrench_section(low, high, kept)
+        return section
     with working_precision(BITS):
         found = wrench_zonotope(freedom, low, high)
         if found is not None:
             return found.section({j: Fraction(0) for j in range(found.dimension) if j not in kept}).polytope()
-        facets = wrench_polytope(freedom, low, high).facets
-        pairs = list(zip(facets[::2], facets[1::2], strict=True))  # of opposite normals, as _ball_zonotope has them
-        rows = tuple(tuple(up.normal[j] for j in kept) for up, _ in pairs)
-        return Slabs(rows, tuple(-down.offset for _, down in pairs), tuple(up.offset for up, _ in pairs)).polytope()
+        return section_by_facets(wrench_polytope(freedom, low, high), kept)
 
 
 def _short(value: RootSum) -> Any:
     """As a fraction if it is rational: these are faster."""
     rational = value.rational
     return value if rational is None else rational
-
-
-def _ball_zonotope(rows: list[list[arb]], low: Sequence[Fraction], high: Sequence[Fraction]) -> Polytope:
-    """A zonotope of balls in general position, which is proved: n - 1 generators and no more in each facet."""
-    n, count = len(rows[0]), len(rows)
-    vertices: dict[tuple[int, ...], tuple[arb, ...]] = {}
-    planes = []
-    for chosen in combinations(range(count), n - 1):
-        minor = [rows[index] for index in chosen]
-        normal = [
-            (-1) ** j * (arb_mat([row[:j] + row[j + 1 :] for row in minor]).det() if n > 1 else arb(1))
-            for j in range(n)
-        ]
-        products = [sum((a * b for a, b in zip(normal, row, strict=True)), arb(0)) for row in rows]
-        signs = [0 if index in chosen else sign(value) for index, value in enumerate(products)]
-        if any(s == 0 for index, s in enumerate(signs) if index not in chosen):
-            raise UndecidedError("more wrenches than usual lie in a hyperplane, in an enclosed pose")
-        planes.append((normal, products, signs, chosen))
-    for _, _, signs, chosen in planes:
-        for side in (1, -1):
-            for ends in product((-1, 1), repeat=n - 1):
-                cell = [side * s for s in signs]
-                for index, end in zip(chosen, ends, strict=True):
-                    cell[index] = end
-                vertices.setdefault(tuple(cell), ())
-    cells = sorted(vertices)
-    points = []
-    for ends_of in cells:
-        lengths = [ball_of(high[k] if s > 0 else low[k]) for k, s in enumerate(ends_of)]
-        points.append(tuple(sum((x * row[j] for x, row in zip(lengths, rows, strict=True)), arb(0)) for j in range(n)))
-    facets = []
-    for normal, products, signs, chosen in planes:
-        for side in (1, -1):
-            wanted = {index: side * s for index, s in enumerate(signs) if index not in chosen}
-            on = tuple(k for k, cell in enumerate(cells) if all(cell[index] == s for index, s in wanted.items()))
-            offset = sum(
-                (side * products[index] * ball_of(high[index] if s > 0 else low[index]) for index, s in wanted.items()),
-                arb(0),
-            )
-            facets.append(Facet(tuple(side * x for x in normal), offset, on))
-    return Polytope(tuple(points), tuple(facets), (Fraction(1),) * n)
 
 
 def ordinary_vertices(polytope: Polytope) -> list[list[Any]]:

@@ -125,15 +125,13 @@ def _exactly(at: PoseRows, freedom: Freedom, load: Sequence[Any]) -> Forces:
 
 
 def _in_balls(at: PoseRows, freedom: Freedom, load: Sequence[Any]) -> Forces:
-    rows = freedom.ball_jacobian
-    matrix = [[rows[i, j] for j in range(rows.ncols())] for i in range(rows.nrows())]
-    matrix += [list(at.ball_rows[index].wrench) for index in at.held.structural]
-    for k, index in enumerate(at.held.structural):
-        if at.ball_rows[index].rates:
-            matrix[len(at.actuated) + k] = [
-                x - sum((rate * rows[a, j] for a, rate in at.ball_rows[index].rates.items()), arb(0))
-                for j, x in enumerate(matrix[len(at.actuated) + k])
-            ]
+    rows, apart = freedom.ball_jacobian, at.ball_apart or ()
+    matrix = rows.tolist()
+    for index in at.held.structural:
+        entries = list(apart[index].wrench)
+        for actuator, rate in apart[index].rates.items():
+            entries = [x - rate * rows[actuator, j] for j, x in enumerate(entries)]
+        matrix.append(entries)
     names = (*at.actuated, *(at.equations[index].name for index in at.held.structural))
     full = arb_mat(matrix)
     wanted = arb_mat(len(load), 1, [-ball_of(x) for x in load])

@@ -20,7 +20,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.polytopes.enclosures import ball_of
 from pkm_exact.precision import working_precision
 from pkm_exact.radicals import RootSum
-from pkm_exact.statics.ball_rows import BITS
+from pkm_exact.statics.ball_rows import BITS, BallRow
 from pkm_exact.statics.exact_rows import column_squares
 from pkm_exact.statics.free_components import FreeComponents, free_components
 from pkm_exact.statics.pose_rows import PoseRows
@@ -59,7 +59,14 @@ class Freedom:
         if self.at.jacobian is None:
             raise InputError(
                 "statics: there is no J at this pose; give actuators, or a pose without type-1 singularity"
+                if not self.at.held.is_redundant
+                else "statics: there is no J, as speeds of the actuators do not follow from the twist; see forward_map"
             )
+
+    @property
+    def forward(self) -> Any:
+        """T in t = T q', where the twist follows from the actuators and not they from it; else None."""
+        return None
 
     @property
     def has_both(self) -> bool:
@@ -81,9 +88,14 @@ class Freedom:
                 return arb_mat([[ball_of(value) for value in row] for row in exact])
             rows = []
             for k, actuator in enumerate(self.at.held.actuators):
-                row = self.at.ball_rows[actuator.equation]
+                row = self._ball_rows[actuator.equation]
                 rows.append([entry / row.rates[k] for entry in row.wrench])
             return arb_mat(rows)
+
+    @property
+    def _ball_rows(self) -> Sequence[BallRow]:
+        """Rows with one for every actuator that has no other: there are, as there is J."""
+        return self.at.ball_apart or ()
 
     @cached_property
     def _allowed(self) -> list[list[arb]]:
@@ -96,7 +108,7 @@ class Freedom:
         jacobian = self.ball_jacobian
         rows = []
         for index in structural:
-            row = self.at.ball_rows[index]
+            row = self._ball_rows[index]
             entries = list(row.wrench)
             for actuator, rate in row.rates.items():
                 entries = [x - rate * jacobian[actuator, j] for j, x in enumerate(entries)]
@@ -128,17 +140,17 @@ class Freedom:
     def directions(self) -> Directions | None:
         """J exactly, as integer rows with weights; None at an enclosed pose or where rows are not such multiples."""
         at = self.at
-        if at.exact_rows is None or at.held.structural:
+        if at.exact_apart is None or at.held.structural:
             return None
         rows = []
         for k, actuator in enumerate(at.held.actuators):
-            row = at.exact_rows[actuator.equation]
+            row = at.exact_apart[actuator.equation]
             ratio = rationalised(row.wrench)
             if ratio is None or not any(ratio):
                 return None
             place = next(j for j, x in enumerate(ratio) if x)
             rows.append((ratio, RootSum.of(row.wrench[place]) * (1 / ratio[place]) * row.rates[k].inverse()))
-        return _directions(rows, column_squares(at.metric, at.motion.twist))
+        return directions_of(rows, column_squares(at.metric, at.motion.twist))
 
     @cached_property
     def free(self) -> FreeComponents:
@@ -176,14 +188,14 @@ class Freedom:
     def _exactly_allowed(self) -> list[list[Fraction]] | None:
         """A rational basis of the allowed twists, in rational coordinates; None where they have none that is known."""
         at = self.at
-        if at.exact_rows is None:
+        if at.exact_apart is None:
             return None
         rows = []
         for index in at.held.structural:
-            row = at.exact_rows[index]
+            row = at.exact_apart[index]
             entries = [RootSum.of(x) for x in row.wrench]
             for actuator, rate in row.rates.items():
-                own = at.exact_rows[at.held.actuators[actuator].equation]
+                own = at.exact_apart[at.held.actuators[actuator].equation]
                 factor = rate * own.rates[actuator].inverse()
                 entries = [x - factor * y for x, y in zip(entries, own.wrench, strict=True)]
             ratio = rationalised(entries)
@@ -198,11 +210,11 @@ class Freedom:
         at = self.at
         if not at.held.structural:
             return self.directions
-        if self._exactly_allowed is None or at.exact_rows is None:
+        if self._exactly_allowed is None or at.exact_apart is None:
             return None
         rows = []
         for k, actuator in enumerate(at.held.actuators):
-            row = at.exact_rows[actuator.equation]
+            row = at.exact_apart[actuator.equation]
             entries = [
                 sum((RootSum.of(x) * e[j] for x, e in zip(row.wrench, self.free.expansion, strict=True)), RootSum())
                 for j in range(len(self.free.places))
@@ -213,7 +225,7 @@ class Freedom:
             place = next(j for j, x in enumerate(ratio) if x)
             rows.append((ratio, entries[place] * (1 / ratio[place]) * row.rates[k].inverse()))
         squares = column_squares(at.metric, at.motion.twist)
-        return _directions(rows, [squares[place] for place in self.free.places])
+        return directions_of(rows, [squares[place] for place in self.free.places])
 
     @cached_property
     def expansion(self) -> arb_mat:
@@ -237,7 +249,7 @@ class Freedom:
             return self.ball_jacobian * self.expansion if self.at.held.structural else self.ball_jacobian
 
 
-def _directions(rows: Sequence[tuple[list[Fraction], RootSum]], squares: Sequence[Fraction]) -> Directions:
+def directions_of(rows: Sequence[tuple[list[Fraction], RootSum]], squares: Sequence[Fraction]) -> Directions:
     """Rows that are a number times a rational row, as positive weights times integer rows."""
     integral, weights = [], []
     for ratio, factor in rows:

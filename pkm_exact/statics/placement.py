@@ -133,19 +133,35 @@ def _chain_values(robot: Robot, place: _Place) -> list[Any]:
 
 def _mechanism(robot: Mechanism, place: _Place) -> Held:
     values = _values(robot, place)
+    constraints = _driven(robot, values)
+    if place.configuration is not None:  # values of constraints that drives have moved too
+        values |= _own(robot, place, list(constraints.values()))
+    for name in values:
+        if robot.drive(name) is None:
+            constraints[name] = replace(constraints[name], **{robot.value_field(name): values[name]})
+    _require_all(robot, constraints, place)
+    return _held_mechanism(robot, constraints, values)
+
+
+def _driven(robot: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
+    """The constraints where drives of these values have moved them."""
     constraints: dict[str, Any] = {constraint.name: constraint for constraint in robot.constraints}
     for name, value in values.items():
         drive = robot.drive(name)
         if drive is None:
-            constraints[name] = replace(constraints[name], **{robot.value_field(name): value})
             continue
         factors = value if isinstance(value, tuple) else (value,)
         for part in drive.parts:
             old = getattr(constraints[part.constraint], part.field)
             new = _moved(old, factors, part.axes)
             constraints[part.constraint] = replace(constraints[part.constraint], **{part.field: new})
-    _require_all(robot, constraints, place)
-    return _held_mechanism(robot, constraints, values)
+    return constraints
+
+
+def _own(robot: Mechanism, place: _Place, moved: Sequence[Constraint] | None = None) -> dict[str, Any]:
+    """The values of actuated constraints at the pose."""
+    own = robot.values_at(place.position, place.rotation, moved)
+    return {name: own[name] for name in robot.actuated if robot.drive(name) is None}
 
 
 def _held_mechanism(robot: Mechanism, constraints: Mapping[str, Constraint], values: Mapping[str, Any]) -> Held:
@@ -188,14 +204,15 @@ def _moved(start: Any, factors: Sequence[Any], axes: Sequence[Any]) -> Any:
 
 def _values(robot: Mechanism, place: _Place) -> dict[str, Any]:
     """The values of all actuators, by their names: as they follow from the pose, those of drives as they are meant."""
-    own = robot.values_at(place.position, place.rotation)
-    values: dict[str, Any] = {name: own[name] for name in robot.actuated if robot.drive(name) is None}
+    if place.configuration is not None and not isinstance(place.configuration, LockedValues):
+        raise InputError("configuration: is not one of a mechanism; give one of its configurations")
+    values = _own(robot, place)
     if len(values) == len(robot.actuated):
         return values
     if place.configuration is not None:
-        if not isinstance(place.configuration, LockedValues):
-            raise InputError("configuration: is not one of a mechanism; give one of its configurations")
         return dict(zip(robot.actuated, place.configuration.values, strict=True)) | values
+    if place.modes is None:
+        _require_own_values(robot)
     modes = [
         (found.name, found.modes)
         for found in joint_values(robot, place.position, place.rotation)
@@ -203,6 +220,20 @@ def _values(robot: Mechanism, place: _Place) -> dict[str, Any]:
     ]
     chosen = _chosen(modes, place.modes)
     return values | {name: value for (name, _), value in zip(modes, chosen, strict=True)}
+
+
+def _require_own_values(robot: Mechanism) -> None:
+    """Refuse drives that move a constraint together: the pose does not say where they are."""
+    movers: dict[str, list[str]] = {}
+    for drive in robot.drives:
+        for name in dict.fromkeys(part.constraint for part in drive.parts):
+            movers.setdefault(name, []).append(drive.name)
+    for name, found in movers.items():
+        if len(found) > 1:
+            raise InputError(
+                f"pose: {' and '.join(found)} move {shown(name)} together, so that a pose does not say where they are; "
+                "name a configuration, in which they stand there"
+            )
 
 
 def _require_all(robot: Mechanism, constraints: Mapping[str, Any], place: _Place) -> None:

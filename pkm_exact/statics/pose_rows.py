@@ -5,8 +5,9 @@ coordinates of the base, ordinary and unscaled:
 
     J_x t = J_q q',    q' = J t
 
-J_x has the wrenches of the actuated constraints as rows, J_q is diagonal, J = J_q^-1 J_x. The other constraints allow
-only twists with W_s t = 0.
+J_x has the wrenches of the actuated constraints as rows, J = J_q^-1 J_x. J_q is diagonal if each of them has one
+actuator. The other constraints allow only twists with W_s t = 0. With more actuators than equations for them J_q has
+more columns than rows, and there is no J: q' does not follow from t (``forward_map``).
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from pkm_exact.roots.interval import Interval
 from pkm_exact.statics.actuated_equations import Equation, Held
 from pkm_exact.statics.ball_rows import BITS, BallPose, BallRow, enclosed
 from pkm_exact.statics.enclosed_matrix import EnclosedMatrix
+from pkm_exact.statics.entangled_rows import ball_rates, ball_rows_apart, exact_rows_apart
 from pkm_exact.statics.exact_rows import ExactRow, column_squares, exact_row
 from pkm_exact.statics.singularity_kinds import Kinds, Singularity, kinds_at_rational_pose, kinds_in_balls
 
@@ -102,6 +104,24 @@ class PoseRows:
             return tuple(pose.row(equation, self.motion.twist) for equation in self.equations)
 
     @cached_property
+    def exact_apart(self) -> tuple[ExactRow, ...] | None:
+        """The same rows with one for every actuator that has no other; None where there is no J, or it is not exact."""
+        if self.exact_rows is None or self.held.is_redundant:
+            return None
+        return self.exact_rows if self.held.is_diagonal else exact_rows_apart(self.held, self.exact_rows)
+
+    @cached_property
+    def ball_apart(self) -> tuple[BallRow, ...] | None:
+        """The same in balls and ordinary coordinates; None where there is or may be no J."""
+        if self.held.is_redundant or not self.held.actuators:
+            return None
+        if not self.held.is_diagonal:
+            with working_precision(BITS):
+                return ball_rows_apart(self.held, self.ball_rows)
+        places = enumerate(self.held.actuators)
+        return None if any(self.ball_rows[x.equation].rates[k].contains(0) for k, x in places) else self.ball_rows
+
+    @cached_property
     def wrenches(self) -> EnclosedMatrix:
         """The wrenches of all constraints, at unit force; the moment is about the platform's origin."""
         columns = [WRENCH[k] for k in self.motion.twist]
@@ -125,34 +145,34 @@ class PoseRows:
 
     @cached_property
     def J_q(self) -> EnclosedMatrix:
-        """What actuators do, a diagonal matrix: J_x t = J_q q'."""
-        rates, count = self._ball_rates, len(self.actuated)
-        rows = [[rates[i] if i == k else arb(0) for i in range(count)] for k in range(count)]
+        """What actuators do: J_x t = J_q q'; diagonal if every equation has one actuator."""
+        rows = ball_rates(self.ball_rows, self._actuated, len(self.actuated))
         names = [self.equations[index].name for index in self._actuated]
         return EnclosedMatrix.of(names, [f"q'({name})" for name in self.actuated], rows)
 
     @cached_property
     def jacobian(self) -> EnclosedMatrix | None:
-        """J in q' = J t; None if nothing is actuated, or an entry of J_q is or may be 0."""
-        if self.exact_rows is not None:
-            exact = self.exact_jacobian
-            return None if exact is None else EnclosedMatrix.exactly(self.actuated, self.twist, exact)
-        rates = self._ball_rates
-        if not rates or any(rate.contains(0) for rate in rates):
+        """J in q' = J t; None if nothing is actuated, J_q is or may be singular, or q' does not follow from t."""
+        exact = self.exact_jacobian
+        if exact is not None:
+            return EnclosedMatrix.exactly(self.actuated, self.twist, exact)
+        if self.ball_apart is None or (self.exact_rows is not None and self.held.is_diagonal):
             return None
-        rows = [self.ball_rows[index].wrench for index in self._actuated]
+        found = []
         with working_precision(BITS):
-            found = [[entry / rate for entry in row] for row, rate in zip(rows, rates, strict=True)]
+            for k, actuator in enumerate(self.held.actuators):
+                row = self.ball_apart[actuator.equation]
+                found.append([entry / row.rates[k] for entry in row.wrench])
         return EnclosedMatrix.of(self.actuated, self.twist, found)
 
     @cached_property
     def exact_jacobian(self) -> tuple[tuple[RootSum, ...], ...] | None:
-        """J as sums of square roots; None where there is no J or the pose is enclosed."""
-        if self.exact_rows is None:
+        """J as sums of square roots; None where there is no J or it is enclosed."""
+        if self.exact_apart is None:
             return None
         found = []
         for index, actuator in enumerate(self.held.actuators):
-            row = self.exact_rows[actuator.equation]
+            row = self.exact_apart[actuator.equation]
             rate = row.rates[index]
             if not rate.terms:
                 return None
@@ -191,14 +211,9 @@ class PoseRows:
         return self.kinds.found
 
     @property
-    def _actuated(self) -> list[int]:
-        """Indices of the equations of the actuators."""
-        return [actuator.equation for actuator in self.held.actuators]
-
-    @property
-    def _ball_rates(self) -> list[arb]:
-        """The diagonal of J_q."""
-        return [self.ball_rows[actuator.equation].rates[k] for k, actuator in enumerate(self.held.actuators)]
+    def _actuated(self) -> tuple[int, ...]:
+        """Indices of the equations that J_x and J_q have as rows."""
+        return self.held.driven
 
     def arm(self, point: Sequence[Fraction]) -> list[Any]:
         """From the platform's origin to a point of the platform, in ordinary coordinates of base and platform.

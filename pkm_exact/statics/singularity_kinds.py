@@ -2,7 +2,8 @@
 
 With q' the speeds of the actuators, t the twist of the platform, W the wrenches of all constraints, f freedoms:
 
-    type 1        an entry of J_q is 0: this actuator moves, and the platform need not (Gosselin and Angeles, 1990)
+    type 1        J_q is singular: an actuator moves, and the platform need not (Gosselin and Angeles, 1990); with more
+                  actuators than equations for them, where that is so everywhere: its rank is below that of its pattern
     type 2        rank W < f although all actuators are locked: the platform moves, or bears some load badly
     constraint    the wrenches of the constraints that are not actuated have a smaller rank than elsewhere (Zlatanov,
                   Bonev and Gosselin, 2002)
@@ -26,6 +27,7 @@ from pkm_exact.motions.motion import Motion
 from pkm_exact.polytopes.rationals import rational_matrix
 from pkm_exact.statics.actuated_equations import Equation, Held
 from pkm_exact.statics.ball_rows import BallRow
+from pkm_exact.statics.entangled_rows import ball_rates, exact_rates
 from pkm_exact.statics.exact_rows import ExactRow, exact_row
 from pkm_exact.statics.ranks import left_kernel, proved_rank, rationalised, root_sum_rank
 
@@ -39,6 +41,7 @@ MEANINGS: Final = {
     CONSTRAINT: "the constraints that are not actuated resist fewer motions than they do at a pose chosen at random",
     ARCHITECTURE: "the constraints are dependent at every pose",
 }
+DEPENDENT: Final = "rows of J_q are dependent here, though not by which actuators enter which constraints"
 
 
 @dataclass(frozen=True)
@@ -51,13 +54,16 @@ class Singularity:
         "type-1", "type-2", "constraint" or "architecture".
     constraints : tuple of str
         Those that cause it: whose wrenches are dependent, or whose actuator is.
+    meaning : str
+        If it is not that of the name.
     """
 
     name: str
     constraints: tuple[str, ...]
+    meaning: str = ""
 
     def __str__(self) -> str:
-        return f"{self.name} ({', '.join(self.constraints)}): {MEANINGS[self.name]}"
+        return f"{self.name} ({', '.join(self.constraints)}): {self.meaning or MEANINGS[self.name]}"
 
 
 @dataclass(frozen=True)
@@ -87,9 +93,7 @@ def kinds_at_rational_pose(held: Held, rows: Sequence[ExactRow], motion: Motion,
     wrenches = [rationalised(row.wrench) for row in rows]
     found: list[Singularity] = []
     undecided: list[str] = []
-    series = tuple(x.name for k, x in enumerate(held.actuators) if not rows[x.equation].rates[k].terms)
-    if series:
-        found.append(Singularity(TYPE_1, series))
+    found += _type_1(held, rows)
     rank, causes = _rank_and_causes([row.wrench for row in rows], wrenches, range(len(rows)))
     below, structural_causes = _rank_and_causes([row.wrench for row in rows], wrenches, structural)
     usual = generic_rank([equations[index] for index in structural], motion, metric) if structural else 0
@@ -115,8 +119,8 @@ def kinds_in_balls(
     equations, structural, count = held.equations, held.structural, motion.dimension
     every = tuple(equation.name for equation in equations)
     found: list[Singularity] = []
-    series = [x.name for k, x in enumerate(held.actuators) if rows[x.equation].rates[k].contains(0)]
-    undecided = [TYPE_1] if series else []
+    rates, wanted = ball_rates(rows, held.driven, len(held.actuators)), _pattern_rank(held)
+    undecided = [TYPE_1] if wanted and proved_rank(arb_mat(rates)) < wanted else []
     proved = _proved(rows, range(len(rows)))
     if rank is None and proved == min(count, len(rows)):
         rank = proved
@@ -140,6 +144,41 @@ def kinds_in_balls(
         else:
             undecided.append(TYPE_2)
     return Kinds(rank, below if below == usual else None, tuple(found), tuple(undecided))
+
+
+def _pattern_rank(held: Held) -> int:
+    """The rank of J_q if the numbers that are not 0 for sure had no relations."""
+    if not held.is_redundant:
+        return len(held.actuators)
+    matched: dict[int, int] = {}
+
+    def place(index: int, seen: set[int]) -> bool:
+        for rate in held.equations[index].rates:
+            if rate.actuator not in seen:
+                seen.add(rate.actuator)
+                if rate.actuator not in matched or place(matched[rate.actuator], seen):
+                    matched[rate.actuator] = index
+                    return True
+        return False
+
+    return sum(place(index, set()) for index in held.driven)
+
+
+def _type_1(held: Held, rows: Sequence[ExactRow]) -> list[Singularity]:
+    """Whether J_q is singular at an exact pose, and which actuators move alone; or which constraints none moves."""
+    count, driven = len(held.actuators), held.driven
+    if not count:
+        return []
+    rates = exact_rates(rows, driven, count)
+    rank = root_sum_rank(rates)
+    if rank == _pattern_rank(held):
+        return []
+    if held.is_redundant:
+        causes = [k for k in range(len(driven)) if root_sum_rank(rates[:k] + rates[k + 1 :] or [[]]) == rank]
+        names = tuple(held.equations[driven[k]].name for k in causes)
+        return [Singularity(TYPE_1, names, DEPENDENT)]
+    alone = [k for k in range(count) if root_sum_rank([row[:k] + row[k + 1 :] for row in rates]) == rank]
+    return [Singularity(TYPE_1, tuple(held.actuators[k].name for k in alone))]
 
 
 def _proved(rows: Sequence[BallRow], places: Iterable[int]) -> int:
