@@ -48,10 +48,10 @@ class SystemEquations:
         size = len(self.system.unknowns)
         return tuple(tuple(polynomial.derivative(j) for j in range(size)) for polynomial in self.combinations)
 
-    def values(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
+    def values(self, ring: ResidueRing, point: Sequence[fmpz_poly]) -> list[fmpz_poly]:
         """The square system at a point."""
-        values = PointProducts(ring, point)
-        return [values.evaluate(polynomial) for polynomial in self.combinations]
+        values = PointProducts(ring, [ring.polynomials(coordinate) for coordinate in point])
+        return [integer_polynomial(values.evaluate(polynomial)) for polynomial in self.combinations]
 
     def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
         """The Jacobian matrix at a point."""

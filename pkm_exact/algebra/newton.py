@@ -10,14 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import chain, count
 from typing import Protocol
 
-from flint import fmpz_mod_poly, nmod_poly
+from flint import fmpz, fmpz_mod_poly, fmpz_poly, nmod_poly
 
 from pkm_exact.algebra.completion import Completion
 from pkm_exact.algebra.groebner import UnluckyPrimeError
-from pkm_exact.algebra.residue_ring import ResidueRing, coefficients, combination
+from pkm_exact.algebra.residue_ring import ResidueRing, coefficients, combination, integer_polynomial
 
 Element = fmpz_mod_poly
 
@@ -25,8 +26,8 @@ Element = fmpz_mod_poly
 class Equations(Protocol):
     """n equations in n unknowns that can be evaluated in a residue ring."""
 
-    def values(self, ring: ResidueRing, point: Sequence[Element]) -> list[Element]:
-        """The left-hand sides at a point, reduced."""
+    def values(self, ring: ResidueRing, point: Sequence[fmpz_poly]) -> list[fmpz_poly]:
+        """The left-hand sides at a point, as polynomials over Z, reduced or not."""
         ...
 
     def jacobian(self, ring: ResidueRing, point: Sequence[Element]) -> list[list[Element]]:
@@ -40,16 +41,26 @@ class Equations(Protocol):
 
 @dataclass(frozen=True)
 class PadicRepresentation:
-    """q and the coordinates as polynomials modulo q, with coefficients modulo ``modulus``."""
+    """q and the coordinates as polynomials modulo q, with coefficients in [0, ``modulus``)."""
 
     modulus: int
-    eliminant: tuple[int, ...]
-    coordinates: tuple[tuple[int, ...], ...]
+    relation: fmpz_poly
+    point: tuple[fmpz_poly, ...]
+
+    @cached_property
+    def eliminant(self) -> tuple[int, ...]:
+        """Coefficients of q, lowest degree first."""
+        return tuple(map(int, self.relation.coeffs()))
+
+    @cached_property
+    def coordinates(self) -> tuple[tuple[int, ...], ...]:
+        """Those of the coordinates."""
+        return tuple(tuple(map(int, coordinate.coeffs())) for coordinate in self.point)
 
 
-FACTORED = ((1, 4), (4, 20))
+FACTORED = ((1, 4), (4, 12))
 """First precisions of the Jacobian, each with the last exponent it serves: a step is cheap beside a factorisation."""
-STEADY = (10, 60)
+STEADY = (12, 60)
 """The same, to be doubled from there on: fine steps, because what lies beyond the precision needed is wasted."""
 
 
@@ -61,7 +72,7 @@ def precision_schedule(limit: int) -> Iterator[tuple[int, int]]:
     Examples
     --------
     >>> list(precision_schedule(50))
-    [(2, 1), (3, 1), (4, 1), (8, 4), (12, 4), (16, 4), (20, 4), (30, 10), (40, 10), (50, 10)]
+    [(2, 1), (3, 1), (4, 1), (8, 4), (12, 4), (24, 12), (36, 12), (48, 12)]
     """
     reached = 1
     for factored, last in chain(FACTORED, ((STEADY[0] << k, STEADY[1] << k) for k in count())):
@@ -96,17 +107,21 @@ def lift(
         If the Jacobian is not a unit: a multiple solution, or an unlucky prime or combination of equations.
     """
     prime = int(eliminant.modulus())
-    relation = [int(value) for value in eliminant.coeffs()]
-    point = [[int(value) for value in coordinate.coeffs()] for coordinate in coordinates_mod_p]
-    precision, factored = 1, 0
+    reached = PadicRepresentation(prime, _integral(eliminant), tuple(map(_integral, coordinates_mod_p)))
+    before, factored = 1, 0
+    quotients = [fmpz_poly()] * len(reached.point)
     factors: _Factors | None = None
     for target, wanted in precision_schedule(limit):
         if factors is None or wanted > factored:
-            ring = ResidueRing(prime**wanted, tuple(value % prime**wanted for value in relation))
-            factors, factored = _factored_jacobian(equations, ring, point, factors, prime), wanted
-        relation, point = _step(equations, prime**precision, prime**target, relation, point, form, factors)
-        precision = target
-        yield PadicRepresentation(prime**precision, tuple(relation), tuple(map(tuple, point)))
+            ring = ResidueRing(prime**wanted, tuple(value % prime**wanted for value in reached.eliminant))
+            factors, factored = _factored_jacobian(equations, ring, reached.point, factors, prime), wanted
+        step = _Step(equations, form, factors, before, reached, prime**target)
+        before, reached, quotients = reached.modulus, *step.taken(quotients)
+        yield reached
+
+
+def _integral(polynomial: nmod_poly) -> fmpz_poly:
+    return fmpz_poly([int(value) for value in polynomial.coeffs()])
 
 
 def is_regular(equations: Equations, eliminant: nmod_poly, coordinates_mod_p: Sequence[nmod_poly]) -> bool:
@@ -116,7 +131,7 @@ def is_regular(equations: Equations, eliminant: nmod_poly, coordinates_mod_p: Se
     """
     prime = int(eliminant.modulus())
     ring = ResidueRing(prime, tuple(int(value) for value in eliminant.coeffs()))
-    point = [[int(value) for value in coordinate.coeffs()] for coordinate in coordinates_mod_p]
+    point = [_integral(coordinate) for coordinate in coordinates_mod_p]
     try:
         _factored_jacobian(equations, ring, point, None, prime)
     except UnluckyPrimeError:
@@ -124,44 +139,65 @@ def is_regular(equations: Equations, eliminant: nmod_poly, coordinates_mod_p: Se
     return True
 
 
-def _step(
-    equations: Equations,
-    modulus: int,
-    target: int,
-    relation: Sequence[int],
-    point: Sequence[Sequence[int]],
-    form: Sequence[int],
-    factors: _Factors,
-) -> tuple[list[int], list[list[int]]]:
-    """One Newton step from ``modulus`` to ``target``; the corrections are found in the ring of the factors."""
-    wide, ring = ResidueRing(target, tuple(relation)), factors.ring
-    old = [wide.convert(coordinate) for coordinate in point]
-    corrections = factors.solve([_quotient(value, modulus, ring) for value in equations.values(wide, old)])
-    # The form's value at the corrected point is T + shift; like the correction, the shift is a multiple of the old
-    # modulus. Lifting the coefficients of the point has itself moved the form by such a multiple.
-    carry = _quotient(wide.reduce(combination(form, old) - wide.convert((0, 1))), modulus, ring)
-    shift = carry - combination(form, corrections)
-    new = []
-    for coordinate, correction in zip(point, corrections, strict=True):
-        slope = ring.convert(coordinate).derivative()
-        change = correction * -1 - ring.multiply(slope, shift)
-        new.append(_add_multiple(coordinate, change, modulus, target))
-    change = ring.multiply(ring.relation.derivative(), shift) * -1
-    return _add_multiple(relation, change, modulus, target), new
+@dataclass(frozen=True)
+class _Step:
+    """One Newton step to the modulus ``target``; the corrections are found in the ring of the factors.
+
+    The equations have values F = Q q + r with r divisible by the modulus that was reached. Q modulo that which had been
+    reached ``before`` is known from there, so that F - Q q is divisible by it, and the quotient has few digits to be
+    divided by q.
+    """
+
+    equations: Equations
+    form: Sequence[int]
+    factors: _Factors
+    before: int
+    reached: PadicRepresentation
+    target: int
+
+    @cached_property
+    def wide(self) -> ResidueRing:
+        """The ring at the modulus that is wanted."""
+        return ResidueRing(self.target, self.reached.eliminant)
+
+    def taken(self, quotients: Sequence[fmpz_poly]) -> tuple[PadicRepresentation, list[fmpz_poly]]:
+        """What is reached, and the quotients modulo the target."""
+        ring, modulus, old = self.factors.ring, self.reached.modulus, self.reached.point
+        residuals, quotients = self._residuals(quotients)
+        corrections = self.factors.solve(residuals)
+        # The form's value at the corrected point is T + shift; like the correction, the shift is a multiple of the old
+        # modulus. Lifting the coefficients of the point has itself moved the form by such a multiple.
+        value = self.wide.polynomials(combination(self.form, old) - fmpz_poly([0, 1]))
+        carry = _divided(integer_polynomial(self.wide.reduce(value)), modulus, ring)
+        shift = carry - combination(self.form, corrections)
+        point = []
+        for coordinate, correction in zip(old, corrections, strict=True):
+            change = correction * -1
+            if shift:
+                change -= ring.multiply(ring.polynomials(coordinate).derivative(), shift)
+            point.append(coordinate + modulus * integer_polynomial(change))
+        relation = self.reached.relation
+        if shift:
+            relation += modulus * integer_polynomial(ring.multiply(ring.relation.derivative(), shift) * -1)
+        return PadicRepresentation(self.target, relation, tuple(point)), quotients
+
+    def _residuals(self, quotients: Sequence[fmpz_poly]) -> tuple[list[Element], list[fmpz_poly]]:
+        """The equations' values divided by the modulus, in the ring of the factors; the quotients modulo the target."""
+        relation, before, digits = self.reached.relation, self.before, self.target // self.before
+        narrow = ResidueRing(digits, tuple(value % digits for value in self.reached.eliminant))
+        residuals, further = [], []
+        for value, quotient in zip(self.equations.values(self.wide, self.reached.point), quotients, strict=True):
+            rest = value - quotient * relation if quotient else value
+            added, residual = divmod(_divided(rest, before, narrow), narrow.relation)
+            residuals.append(_divided(integer_polynomial(residual), self.reached.modulus // before, self.factors.ring))
+            further.append(quotient + before * integer_polynomial(added))
+        return residuals, further
 
 
-def _quotient(value: Element, modulus: int, ring: ResidueRing) -> Element:
-    """value / modulus, which divides it, in a ring of lower precision."""
-    return ring.convert(coefficient // modulus for coefficient in coefficients(value))
-
-
-def _add_multiple(base: Sequence[int], change: Element, scale: int, modulus: int) -> list[int]:
-    added = coefficients(change)
-    size = max(len(base), len(added))
-    padded = list(base) + [0] * (size - len(base))
-    for index, value in enumerate(added):
-        padded[index] = (padded[index] + scale * value) % modulus
-    return padded
+def _divided(value: fmpz_poly, divisor: int, ring: ResidueRing) -> Element:
+    """value / divisor, which divides it modulo the product of the divisor and the ring's modulus, in the ring."""
+    exact = fmpz(divisor)
+    return ring.polynomials(fmpz_poly([coefficient // exact for coefficient in value.coeffs()]))
 
 
 @dataclass(frozen=True)
@@ -192,10 +228,10 @@ class _Factors:
 
 
 def _factored_jacobian(
-    equations: Equations, ring: ResidueRing, point: Sequence[Sequence[int]], previous: _Factors | None, prime: int
+    equations: Equations, ring: ResidueRing, point: Sequence[fmpz_poly], previous: _Factors | None, prime: int
 ) -> _Factors:
     """Crout's factorisation; inverses of the pivots known at a lower precision are refined, not found anew."""
-    matrix = equations.jacobian(ring, [ring.convert(coordinate) for coordinate in point])
+    matrix = equations.jacobian(ring, [ring.polynomials(coordinate) for coordinate in point])
     size = len(matrix)
     lower = [list(row) for row in matrix]
     upper = [list(row) for row in matrix]

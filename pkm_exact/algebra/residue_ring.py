@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Final
+from typing import Final, TypeVar
 
 from flint import fmpz_mod_ctx, fmpz_mod_poly, fmpz_mod_poly_ctx, fmpz_poly
+
+Polynomial = TypeVar("Polynomial", fmpz_poly, fmpz_mod_poly)
 
 _LEAST_DEGREE: Final = 12
 _LEAST_SIZE: Final = 1 << 17
 """Bits of an element from which a reduction by products is quicker."""
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=32)
 def _polynomials_modulo(modulus: int) -> fmpz_mod_poly_ctx:
     """Kept, because FLINT tests the modulus for primality each time that a context is made."""
     return fmpz_mod_poly_ctx(fmpz_mod_ctx(modulus))
@@ -87,7 +89,7 @@ def integer_polynomial(value: fmpz_mod_poly) -> fmpz_poly:
     return fmpz_poly(coefficients(value))
 
 
-def combination(scalars: Sequence[int], values: Sequence[fmpz_mod_poly]) -> fmpz_mod_poly:
+def combination(scalars: Sequence[int], values: Sequence[Polynomial]) -> Polynomial:
     """Integer linear combination; at least one value must be given."""
     total = values[0] * scalars[0]
     for scalar, value in zip(scalars[1:], values[1:], strict=True):

@@ -12,7 +12,7 @@ from functools import partial
 from math import floor
 from typing import TypeAlias
 
-from flint import arb, arb_poly, fmpz_poly
+from flint import arb, arb_poly
 
 from pkm_exact.errors import InputError, InternalContradictionError
 from pkm_exact.geometry.study import evaluate, motion_quadrics
@@ -90,9 +90,11 @@ def _at_roots(
     roots = real_root_enclosures(representation.univariate.primitive_polynomial, precision)
     if not set(indices) <= set(range(len(roots))):
         raise InternalContradictionError("the number of real roots changed with the precision")
+    with working_precision(precision):
+        polynomials = _polynomials(representation)
     for index in indices:
         with working_precision(precision):
-            coordinates = ordinary_coordinates(study_coordinates(representation, roots[index]), metric)
+            coordinates = ordinary_coordinates(study_coordinates(polynomials, roots[index]), metric)
         yield coordinates
 
 
@@ -136,10 +138,15 @@ def _cells(enclosures: Enclosures, exponent: int, decided: list[list[Interval | 
     return [[entry for entry in row if entry is not None] for row in decided]
 
 
-def study_coordinates(representation: PoseRepresentation, root: arb) -> list[arb]:
-    """(e, f) at an enclosed root of h."""
-    slope = _at(representation.denominator, root)
-    return [_at(numerator, root) / slope for numerator in representation.univariate.numerator_polynomials]
+def _polynomials(representation: PoseRepresentation) -> list[arb_poly]:
+    """h' and the numerators of (e, f), in the working precision."""
+    return [arb_poly(value) for value in (representation.denominator, *representation.univariate.numerator_polynomials)]
+
+
+def study_coordinates(polynomials: Sequence[arb_poly], root: arb) -> list[arb]:
+    """(e, f) at an enclosed root of h, from h' and the numerators."""
+    slope, *values = [polynomial(root) for polynomial in polynomials]
+    return [value / slope for value in values]
 
 
 def ordinary_coordinates(x: Sequence[arb], metric: Sequence[int]) -> list[arb]:
@@ -156,10 +163,6 @@ def ordinary_coordinates(x: Sequence[arb], metric: Sequence[int]) -> list[arb]:
     values.append(arb(metric[0] * metric[1] * metric[2]).sqrt() * x[0] / length)
     values += [scales[i] * x[i + 1] / length for i in range(3)]
     return values
-
-
-def _at(polynomial: fmpz_poly, point: arb) -> arb:
-    return arb_poly(polynomial)(point)
 
 
 def _radius_fits(value: arb, exponent: int) -> bool:

@@ -13,6 +13,9 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, motion_quadrics, pose_quadrics, pose_quartics, support
 from pkm_exact.poses.study_equations import Chart, dependent_coordinate, free_coordinates
 
+_LONG = 64
+"""Bits from which it is worth the while to take a content out."""
+
 
 @dataclass(frozen=True)
 class PoseRepresentation:
@@ -80,9 +83,9 @@ class PoseRepresentation:
 
 
 def _values(quadrics: Sequence[Quadric], x: Sequence[fmpz_poly]) -> list[fmpz_poly]:
-    """The quadratic forms at x; each product is formed once, of polynomials freed of their contents."""
-    contents = [value.content() if value else fmpz(1) for value in x]
-    shorter = [_divided(value, content) for value, content in zip(x, contents, strict=True)]
+    """The quadratic forms at x; each product is formed once, of polynomials freed of contents that are long."""
+    contents = [content if content.bit_length() > _LONG else fmpz(1) for content in (value.content() for value in x)]
+    shorter = [value if content == 1 else _divided(value, content) for value, content in zip(x, contents, strict=True)]
     products = {(k, m): shorter[k] * shorter[m] for k, m in sorted({pair for form in quadrics for pair in form})}
     values = []
     for quadric in quadrics:

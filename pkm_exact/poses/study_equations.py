@@ -87,15 +87,14 @@ class StudyEquations:
                 rows.append([a - slope * b for a, b in zip(symmetric[k], symmetric[dependent], strict=True)])
         return fmpz_mat(rows)
 
-    def values(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
+    def values(self, ring: ResidueRing, point: Sequence[fmpz_poly]) -> list[fmpz_poly]:  # noqa: ARG002  # exact
         """Left-hand sides at the free coordinates."""
         x = self._coordinates(point)
-        values = _combined(self.coefficients, [x[k] * x[m] for k, m in self.products])
-        return [ring.reduce(ring.polynomials(value)) for value in values]
+        return _combined(self.coefficients.tolist(), [x[k] * x[m] for k, m in self.products])
 
     def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
         """Partial derivatives by the free coordinates; linear in the coordinates."""
-        values = _combined(self.gradients, self._coordinates(point))
+        values = _combined(self.gradients.tolist(), self._coordinates([integer_polynomial(value) for value in point]))
         size = len(self.free)
         return [[ring.polynomials(value) for value in values[size * i : size * (i + 1)]] for i in range(size)]
 
@@ -106,11 +105,11 @@ class StudyEquations:
             return None
         return linear_translation(self.problem, self.chart, dependent_coordinate(self.chart), self.seed)
 
-    def _coordinates(self, point: Sequence[fmpz_mod_poly]) -> list[fmpz_poly]:
+    def _coordinates(self, point: Sequence[fmpz_poly]) -> list[fmpz_poly]:
         """All eight coordinates, with integer coefficients."""
         coordinates = [fmpz_poly()] * 8
         for k, value in zip(self.free, point, strict=True):
-            coordinates[k] = integer_polynomial(value)
+            coordinates[k] = value
         last = fmpz_poly([1])
         for k in self.free:
             if k < 4:
@@ -119,11 +118,13 @@ class StudyEquations:
         return coordinates
 
 
-def _combined(rows: fmpz_mat, values: Sequence[fmpz_poly]) -> list[fmpz_poly]:
+def _combined(rows: Sequence[Sequence[fmpz]], values: Sequence[fmpz_poly]) -> list[fmpz_poly]:
     """The combinations of polynomials that the rows stand for."""
-    width = max(value.length() for value in values)
-    table = []
-    for value in values:
-        coefficients = value.coeffs()
-        table.append(coefficients + [fmpz(0)] * (width - len(coefficients)))
-    return [fmpz_poly(row) for row in (rows * fmpz_mat(table)).table()]
+    combinations = []
+    for row in rows:
+        total = fmpz_poly()
+        for coefficient, value in zip(row, values, strict=True):
+            if coefficient and value:
+                total += value * coefficient
+        combinations.append(total)
+    return combinations

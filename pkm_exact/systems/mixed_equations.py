@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from random import Random
 
-from flint import fmpz_mod_poly, fmpz_mpoly
+from flint import fmpz_mod_poly, fmpz_mpoly, fmpz_poly
 
 from pkm_exact.algebra.equations import PointProducts
-from pkm_exact.algebra.residue_ring import ResidueRing, combination
+from pkm_exact.algebra.residue_ring import ResidueRing, combination, integer_polynomial
 from pkm_exact.algebra.system import PolynomialSystem
 
 _LARGEST_WEIGHT = 1 << 16
@@ -46,11 +46,11 @@ class MixedEquations:
         size = len(self.system.unknowns)
         return tuple(tuple(polynomial.derivative(j) for j in range(size)) for polynomial in self.system.polynomials)
 
-    def values(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
+    def values(self, ring: ResidueRing, point: Sequence[fmpz_poly]) -> list[fmpz_poly]:
         """The left-hand sides at a point."""
-        products = PointProducts(ring, point)
+        products = PointProducts(ring, [ring.polynomials(coordinate) for coordinate in point])
         values = [products.value(polynomial) for polynomial in self.system.polynomials]
-        return [combination(row, values) for row in self.weights]
+        return [integer_polynomial(combination(row, values)) for row in self.weights]
 
     def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
         """The Jacobian matrix at a point."""
