@@ -7,7 +7,8 @@ import pytest
 from flint import fmpq, fmpq_mat, fmpz_mat
 
 from pkm_exact.certify.checker import echelon
-from pkm_exact.certify.checker.echelon import Echelon, echelon_form, primes, reduced_rows
+from pkm_exact.certify.checker.echelon import Echelon, echelon_form, reduced_rows
+from pkm_exact.certify.checker.residues import primes
 
 FIRST = next(primes())
 

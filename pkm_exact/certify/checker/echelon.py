@@ -9,25 +9,25 @@ fulfil B X = C. If an integer D and a small integer matrix N fulfil N = D X modu
 divides B N - D C; if moreover its entries, estimated, are smaller than M, then B N = D C. So each row of A is, over Q,
 a combination of the r rows (D, N), and A has rank r at most; it has rank r at least, as it has so modulo a prime. What
 is left of a pivot is 0 modulo M, therefore 0. So these rows, divided by D, are the reduced echelon form.
+
+N is found from as many of the primes as its size asks for; modulo the others it is compared.
 """
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from math import isqrt, lcm, prod
 from typing import Final, NamedTuple, TypeAlias
 
 from flint import fmpq, fmpz, fmpz_mat, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
+from pkm_exact.certify.checker.residues import centred, combined, images, primes
 
-_FIRST: Final = (1 << 63) - 25
 _COMBINATIONS: Final = 6
 """Combinations of the columns that are looked at for their denominators."""
 _REPAIRS: Final = 8
 """Times that a factor is added to a denominator that an entry shows to lack it."""
-_BLOCK: Final = 8
-"""Residues modulo so many primes are combined first."""
 _SLACK: Final = 16
 """Bits by which a fraction must be smaller than what its residue could tell, both above and below."""
 
@@ -50,12 +50,17 @@ class Echelon(NamedTuple):
 class _Images:
     """Images of one matrix modulo primes that agree in the pivots, the best ones known."""
 
-    def __init__(self, matrix: fmpz_mat) -> None:
-        self.shape = matrix.nrows(), matrix.ncols()
+    def __init__(self, rows: int, columns: int) -> None:
+        self.shape = rows, columns
         self.pivots: list[int] | None = None
         self.others: list[int] = []
         self.images: list[tuple[int, nmod_mat]] = []
-        self.base = 1
+        self.integers: list[tuple[int, fmpz_mat]] = []
+        """Those of the images that were needed so far as integers."""
+        self.seen: list[tuple[int, fmpz_mat]] = []
+        """Some combinations of the entries of each image."""
+        self.due = 1
+        """With how many images a lifting is tried next."""
 
     def add(self, p: int, echelon: nmod_mat, rank: int) -> None:
         """Add the echelon form modulo one more prime; p is forgotten, or the others, if it has other pivots."""
@@ -64,79 +69,88 @@ class _Images:
             if self.pivots is not None and (-rank, pivots) > (-len(self.pivots), self.pivots):
                 return
             self.pivots, self.others = pivots, sorted(set(range(self.shape[1])) - set(pivots))
-            self.images = []
+            self.images, self.integers, self.seen, self.due = [], [], [], 1
         rows, columns = self.shape
-        charge(rows * columns * len(self.others) // 3)
-        chosen = nmod_mat(columns, len(self.others), p)
+        size = len(self.others)
+        charge(rows * columns * size // 3)
+        chosen = nmod_mat(columns, size, p)
         for place, column in enumerate(self.others):
             chosen[column, place] = 1
-        self.images.append((p, echelon * chosen))
+        part = echelon * chosen
+        self.images.append((p, part))
+        charge(_COMBINATIONS * (2000 + 100 * (rows + size) + rows * size // 2))
+        values = [
+            int(
+                (nmod_mat(1, rows, _weights(rows, base), p) * part * nmod_mat(size, 1, _weights(size, base + 1), p))[
+                    0, 0
+                ]
+            )
+            for base in range(3, 3 + 2 * _COMBINATIONS, 2)
+        ]
+        self.seen.append((p, fmpz_mat(1, _COMBINATIONS, values)))
 
     def lifted(self, bits: int) -> Echelon | None:
         """The echelon form over Q of a matrix with entries of that many bits, if these primes prove it."""
-        rank, size = len(self.pivots or ()), len(self.others)
-        denominator = self._denominator()
+        count, rank, size = len(self.images), len(self.pivots or ()), len(self.others)
+        if count < self.due:
+            return None
+        self.due = count + count // 8 + 1
+        denominator, expected = self._denominator()
         if denominator is None:
             return None
-        words = limbs(63 * len(self.images))
-        charge(rank * size * len(self.images) * (600 + words // 5))
-        parts = [(p, [int(value) for value in part.entries()[: rank * size]]) for p, part in self.images]
-        blocks = [_combined(parts[start : start + _BLOCK]) for start in range(0, len(parts), _BLOCK)]
-        modulus, flat = _combined(blocks, denominator)
-        flat = _centred(flat, modulus)
+        modulus, flat = prod(p for p, _ in self.images), self._numerators(denominator, expected // 62 + 2)
         for _ in range(_REPAIRS):
-            largest = max(flat, key=abs, default=0)
-            if (rank * abs(largest) + denominator) << bits < modulus:
+            largest = int(max(flat, key=abs, default=0))
+            least = (rank * abs(largest) + denominator) << bits
+            if least < modulus:
                 break
             further = _denominator(largest % modulus, modulus)
+            if further == 1:
+                self.due = max(self.due, least.bit_length() // 63 + 1)
             if further is None or further == 1:
                 return None
             denominator *= further
-            charge(rank * size * (600 + 2 * words))
-            flat = _centred([value * further % modulus for value in flat], modulus)
+            charge(rank * size * (600 + 2 * count))
+            flat = [centred(value * further, modulus) for value in flat]
         else:
             return None
-        numerators = [flat[start : start + size] for start in range(0, rank * size, size)] if size else [[]] * rank
+        entries = [int(value) for value in flat]
+        numerators = [entries[start : start + size] for start in range(0, rank * size, size)] if size else [[]] * rank
         return Echelon(self.pivots or [], self.others, denominator, numerators)
 
-    def _denominator(self) -> int | None:
-        """A common denominator of X, seen in a few of its combinations; other ones each time. None if it is too large.
+    def _denominator(self) -> tuple[int | None, int]:
+        """A common denominator of X, seen in a few of its combinations, and the bits of these times it; or None.
 
         A combination may lack a small prime factor of it, but hardly all.
         """
-        rows, columns = self.images[0][1].nrows(), len(self.others)
+        modulus, residues = combined(self.seen, 1)
         denominator = 1
-        for _ in range(_COMBINATIONS if columns else 0):
-            charge(len(self.images) * (2000 + 100 * (rows + columns) + rows * columns // 2))
-            self.base += 2
-            left, right = _weights(rows, self.base), _weights(columns, self.base + 1)
-            values = [
-                (p, [int((nmod_mat(1, rows, left, p) * part * nmod_mat(columns, 1, right, p))[0, 0])])
-                for p, part in self.images
-            ]
-            modulus, (residue,) = _combined(values, denominator)
-            further = _denominator(residue, modulus)
+        for residue in residues if self.others else ():
+            further = _denominator(int(residue * denominator % modulus), modulus)
             if further is None:
-                return None
+                return None, 0
             denominator *= further
-        return denominator
+        numerators = [centred(residue * denominator, modulus) for residue in residues]
+        return denominator, max(int(value.bit_length()) for value in numerators)
 
+    def _numerators(self, denominator: int, few: int) -> list[fmpz]:
+        """The residues of D X that are nearest to 0: those from a few images, if the others have the same, or all."""
+        if few < len(self.images):
+            flat, others = self._lifted_from(few, denominator), self.images[few:]
+            rows, size = others[0][1].nrows(), len(self.others)
+            matrix = fmpz_mat(rows, size, flat + [0] * (rows * size - len(flat)))
+            found = images(matrix, [p for p, _ in others])
+            if all(image == part * denominator for (_, image), (_, part) in zip(found, others, strict=True)):
+                return flat
+        return self._lifted_from(len(self.images), denominator)
 
-def _centred(values: Sequence[int], modulus: int) -> list[int]:
-    """The residues that are nearest to 0."""
-    return [value - modulus if 2 * value > modulus else value for value in values]
-
-
-def _combined(parts: Sequence[tuple[int, Sequence[int]]], factor: int = 1) -> tuple[int, list[int]]:
-    """Residues modulo the product of coprime numbers, times a factor, from those modulo each (Chinese remainders)."""
-    modulus = prod(p for p, _ in parts)
-    charge(len(parts) * 8 * limbs(modulus.bit_length()) ** 2)
-    total = [0] * len(parts[0][1])
-    for p, values in parts:
-        cofactor = modulus // p
-        weight = cofactor * pow(cofactor, -1, p) * factor % modulus
-        total = [old + weight * value for old, value in zip(total, values, strict=True)]
-    return modulus, [value % modulus for value in total]
+    def _lifted_from(self, count: int, denominator: int) -> list[fmpz]:
+        """The residues of D X modulo the product of so many of the primes."""
+        rank, size = len(self.pivots or ()), len(self.others)
+        for p, part in self.images[len(self.integers) : count]:
+            charge(400 * rank * size)
+            self.integers.append((p, fmpz_mat(rank, size, [int(value) for value in part.entries()[: rank * size]])))
+        return combined(self.integers[:count], denominator)[1]
 
 
 def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
@@ -150,18 +164,14 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     rows, columns = len(table), len(table[0])
     charge(200 * rows * columns)
     sizes = [abs(value).bit_length() for row in table for value in row if value]
-    matrix, images = fmpz_mat(table), _Images(fmpz_mat(table))
-    reduction = 6 * rows * columns + 12 * sum(map(limbs, sizes))
+    known = _Images(rows, columns)
     elimination = rows * min(rows, columns) * columns // 3 + 20 * rows * columns
-    due = 1
-    for p in primes():
-        charge(reduction + elimination)
-        images.add(p, *nmod_mat(matrix, p).rref())
-        if len(images.images) >= due:
-            due += due // 8 + 1
-            found = images.lifted(max(sizes))
-            if found is not None:
-                return found
+    for p, image in images(fmpz_mat(table), primes()):
+        charge(elimination)
+        known.add(p, *image.rref())
+        found = known.lifted(max(sizes))
+        if found is not None:
+            return found
     raise AssertionError("there are primes enough")
 
 
@@ -241,15 +251,6 @@ def _of_dense(rows: Sequence[Row]) -> dict[int, Row]:
         entries = zip(others, numerators, strict=True)
         found[columns[pivot]] = {column: fmpq(value, form.denominator) for column, value in entries if value}
     return found
-
-
-def primes() -> Iterator[int]:
-    """Primes below 2^63, decreasing."""
-    candidate = _FIRST
-    while True:
-        if fmpz(candidate).is_prime():
-            yield candidate
-        candidate -= 2
 
 
 def _staircase(echelon: nmod_mat, rank: int) -> list[int]:
