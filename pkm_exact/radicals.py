@@ -99,6 +99,9 @@ class RootSum:
     def __truediv__(self, divisor: Number) -> RootSum:
         return self * (divisor.inverse() if isinstance(divisor, RootSum) else 1 / Fraction(divisor))
 
+    def __rtruediv__(self, dividend: Number) -> RootSum:
+        return self.inverse() * dividend
+
     def inverse(self) -> RootSum:
         """The reciprocal of a number with two terms at most, by its conjugate.
 

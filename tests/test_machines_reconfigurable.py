@@ -6,7 +6,6 @@ import pytest
 
 from pkm_exact.claim import Claim
 from pkm_exact.engine import solve
-from pkm_exact.errors import InputError
 from pkm_exact.geometry.drive_modes import joint_values
 from pkm_exact.geometry.inverse import rotation_of
 from pkm_exact.geometry.joint_types import JointGeometry
@@ -78,11 +77,6 @@ def test_a_strut_is_as_long_as_its_joint_is_from_the_guide() -> None:
     length = strut.position  # type: ignore[union-attr]
     assert length.p == 0
     assert length.q * length.q * length.n == 2 * 50**2
-
-
-def test_a_crank_of_a_free_collar_has_no_closed_form_here() -> None:
-    with pytest.raises(InputError, match="its equation at a pose is not linear in cosine and sine"):
-        joint_values(robot("R-TCS", 6), (Fraction(0), Fraction(0), Fraction(150)), UNTURNED)
 
 
 # Mobility, table 3

@@ -20,7 +20,7 @@ from pkm_exact.geometry.drive_modes import JointModes, joint_values
 from pkm_exact.geometry.inverse import Matrix
 from pkm_exact.geometry.mechanism import Mechanism, is_square
 from pkm_exact.geometry.surds import Surd
-from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, Mode, SlideMode
+from pkm_exact.geometry.working_modes import CrankMode, EnclosedCrank, FreeCrank, Mode, SlideMode
 
 
 def as_object(
@@ -129,6 +129,10 @@ def _shown(mode: Mode, width: Fraction) -> tuple[str, str]:
         return surd_decimal(mode.position, width), short(str(mode.position))
     if isinstance(mode, FreeCrank):
         return "any angle", ""
+    if isinstance(mode, EnclosedCrank):
+        exact = mode.half_tangent.radicals
+        text = f"half tangent {exact}" if exact is not None else "root of a polynomial: see --format json"
+        return surd_decimal(mode.half_tangent, width), short(text)
     return _crank(mode, width)
 
 

@@ -15,10 +15,12 @@ from pkm_exact.geometry.inverse import Matrix, distance_squared
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.ordinary_pose import OrdinaryMatrix, ordinary_position, ordinary_rotation
+from pkm_exact.geometry.quartic_roots import ValueAtRoot
 from pkm_exact.geometry.robot import Robot
 from pkm_exact.geometry.surds import Surd
 from pkm_exact.geometry.working_modes import (
     CrankMode,
+    EnclosedCrank,
     FreeCrank,
     Mode,
     SlideMode,
@@ -86,6 +88,10 @@ def mode_object(mode: Mode, width: Fraction) -> dict[str, Any]:
         return {"position": exact_and_bounds(mode.position, width)}
     if isinstance(mode, FreeCrank):
         return {"free": True}
+    if isinstance(mode, EnclosedCrank):
+        polynomial = list(map(str, mode.half_tangent.root.polynomial))
+        tangent_object = _enclosed(mode.half_tangent, width) | {"polynomial": polynomial}
+        return {"cos": _enclosed(mode.cos, width), "sin": _enclosed(mode.sin, width), "half_tangent": tangent_object}
     tangent = None if mode.half_tangent is None else exact_and_bounds(mode.half_tangent, width)
     return {"cos": exact_and_bounds(mode.cos, width), "sin": exact_and_bounds(mode.sin, width), "half_tangent": tangent}
 
@@ -93,6 +99,11 @@ def mode_object(mode: Mode, width: Fraction) -> dict[str, Any]:
 def exact_and_bounds(value: Surd, width: Fraction) -> dict[str, Any]:
     """A number exactly, and with rational bounds."""
     return {"exact": str(value), "bounds": list(map(str, value.enclosure(width)))}
+
+
+def _enclosed(value: ValueAtRoot, width: Fraction) -> dict[str, Any]:
+    exact = value.radicals
+    return {"exact": None if exact is None else str(exact), "bounds": list(map(str, value.enclosure(width)))}
 
 
 def pose_lines(robot: Machine, position: Vector, rotation: Matrix, nearest: Fraction | None = None) -> list[str]:
@@ -164,7 +175,7 @@ def _chain_lines(robot: Robot, modes: list[tuple[Mode, ...]], width: Fraction) -
 def _row(leg: int, mode: Mode, width: Fraction) -> tuple[str, ...]:
     if isinstance(mode, SlideMode):
         return str(leg), surd_decimal(mode.position, width), short(str(mode.position))
-    if isinstance(mode, FreeCrank):
+    if not isinstance(mode, CrankMode):
         return str(leg), "any", "", "", "", "any angle"
     cosine, sine, angle = surd_decimal(mode.cos, width), surd_decimal(mode.sin, width), _degrees(mode)
     if mode.half_tangent is None:
@@ -207,14 +218,15 @@ def _quoted(value: Fraction) -> str:
     return str(value) if value.denominator == 1 else f'"{value}"'
 
 
-def surd_decimal(value: Surd, width: Fraction) -> str:
+def surd_decimal(value: Surd | ValueAtRoot, width: Fraction) -> str:
     """Decimals that are right to one unit of the last: all of them, if they end, else as many as the width asks for.
 
     >>> surd_decimal(Surd(Fraction(0), Fraction(1, 10**20), 2 * 10**40), Fraction(1, 1000))
     '1.414'
     """
     low, high = value.enclosure(width)
-    if (high - low) * 1000 < width and (value.n or value.p.denominator > _LARGEST_DENOMINATOR):
+    ends = isinstance(value, Surd) and value.is_rational and value.p.denominator <= _LARGEST_DENOMINATOR
+    if (high - low) * 1000 < width and not ends:
         low, high = floor(low / width) * width, ceil(high / width) * width
     return decimal(Interval(low, high))
 

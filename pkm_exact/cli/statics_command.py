@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 @click.option("--pose", "number", type=click.IntRange(min=1), metavar="K", help="Pose number K of the solution.")
 @pose_options(required=False)
 @click.option("--configuration", metavar="NAME", shell_complete=configurations, help="Configuration of the model file.")
-@click.option("--modes", metavar="SIGNS", help="Working mode at --position: + or - for each slide or crank, as in ++-.")
+@click.option("--modes", metavar="SIGNS", help="Working mode at --position: + or - (or its number) for each joint.")
 @click.option("--model", type=arguments.FilePath(), metavar="MODEL", help="The model file of CERT, for its drives.")
 @click.option(
     "--load", metavar="FX,..,MZ", help="Force, or force and moment, on the platform: which actuator forces bear it."

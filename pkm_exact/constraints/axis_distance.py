@@ -15,6 +15,7 @@ from pkm_exact.constraints.constraint import Role, SquareForm
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Form, Vector
 from pkm_exact.constraints.point_in_plane import InPlane
+from pkm_exact.radicals import RootSum
 
 
 @dataclass(frozen=True)
@@ -70,6 +71,8 @@ class AxisDistance:
         norm = sum((g * n * n for g, n in zip(metric, v, strict=True)), Fraction(0))
         sphere = Distance(self.point, self.platform, self.radius_squared).forms(metric)[0]
         plane = InPlane(v, along, self.platform).forms(metric)[0]
+        # Of a direction in square roots that is turned, the norm is rational.
+        norm = norm if isinstance(norm, Fraction) else RootSum.of(norm).rational or norm
         return (SquareForm(sphere, plane, 1 / norm),)
 
     def scales(self, metric: tuple[int, int, int], length: Fraction) -> tuple[Fraction, ...]:  # noqa: ARG002

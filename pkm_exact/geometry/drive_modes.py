@@ -6,26 +6,25 @@ At a pose the constraint is one equation in the drive's value, found by evaluati
     crank    a cos + b s + c = 0,             discriminant a^2 + b^2 / w - c^2,   s = sin / sqrt(w)
 
 Two working modes where the discriminant is positive, none where it is negative; where it is 0 they meet, or there is
-one (a slide whose equation is linear), and the drive can no longer push the platform or does so twice.
+one (a slide whose equation is linear), and the drive can no longer push the platform or does so twice. A crank whose
+equation is quadratic in cosine and sine has up to four (``geometry.curved_cranks``).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Final
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.chains import JointValue
+from pkm_exact.geometry.curved_cranks import curved_modes
 from pkm_exact.geometry.drives import Drive
 from pkm_exact.geometry.inverse import Matrix
 from pkm_exact.geometry.mechanism import Mechanism, is_square
 from pkm_exact.geometry.surds import Surd, quadratic_roots
 from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, Mode, SlideMode, half_tangent
 from pkm_exact.wording import shown
-
-_CURVED: Final = "its equation at a pose is not linear in cosine and sine; no answer"
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,8 @@ class JointModes:
     ----------
     name : str
     modes : tuple
-        Slides in increasing position, cranks the minus sign first; empty if the pose is out of reach.
+        Slides in increasing position, cranks the minus sign first, or in increasing half tangent where there may be
+        four; empty if the pose is out of reach.
     discriminant : Fraction or None
         Vanishes where two modes meet; None for an actuator that has one value only.
     """
@@ -86,7 +86,7 @@ def _drive_modes(mechanism: Mechanism, drive: Drive, position: Vector, rotation:
         )
 
     if drive.is_crank and drive.parts[0].field == "direction":
-        raise InputError(f"{shown(drive.name)}: {_CURVED}")
+        return JointModes(drive.name, *curved_modes(mechanism, drive, position, rotation))
 
     def at(first: int, second: int = 0) -> Fraction:
         value = (Fraction(first), Fraction(second)) if drive.is_crank else Fraction(first)
@@ -96,7 +96,7 @@ def _drive_modes(mechanism: Mechanism, drive: Drive, position: Vector, rotation:
         forth, back, up, down = at(1, 0), at(-1, 0), at(0, 1), at(0, -1)
         centre, corner = at(0, 0), at(1, 1)
         if up + down - 2 * centre != drive.weight * (forth + back - 2 * centre) or corner != forth + up - centre:
-            raise InputError(f"{shown(drive.name)}: {_CURVED}")
+            return JointModes(drive.name, *curved_modes(mechanism, drive, position, rotation))
         return _crank(drive, (forth - back) / 2, (up - down) / 2, (forth + back) / 2)
     start, forth, back = at(0), at(1), at(-1)
     a, b = (forth + back) / 2 - start, (forth - back) / 4

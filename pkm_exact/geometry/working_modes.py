@@ -18,6 +18,7 @@ from fractions import Fraction
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import Chain, Crank, Slide
 from pkm_exact.geometry.inverse import Matrix, Metric, dot
+from pkm_exact.geometry.quartic_roots import ValueAtRoot
 from pkm_exact.geometry.surds import Surd, quadratic_roots
 
 
@@ -42,7 +43,19 @@ class FreeCrank:
     """Every angle of the crank reaches the platform joint, which lies on the motor's axis."""
 
 
-Mode = SlideMode | CrankMode | FreeCrank
+@dataclass(frozen=True)
+class EnclosedCrank:
+    """An angle of a crank whose half tangent is a root of an irreducible polynomial of degree 3 or 4.
+
+    Where that is a sum of square roots, so are all three: ``radicals`` of each.
+    """
+
+    half_tangent: ValueAtRoot
+    cos: ValueAtRoot
+    sin: ValueAtRoot
+
+
+Mode = SlideMode | CrankMode | FreeCrank | EnclosedCrank
 
 
 def platform_point(joint: Vector, position: Vector, rotation: Matrix) -> Vector:

@@ -8,7 +8,8 @@ actuator by -rate q'. So the actuators move with the platform by
 An equation may have several actuators, an actuator several equations: W y = R q'. Of a leg of length q the equation is
 |C + R B - A|^2 = q^2, W the derivative of the left side and rate 2 q. Of an offset or a product, rate is 1. A drive, a
 slide or a crank, moves fields of the constraint along a velocity d: F is a polynomial of degree 2 in its step h d, so
-that the rate is (F(-d) - F(d)) / 2, exactly.
+that the rate is (F(-d) - F(d)) / 2, exactly. Of a cylinder about a direction v that is turned, whose square is divided
+by |v|^2, that divisor stays as it is: v.d = 0.
 
 References: Gosselin and Angeles, IEEE Trans. Robotics and Automation 6 (1990), 281-290, for the two Jacobians; Shayya
 et al., IROS 2014, equations (14) to (17).
@@ -21,11 +22,12 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any, Final, TypeAlias
 
-from pkm_exact.constraints.constraint import Constraint, SquareForm
+from pkm_exact.constraints.constraint import Constraint, Role, SquareForm
 from pkm_exact.constraints.form import Form
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.mechanism import is_square
+from pkm_exact.radicals import RootSum
 
 AnyForm: TypeAlias = Form | SquareForm
 _UNIT: Final = Fraction(1)
@@ -245,8 +247,26 @@ def _stepped(name: str, constraint: Constraint, motor: Motor, metric: Metric) ->
     for sign in (1, -1):
         fields = {field: _sum(getattr(constraint, field), step, sign) for field, step in moved.items()}
         changed: Any = constraint
-        found.append(_forms(replace(changed, **fields), metric))
+        forms = _forms(replace(changed, **fields), metric)
+        found.append([_divided_alike(*both) for both in zip(forms, _forms(constraint, metric), strict=True)])
+    for field, step in moved.items():
+        if constraint.squares(metric) and constraint.fields[field] is Role.BASE_DIRECTION:
+            _require_turned(motor.name, getattr(constraint, field), step, metric)
     return found[0], found[1]
+
+
+def _divided_alike(form: AnyForm, before: AnyForm) -> AnyForm:
+    """A form after a step, its square divided by what it was divided by before."""
+    if isinstance(form, SquareForm) and isinstance(before, SquareForm):
+        return replace(form, factor=before.factor)
+    return form
+
+
+def _require_turned(name: str, direction: Any, step: Any, metric: Metric) -> None:
+    """Refuse a direction that does not keep its length to first order."""
+    change = sum((g * v * d for g, v, d in zip(metric, direction, step, strict=True)), Fraction(0))
+    if RootSum.of(change).sign():
+        raise InputError(f"{name}: moves a direction and does not turn it; velocities are not computed for that")
 
 
 def _sum(start: Any, step: Any, sign: int) -> Any:

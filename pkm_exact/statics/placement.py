@@ -24,12 +24,22 @@ from pkm_exact.geometry.mechanism import LockedValues, Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.geometry.surds import Surd
-from pkm_exact.geometry.working_modes import FreeCrank, Mode, SlideMode, platform_point, working_modes
+from pkm_exact.geometry.working_modes import (
+    CrankMode,
+    EnclosedCrank,
+    FreeCrank,
+    Mode,
+    SlideMode,
+    platform_point,
+    working_modes,
+)
 from pkm_exact.radicals import RootSum
 from pkm_exact.statics.actuated_equations import Held, Motor, held
 from pkm_exact.wording import shown
 
 _FIRST_AND_LAST: Final = {"-": 0, "+": -1}
+_IN_WORDS: Final = {2: "two", 3: "three", 4: "four"}
+_NUMBERED: Final = {str(number): number - 1 for number in range(1, 5)}
 
 
 @dataclass(frozen=True)
@@ -55,8 +65,8 @@ def held_at(
     configuration : Configuration or LockedValues, optional
         Whose joint values are meant, of a machine with slides or cranks; they must reach the pose, exactly.
     modes : str, optional
-        Or a sign for each slide and crank: "-" for the first of its two values in the order of ``legs``, "+" for the
-        other.
+        Or a sign for each slide and crank: "-" for the first of its values in the order of ``legs``, "+" for the
+        last, or its number, from 1.
 
     Raises
     ------
@@ -256,7 +266,8 @@ def _unreached(what: str, configuration: str) -> InputError:
 def _chosen(choices: Sequence[tuple[str, tuple[Mode, ...]]], modes: str | None) -> list[Any]:
     """The joint values that are meant."""
     count = len(choices)
-    if modes is not None and (len(modes) != count or set(modes) - set(_FIRST_AND_LAST)):
+    places = _FIRST_AND_LAST | _NUMBERED
+    if modes is not None and (len(modes) != count or set(modes) - set(places)):
         raise InputError(f"modes: {shown(modes)} is not a sign + or - for each of {count} slides or cranks; give that")
     values = []
     for place, (name, found) in enumerate(choices):
@@ -264,14 +275,30 @@ def _chosen(choices: Sequence[tuple[str, tuple[Mode, ...]]], modes: str | None) 
             raise InputError(f"pose: {name} does not reach it; give another")
         if modes is None and len(found) > 1:
             raise InputError(
-                f"modes: {name} reaches the pose at two joint values; give a sign for each slide or crank, such as "
-                f"{'+' * count} ({'-' * count} takes the first values that the command legs lists)"
+                f"modes: {name} reaches the pose at {_IN_WORDS[len(found)]} joint values; give a sign for each slide "
+                f"or crank, such as {'+' * count} ({'-' * count} takes the first values that the command legs lists"
+                f"{', digits those of a number' if len(found) > 2 else ''})"
             )
-        mode = found[_FIRST_AND_LAST[modes[place]] if modes else 0]
+        chosen = places[modes[place]] if modes else 0
+        if chosen >= len(found):
+            raise InputError(f"modes: {name} has {len(found)} joint values at the pose, no {chosen + 1}; name another")
+        mode = found[chosen]
         if isinstance(mode, FreeCrank):
             raise InputError(f"pose: {name} may have any value there; give another")
-        values.append(_sum(mode.position) if isinstance(mode, SlideMode) else (_sum(mode.cos), _sum(mode.sin)))
+        values.append(_value(name, mode))
     return values
+
+
+def _value(name: str, mode: SlideMode | CrankMode | EnclosedCrank) -> Any:
+    """A position, or cosine and sine."""
+    if isinstance(mode, SlideMode):
+        return _sum(mode.position)
+    if isinstance(mode, CrankMode):
+        return _sum(mode.cos), _sum(mode.sin)
+    cosine, sine = mode.cos.radicals, mode.sin.radicals
+    if cosine is None or sine is None:
+        raise InputError(f"pose: {name} reaches it at an angle that no square roots express; give another pose")
+    return cosine, sine
 
 
 def _sum(value: Surd) -> RootSum | Fraction:
