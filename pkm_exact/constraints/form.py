@@ -12,10 +12,13 @@ in ordinary coordinates, R_j and c_Rj the columns of R and of its coefficients. 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import lcm
 from typing import Any, Final, TypeAlias
+
+from pkm_exact.errors import InputError
+from pkm_exact.radicals import RootSum
 
 Vector: TypeAlias = tuple[Fraction, Fraction, Fraction]
 Form: TypeAlias = tuple[Fraction, ...]
@@ -112,11 +115,22 @@ def scale(values: Form, metric: Sequence[int], length: Fraction) -> Fraction:
     """
     square = (2 * values[0] * length) ** 2
     for first in (1, 4):
-        square += sum((values[first + i] ** 2 / metric[i] for i in range(3)), _ZERO)
+        square += _sum_of_squares((values[first + i], Fraction(1, metric[i])) for i in range(3))
     if square:
         return square
-    entries = (values[7 + 3 * i + j] ** 2 * Fraction(metric[j], metric[i]) for i in range(3) for j in range(3))
-    return sum(entries, _ZERO) / length**2 or Fraction(1)
+    entries = ((values[7 + 3 * i + j], Fraction(metric[j], metric[i])) for i in range(3) for j in range(3))
+    return _sum_of_squares(entries) / length**2 or Fraction(1)
+
+
+def _sum_of_squares(weighted: Iterable[tuple[Any, Fraction]]) -> Fraction:
+    """Rational, of a direction in square roots too where it has been turned from a rational one."""
+    total = sum((value * value * weight for value, weight in weighted), _ZERO)
+    if isinstance(total, Fraction):
+        return total
+    found = RootSum.of(total).rational
+    if found is None:
+        raise InputError("a direction's length squared is not rational; give joint values that leave it rational")
+    return found
 
 
 def value_at(
