@@ -18,7 +18,6 @@ from math import lcm
 from typing import Any, Final, TypeAlias
 
 from pkm_exact.errors import InputError
-from pkm_exact.radicals import RootSum
 
 Vector: TypeAlias = tuple[Fraction, Fraction, Fraction]
 Form: TypeAlias = tuple[Fraction, ...]
@@ -127,6 +126,8 @@ def _sum_of_squares(weighted: Iterable[tuple[Any, Fraction]]) -> Fraction:
     total = sum((value * value * weight for value, weight in weighted), _ZERO)
     if isinstance(total, Fraction):
         return total
+    from pkm_exact.radicals import RootSum
+
     found = RootSum.of(total).rational
     if found is None:
         raise InputError("a direction's length squared is not rational; give joint values that leave it rational")
