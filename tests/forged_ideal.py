@@ -511,6 +511,12 @@ FALSE: dict[str, tuple[Content, Content, str, str]] = {
         "malformed",
         BELOW,
     ),
+    "subgroups without legs": (
+        LEGS,
+        ideal((1, 1), (1, 1), ("local", [[5, 1]], 2), ("subgroups", ["a2"], [])),
+        "malformed",
+        BELOW,
+    ),
     "regular with curves": (
         OPEN,
         ideal((1, 1), (1, 1), ("local", [[1]], 2), ("regular", [], [], [], [curve(IS_U, MOVES)])),

@@ -29,6 +29,7 @@ LOCAL: dict[str, tuple[Local, int]] = {
     "parabola": (lambda u, v: (u**2 - v, u**4 - v**2, v**3), 6),
     "turning": (lambda u, v: (u**2 - Z * v, u * v, v**2), 3),
     "square and cube": (lambda u, v: (u**2, v**3), 6),
+    "curved over the field": (lambda u, v: (2 * v**2 + (1 + Z) * u, 2 * v**3 + (1 + Z) * u * v - u * v**2, u**2), 4),
 }
 """Polynomials in u and v, and the dimension of the algebra."""
 PLACES: dict[str, tuple[fmpz_mpoly, fmpz_mpoly, tuple[int, ...], tuple[int, ...]]] = {

@@ -578,6 +578,27 @@ ROOTS: dict[str, Row] = {
     "roots, with room": (_rounded(3 + _root(NEAR, False) - SLACK, 3 + _root(FAR, True) + SLACK), "accepted", GOOD),
     "roots, too low": (_rounded(3 + _root(NEAR, True), 9), "rejected", INSIDE),
     "roots, too high": (_rounded(Fraction(1), 3 + _root(FAR, False)), "rejected", INSIDE),
+    "a root of 4 and less than 2^-160, too high": (
+        region(
+            [leg((0, 0, 0), (0, 3, 0), (0, 7), direction=(0, 1, 0), rod=25 + Fraction(1, 1 << 161))],
+            modes=[1],
+        ),
+        "rejected",
+        INSIDE,
+    ),
+    "any angle with an axis, on so large a part": (
+        region(
+            [leg((0, 0, 0), (0, 0, 0))],
+            base_cones=[cone((0, 0, -1), 180)],
+            motion="translation",
+            variables=["x", "z"],
+            place=["x", 0, "z"],
+            box=[[-1, 1], [2, 3]],
+        ),
+        "rejected",
+        INSIDE,
+    ),
+    "a length from 1": (region(FREELY, box=[[1, 2]], conditions=["no_type_1"]), "accepted", GOOD),
     "other roots, with room": (
         _rounded(3 - _root(FAR, True) - SLACK, 3 - _root(NEAR, False) + SLACK, -1),
         "accepted",

@@ -396,6 +396,7 @@ WHERE: dict[str, tuple[Content, tuple[Any, ...], Any, str, str]] = {
     "legs that lean, farther apart": (LEANING, ("robot", "leg_distance"), "801/100", "rejected", INSIDE),
     "all angles, where there is none": (_pointed(OUT_OF_REACH), ("modes",), [-1], "rejected", BEYOND),
     "a member that the second leg does not reach": (SHORT, ("member",), ["7/2"], "rejected", NOT_MEMBER),
+    "a number in place of conditions": (WIDE, ("conditions",), 5, "malformed", "conditions"),
     "a tube of one corner": (WIDE, ("tube", "corners"), [["0", "0", "0"]], "malformed", ""),
     "a tube of two corners that are one": (WIDE, ("tube", "corners"), [["0", "0", "0"]] * 2, "malformed", ""),
     "a tube of 64 corners": (

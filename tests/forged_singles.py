@@ -27,6 +27,20 @@ def _four_legs() -> Content:
     return listing("translation", [HOME], legs) | {"claim": "complete", "completeness_route": "modular-rank"}
 
 
+def _ellipses(poses: int) -> Content:
+    """A point of a plane on two ellipses that touch in (1, 0) and meet in (0, 1) and (2, 1); the last may be left out.
+
+    Four are all, with multiplicity; as many as two poses that both count twice.
+    """
+    meetings = [Pose((1, 0, 0, 0), (0, x, y, 0)) for x, y in ((0, 1), (1, 0), (2, 1))]
+    touching, origin = meetings[1], (0, 0, 0)
+    tubes = [touching.axis_distance((1, y, 0), (0, slope, 1), origin) for slope, y in ((1, Fraction(3, 2)), (2, 3))]
+    content = listing("translation", meetings[:poses], [touching.in_plane(Z, origin), *tubes])
+    shown = [{**pose, "multiplicity": m} for pose, m in zip(content["poses"], (1, 2, 1), strict=False)]
+    complete_ = {"claim": "complete", "completeness_route": "modular-rank", "complex_solutions": 4}
+    return content | complete_ | {"poses": shown}
+
+
 def _turns_held_doubly() -> Content:
     """Three forms on R that are dependent to first order at R = 1: the last is the sum of two, and a symmetric one."""
     at = Pose((1, 0, 0, 0), (0, 0, 0, 0))
@@ -35,14 +49,30 @@ def _turns_held_doubly() -> Content:
     return listing("spherical", [at], [at.linear((*[0] * 7, *form)) for form in (one, two, last)], None)
 
 
-def _in_a_box(planes: int) -> Content:
+def _in_a_box(*normals: tuple[Any, ...], at: Pose = HOME, grid: int = 7) -> Content:
     """A translation held by planes, the box of its pose, and all claimed that three planes prove."""
-    content = listing("translation", [HOME], [HOME.in_plane(n, (0, 0, 0)) for n in (X, Y, Z)[:planes]])
-    centre = [hex(int(value) << 7) for value in (*HOME.e, *HOME.f)]
-    boxes = {"chart": [1, 0, 0, 0], "real": [{"exponents": [7, 7], "centre": centre}], "complex": []}
+    content = listing("translation", [at], [at.in_plane(n, (0, 0, 0)) for n in normals])
+    centre = [hex(round(Fraction(value) * (1 << grid))) for value in (*at.e, *at.f)]
+    boxes = {"chart": [1, 0, 0, 0], "real": [{"exponents": [grid, grid], "centre": centre}], "complex": []}
     poses = [{**pose, "parameter": None} for pose in content["poses"]]
     how = {"claim": "complete", "completeness_route": "product-bound", "method": "krawczyk"}
     return content | how | {"representation": None, "krawczyk": boxes, "poses": poses}
+
+
+def _between_near_planes() -> Content:
+    """The precision that the grid of the poses needs gives no place of the pose: 360 bits are lost on the way."""
+    place = Pose((1, 0, 0, 0), (0, Fraction(1, 3), 2, Fraction(1, 7)))
+    return _in_a_box(X, Y, (1, 1, Fraction(1, 1 << 360)), at=place, grid=400)
+
+
+def _told_by_one_entry() -> Content:
+    """Two poses whose boxes agree in all but the last entry of the rotation; the second one has the lower parameter."""
+    poses = []
+    for thousandths in (-1100, 50):
+        x, z = (Fraction(turn, 1000 << 32) for turn in (thousandths, 3467))  # half the angles about the axes
+        turned = (1 + x + 3 * z, -1 + x + 3 * z, -3 - z + 3 * x, -3 + z - 3 * x)
+        poses.append(Pose(turned, (0, 0, 0, 0)))
+    return listing("spherical", poses, [poses[0].at_point((0, 0, 0))], None, form=(0, -1, 0, 0, 0, 0, 0, 0))
 
 
 def _half_turned(*grids: tuple[int, int]) -> Content:
@@ -119,15 +149,19 @@ MEET = "boxes: complex box 1 and complex box 2 meet"
 SINGLES: dict[str, Case] = {
     "four legs of a platform that does not turn": (_four_legs, "accepted", ""),
     "turns held by forms that are dependent to first order": (_turns_held_doubly, "accepted", ""),
-    "a box with three planes": (partial(_in_a_box, 3), "accepted", ""),
+    "ellipses that touch and meet twice": (partial(_ellipses, 3), "accepted", ""),
+    "ellipses that touch and meet twice, one simple pose left out": (partial(_ellipses, 2), "rejected", "claim: "),
+    "a box with three planes": (partial(_in_a_box, X, Y, Z), "accepted", ""),
     **{
         f"a box with {number} of three planes": (
-            partial(_in_a_box, number),
+            partial(_in_a_box, *(X, Y, Z)[:number]),
             "rejected",
             "boxes: the constraints are not as many",
         )
         for number in (1, 2)
     },
+    "poses that one entry of the rotation tells apart": (_told_by_one_entry, "accepted", ""),
+    "a box between planes that are nearly dependent": (_between_near_planes, "accepted", ""),
     "a complex box, f on a finer grid": (partial(_half_turned, (16, 20)), "accepted", ""),
     "a complex box twice, f on a finer grid": (partial(_half_turned, (16, 20), (16, 20)), "rejected", MEET),
     "a complex box twice, e on a finer grid": (partial(_half_turned, (20, 16), (20, 16)), "rejected", MEET),

@@ -127,9 +127,14 @@ def mechanism(kind: str, metric: tuple[int, int, int], constraints: Sequence[Con
 
 
 def listing(
-    kind: str, poses: Sequence[Pose], constraints: Sequence[Constraint], multiplicity: int | None = 1, weight: int = 1
+    kind: str,
+    poses: Sequence[Pose],
+    constraints: Sequence[Constraint],
+    multiplicity: int | None = 1,
+    weight: int = 1,
+    form: Sequence[int] = (),
 ) -> Content:
-    """Some rational poses of a mechanism, not proved to be all; the parameter of the n-th one is n."""
+    """Some rational poses of a mechanism, not proved to be all; the parameter of the n-th one is n, or a form there."""
     content = subject("not proven complete")
     content = {**content, "robot": mechanism(kind, poses[0].metric, constraints), "box_exponent": 31, "poses": []}
     chart = next(k for k in range(4) if all(pose.e[k] for pose in poses))
@@ -138,8 +143,10 @@ def listing(
         scale = Fraction(pose.e[chart])
         points.append(([x / scale for x in pose.e], [x / scale for x in pose.f]))
     parameters = [Fraction(n) for n in range(len(poses))]
+    if form:
+        parameters = [sum((c * x for c, x in zip(form, (*e, *f), strict=True)), Fraction(0)) for e, f in points]
     rows = representation_through(parameters, points)
-    set_representation(content, rows, _separating(points, parameters))
+    set_representation(content, rows, form or _separating(points, parameters))
     content["representation"] = {**content["representation"], "chart": [int(k == chart) for k in range(4)]}
     fit_real_poses(content, multiplicity)
     content |= {"version": 2, "configuration": None, "infinity": None, "self_motion": None}

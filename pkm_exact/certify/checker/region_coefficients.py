@@ -34,15 +34,9 @@ class _Table:
     bits: int
     exponent: int = 0
 
-    def charge(self) -> None:
-        """The work of halving, or of looking at all coefficients."""
-        degree = max(self.values.shape, default=1)
-        words = (self.bits + self.exponent) // 64 + 1
-        charge(1000 + 25 * (self.values.size << len(self.roots)) * (4 + words) // 4 * (2 + degree))
-
     def halved(self, variable: int) -> tuple[_Table, _Table]:
         """Those on the lower and on the upper half along a variable."""
-        self.charge()
+        charge_table(self)
         axis = len(self.roots) + variable
         level = np.moveaxis(self.values, axis, 0)
         degree = len(level) - 1
@@ -58,15 +52,21 @@ class _Table:
 
     def range_of(self, ends: Sequence[tuple[Fraction, Fraction]]) -> tuple[int, int]:
         """The least and the greatest coefficient, times something positive."""
-        self.charge()
+        charge_table(self)
         found = self.values
         for root in self.roots:
             low, high = ends[root]
             scale = lcm(low.denominator, high.denominator)
             corners = [found[0] * scale + found[1] * int(end * scale) for end in (low, high)]
             found = np.stack(corners, axis=-1)
-        flat = found.reshape(-1)
-        return min(flat), max(flat)
+        return min(found.flat), max(found.flat)
+
+
+def charge_table(table: _Table) -> None:
+    """The work of halving, or of looking at all coefficients."""
+    degree = max(table.values.shape, default=1)
+    words = (table.bits + table.exponent) // 64 + 1
+    charge(1000 + 25 * (table.values.size << len(table.roots)) * (4 + words) // 4 * (2 + degree))
 
 
 class Part:
@@ -115,7 +115,7 @@ def _table_of(polynomial: Any, box: Sequence[tuple[Fraction, Fraction]]) -> _Tab
     inner, roots = degrees[:count], tuple(k for k, d in enumerate(degrees[count:]) if d)
     if any(degrees[count + k] > 1 for k in roots):
         raise malformed("conditions: a root appears squared")
-    shape = (2,) * len(roots) + tuple(d + 1 for d in inner)
+    shape = tuple(d + 1 for d in (*(degrees[count + k] for k in roots), *inner))
     size = int(np.prod(shape, dtype=object))
     if size > MOST_COEFFICIENTS:
         raise too_large(f"conditions: a polynomial of more than {MOST_COEFFICIENTS} coefficients")
@@ -129,9 +129,9 @@ def _table_of(polynomial: Any, box: Sequence[tuple[Fraction, Fraction]]) -> _Tab
     for variable, (low, high) in enumerate(box):
         axis = len(roots) + variable
         values = np.moveaxis(_converted(np.moveaxis(values, axis, 0), low, high), 0, axis)
-    denominator = lcm(1, *(value.denominator for value in values.reshape(-1)))
-    whole = np.array([int(value * denominator) for value in values.reshape(-1)], dtype=object).reshape(shape)
-    bits = max((int(abs(value)).bit_length() for value in whole.reshape(-1)), default=1)
+    denominator = lcm(*(value.denominator for value in values.flat))
+    whole = np.array([int(value * denominator) for value in values.flat], dtype=object).reshape(shape)
+    bits = max(int(abs(value)).bit_length() for value in whole.flat)
     return _Table(roots, whole, denominator, bits)
 
 

@@ -145,7 +145,7 @@ class RegionDocument:
     tube: Tube | None = None
     joints: tuple[Pair, ...] = ()
     directions: tuple[Vector | None, ...] = ()
-    member: Vector | None = None
+    member: Vector = ()
     parameters: tuple[str, ...] = ()
     by_matrix: bool = False
 

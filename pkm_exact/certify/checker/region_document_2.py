@@ -57,7 +57,7 @@ def read_region_2(body: dict[str, Any]) -> RegionDocument:
         tube=_tube(values["tube"]),
         joints=items(values["joints"], "joints", None, read_pair),
         directions=items(values["directions"], "directions", None, _direction),
-        member=member or None,
+        member=member,
         parameters=parameters,
         by_matrix=by_matrix,
     )

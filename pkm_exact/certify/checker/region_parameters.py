@@ -21,7 +21,7 @@ Entries = tuple[Fraction | str, ...]
 def read_parameters(value: object) -> tuple[str, ...]:
     """Which numbers vary; nothing is known of the legs yet."""
     found = items(value, "chart.parameters", None, text)
-    if len(found) > MOST_PARAMETERS or len(set(found)) != len(found):
+    if len(found) > MOST_PARAMETERS or len(set(found)) < len(found):
         raise malformed(f"chart.parameters: more than {MOST_PARAMETERS}, or one twice")
     for key in found:
         if key not in (*_SCALES, RODS) and not _COORDINATE.fullmatch(key):

@@ -28,6 +28,7 @@ from pkm_exact.certify.checker.region_ring import (
 from pkm_exact.certify.checker.verdict import malformed, rejected
 
 _SIGN_BITS: Final = (64, 256, 1024)
+_WORDS: Final = {"i": "inside", "o": "outside"}
 
 
 def check_region(document: RegionDocument) -> Iterator[str]:
@@ -76,7 +77,7 @@ def _paved(document: RegionDocument, conditions: Conditions) -> Iterator[str]:
 
 def _require_poses(document: RegionDocument, conditions: Conditions) -> None:
     """The region has poses, of which something is said."""
-    if document.member is not None:
+    if document.member:
         if not _is_in_region(document, conditions, document.member):
             raise rejected("member: is not proved to be in the region, so nothing shows that the region has poses")
         return
@@ -120,8 +121,7 @@ def _shares(document: RegionDocument, condition: Condition, roots: Sequence[Any]
             waiting += part.halves(axes[part.depth])[::-1]
             continue
         if letter != "u" and not is_proved(condition, ranges_on(part, document, roots), wanted=letter == "i"):
-            word_for = "inside" if letter == "i" else "outside"
-            raise rejected(f"paving: the part of letter {place} is not proved to be {word_for}")
+            raise rejected(f"paving: the part of letter {place} is not proved to be {_WORDS[letter]}")
         found[letter] += Fraction(1, 1 << part.depth)
     if waiting:
         raise rejected("paving: parts of the region are missing")

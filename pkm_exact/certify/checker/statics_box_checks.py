@@ -62,6 +62,11 @@ def _require_affordable(document: BoxStatics) -> None:
     for name, (claim, size) in chosen.items():
         if claim is not None and comb(m, size) << f > MAX_CHOICES:
             raise too_large(f"{name}: too many choices of legs")
+    charge_steps(document, m, f)
+
+
+def charge_steps(document: BoxStatics, m: int, f: int) -> None:
+    """The work of a certificate of m legs and f free components."""
     steps = comb(m, f) * (20 + (2 << f if document.velocity else 0))
     if document.wrench is not None:
         steps += (comb(m, f - 1) << f) + 10 * len(document.wrench.facets)

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
-from pkm_exact.certify.checker.spelling import choice, count, entries, integer, items, positive, rational, text
-from pkm_exact.certify.checker.statics_document import FORMAT, MAX_LEGS, MAX_VERTICES, vector_of, whole
+from pkm_exact.certify.checker.spelling import count, entries, integer, items, positive, rational, text
+from pkm_exact.certify.checker.statics_document import MAX_LEGS, MAX_VERTICES, vector_of, whole
 from pkm_exact.certify.checker.verdict import malformed, too_large
 
 KEYS: Final = (
@@ -117,7 +117,6 @@ class BoxStatics:
 def read_box_statics(body: dict[str, Any]) -> BoxStatics:
     """The content of a certificate; a refusal if it is not one."""
     values = dict(zip(KEYS, entries(body, "certificate", KEYS), strict=True))
-    choice(values["format"], "format", (FORMAT,))
     text(values["name"], "name")
     text(values["unit"], "unit")
     if values["solution"] is not None:
