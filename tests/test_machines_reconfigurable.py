@@ -82,46 +82,68 @@ def test_a_strut_is_as_long_as_its_joint_is_from_the_guide() -> None:
 # Mobility, table 3
 
 
-def _leg(k: int, half: Fraction, *, locked: bool, turn: int) -> tuple[list[str], list[Joint]]:
-    """A crank, a rod and a ball joint in the vertical plane of a direction; the hinge across is locked or not."""
-    c, s = (1 - half * half) / (1 + half * half), 2 * half / (1 + half * half)
-    zero, one = Fraction(0), Fraction(1)
+SORTS = {"R-TUS": "RUS", "P-FUS": "PUS", "UP-VS": "UPS", "CP-VS": "CPS", "R-TCS": "RCS"}
+"""Of the fixed legs of the five architectures that remain of the source's tables: their joints from the base on."""
 
-    def at(radius: int, height: int) -> tuple[Fraction, Fraction, Fraction]:
+
+def _leg(k: int, half: Fraction, sort: str, *, locked: bool, turn: int) -> tuple[list[str], list[Joint]]:
+    """Three joints in the vertical plane of a direction; of the one with two freedoms the turn out of it is locked."""
+    c, s = (1 - half * half) / (1 + half * half), 2 * half / (1 + half * half)
+
+    def vector(radius: int, height: int) -> tuple[Fraction, Fraction, Fraction]:
         return radius * c, radius * s, Fraction(height)
 
-    across, up = (-s, c, zero), (c, s, one * turn)
-    bodies = [f"crank {k}", f"rod {k}"]
-    base = Joint(f"R{k}", "R", ("base", bodies[0]), JointGeometry(at(100, 0), (across,)))
-    axes = (across,) if locked else (across, up)
-    elbow = Joint(f"elbow {k}", "R" if locked else "U", (bodies[0], bodies[1]), JointGeometry(at(130, 70), axes))
-    ball = Joint(f"S{k}", "S", (bodies[1], "platform"), JointGeometry(at(50, 150)))
-    return bodies, [base, elbow, ball]
+    places = {"base": vector(100, 0), "elbow": vector(130, 70), "ball": vector(50, 150)}
+    across, guide, strut = (-s, c, Fraction(0)), vector(-2, 3), vector(3, 2 + turn)
+    axes = {"R": (across,), "P": (strut if sort[0] in "UC" else guide,), "U": (across, strut), "C": (guide,), "S": ()}
+    bodies = [f"first {k}", f"second {k}"]
+    between = [("base", bodies[0]), (bodies[0], bodies[1]), (bodies[1], "platform")]
+    joints = []
+    for letter, pair, place in zip(sort, between, places.values(), strict=True):
+        kept = {"U": "R", "C": "P"}.get(letter, letter) if locked else letter
+        own = axes[letter][:1] if locked else axes[letter]
+        joints.append(Joint(f"{letter}{k}", kept, pair, JointGeometry(place, own)))  # type: ignore[arg-type]
+    return bodies, joints
 
 
-def robot_in_mode(freedoms: int) -> Linkage:
-    """The fixed tripod, of which 6 - m hinges are locked, and m - 3 detachable legs between."""
+def robot_in_mode(freedoms: int, sort: str) -> Linkage:
+    """The fixed tripod, of which 6 - m hinges are locked, and m - 3 detachable legs R_TUS between."""
     azimuths = [Fraction(0), Fraction(7, 4), Fraction(-7, 4), Fraction(4, 7), Fraction(40), Fraction(-4, 7)]
     bodies, joints = ["base"], []
     for k, half in enumerate(azimuths[:freedoms], 1):
-        names, found = _leg(k, half, locked=k <= 6 - freedoms, turn=k)
+        names, found = _leg(k, half, sort if k <= 3 else "RUS", locked=k <= 6 - freedoms, turn=k)
         bodies += names
         joints += found
-    return Linkage("R_TUS", "mm", "chapter 18", (*bodies, "platform"), tuple(joints), "base", "platform")
+    return Linkage(sort, "mm", "chapter 18", (*bodies, "platform"), tuple(joints), "base", "platform")
+
+
+def test_the_architectures_that_remain_are_the_kinds() -> None:
+    """Five: of all recipes those with a mode of so many freedoms."""
+    kinds = [name for name, kind in MACHINES.items() if any(found.key == "freedoms" for found in kind.dimensions)]
+    assert sorted(kinds) == sorted(SORTS)
 
 
 @pytest.mark.parametrize(
-    ("freedoms", "links", "count", "legs"),
-    [(3, 8, 9, (5, 5, 5)), (4, 10, 12, (5, 5, 6, 6)), (5, 12, 15, (5, 6, 6, 6, 6)), (6, 14, 18, (6,) * 6)],
+    "kind", [pytest.param(kind, marks=[] if kind in ("P-FUS", "R-TCS") else pytest.mark.slow) for kind in SORTS]
+)
+@pytest.mark.parametrize(
+    ("freedoms", "links", "count", "legs", "locked"),
+    [
+        (3, 8, 9, (5, 5, 5), 3),
+        (4, 10, 12, (5, 5, 6, 6), 2),
+        (5, 12, 15, (5, 6, 6, 6, 6), 1),
+        (6, 14, 18, (6,) * 6, 0),
+    ],
 )
 def test_printed_mobilities_are_those_of_the_screws(
-    freedoms: int, links: int, count: int, legs: tuple[int, ...]
+    kind: str, freedoms: int, links: int, count: int, legs: tuple[int, ...], locked: int
 ) -> None:
     """Table 3: numbers of links and joints, freedoms of the legs, and by Gruebler's count those of the platform."""
-    linkage = robot_in_mode(freedoms)
+    linkage = robot_in_mode(freedoms, SORTS[kind])
     assert (len(linkage.bodies), len(linkage.joints)) == (links, count)
     rows = [linkage.joints[3 * k : 3 * k + 3] for k in range(freedoms)]
     assert tuple(sum(len(joint.twists) for joint in row) for row in rows) == legs
+    assert legs.count(5) == locked == 6 - freedoms
     assert 6 * (links - count - 1) + sum(legs) == freedoms
     found = mobility_of(linkage)
     assert (found.free.counted, found.free.total) == (freedoms, freedoms)

@@ -4,7 +4,7 @@ import json
 import re
 from fractions import Fraction
 from itertools import pairwise
-from math import dist, isclose
+from math import dist, hypot, isclose, sqrt
 from pathlib import Path
 
 import pytest
@@ -19,12 +19,14 @@ from pkm_exact.constraints.axis_distance import AxisDistance
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.on_line import OnLine
 from pkm_exact.constraints.point_in_plane import Carries, InPlane
+from pkm_exact.geometry.machines.machine_kinds import MACHINES
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.reader import read_robot, robot_from_toml
 from pkm_exact.pictures.drawn_robot import Scene
 from pkm_exact.pictures.mechanism_scene import drive_shapes, legs_on_chains, shape_of
 from pkm_exact.pictures.scene import scene_of
 from pkm_exact.pictures.shapes import Point
+from pkm_exact.templates.machine_text import given_dimensions, machine_text
 
 MODEL = str(Path(__file__).parent / "cases" / "3-rps.toml")
 
@@ -188,6 +190,37 @@ def test_a_universal_joint_and_the_arms_of_in_branch_drives_are_drawn() -> None:
     for arm in arms:
         (line,) = arm.lines((0.0, 0.0, 0.0), UNTURNED, 1.0)
         assert [round(dist(a, b), 9) for a, b in pairwise(line)] == [2, 3]
+
+
+def test_slides_and_arm_of_a_carriage_end_amid_the_feet() -> None:
+    """X = 1, Y = 2, and the arm of length 5, with the middle of the feet, tilted by 2 atan(1/3)."""
+    scene = scene_of(golden("carriage-hexapod"), model("carriage-hexapod"))
+    (arm,) = (shape for shape in scene.shapes if shape.kind == "arm")
+    assert arm.name == "X, Y, tilt"
+    (line,) = arm.lines((3.0, 1.0, 2.0), UNTURNED, 1.0)
+    steps = [tuple(b - a for a, b in zip(one, other, strict=True)) for one, other in pairwise(line)]
+    assert steps[:2] == [(1, 0, 0), (0, 2, 0)]
+    middle = tuple(sum(foot[i] for foot in scene.base) / 6 for i in range(3))
+    assert dist(line[-1], middle) < 1e-9
+    y, z = 5 + sum((0, 5, 1, -6, 4, 5)) / 6, 1 / 6 * (0 + 1 + 0 + 0 + 0 - 1)
+    assert steps[2] == pytest.approx((0, 0.8 * y - 0.6 * z, 0.6 * y + 0.8 * z))
+    assert not [shape for shape in scene_of(golden("carriage-hexapod"), None).shapes if shape.kind == "arm"]
+
+
+def test_a_crank_with_a_free_collar_reaches_its_rod() -> None:
+    kind = MACHINES["R-TCS"]
+    text = machine_text(kind, "r", "mm", given_dimensions(kind, ('freedoms="4"',)))
+    robot = robot_from_toml(text.replace('"1/3", "1/3", "1/3"', '"1/3", "1/3", "3/4", 1'))
+    assert isinstance(robot, Mechanism)
+    (arm,) = drive_shapes(robot, robot.problem(robot.configuration()), (1.0, sqrt(3), 1.0))
+    assert arm.name == "crank 3"
+    start, end = arm.lines((3.0, 1.0, 140.0), UNTURNED, 1.0)[0]
+    assert start == arm.place
+    along = tuple(b - a for a, b in zip(start, end, strict=True))
+    held = tuple(p + c - e for p, c, e in zip(arm.joint, (3.0, 1.0, 140.0), end, strict=True))
+    assert sum(a * b for a, b in zip(along, held, strict=True)) == pytest.approx(0, abs=1e-9)
+    assert along[2] / hypot(*along) == pytest.approx(0.96)
+    assert dist(start, (0, 0, 0)) == pytest.approx(100)
 
 
 IN_BRANCH = """schema = 1

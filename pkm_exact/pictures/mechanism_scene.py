@@ -13,7 +13,7 @@ from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
-from pkm_exact.geometry.drives import coefficients
+from pkm_exact.geometry.drives import Part, coefficients
 from pkm_exact.geometry.kind_names import CONSTRAINTS_KIND
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.machines.triangle import along
@@ -108,6 +108,9 @@ def drive_shapes(
     own = {constraint.name: constraint for constraint in machine.constraints}
     numbers = {constraint.name: number for number, constraint in enumerate(machine.constraints, 1)}
     at = dict(zip(machine.actuated, values or (), strict=False))
+    for number, (label, way) in enumerate(_carriages(machine, at), len(own) + 1):
+        places = tuple(_ordinary(point, axes) for point in way)
+        yield Shape(ARM, number, label, places[0], _ORIGIN, _ORIGIN, path=places)
     for name, constraint in own.items():
         field = _driven_point(constraint)
         moving = [(drive, part) for drive in machine.drives for part in drive.parts if part.constraint == name]
@@ -122,12 +125,39 @@ def drive_shapes(
             own_shape = shape_of(numbers[name], locked[name], axes, mechanism.metric)
             shift, held = (own_shape.direction, own_shape.joint) if own_shape else (_ORIGIN, _ORIGIN)
             yield Shape(ARM, numbers[name], label, path[0], shift, held, path=path)
+        turned = [drive.name for drive, part in moving if field and part.field == "direction"]
+        axis = shape_of(numbers[name], locked[name], axes, mechanism.metric) if turned else None
+        if axis is not None and axis.kind == AXIS:
+            ends = (axis.place, axis.place)
+            yield Shape(ARM, numbers[name], turned[0], axis.place, axis.direction, axis.joint, path=ends, standing=1)
         if on_sphere and isinstance(constraint, Angle):
             for drive, part in moving:
                 u, v = (_ordinary(axis, axes) for axis in part.axes)  # type: ignore[arg-type]
                 end = unit(_ordinary(getattr(locked[name], "base"), axes))  # noqa: B009
                 path = arc(unit(cross(u, v)), end)
                 yield Shape(ARM, numbers[name], drive.name, path[0], _ORIGIN, _ORIGIN, path=path)
+
+
+def _carriages(machine: Mechanism, at: Mapping[str, Any]) -> Iterator[tuple[str, list[Vector]]]:
+    """Of legs whose feet several drives move together: these drives, and the way of the middle of the feet."""
+    legs: dict[tuple[str, ...], list[tuple[Distance, list[Part]]]] = {}
+    for constraint in machine.constraints:
+        parts = [
+            (drive.name, part)
+            for drive in machine.drives
+            for part in drive.parts
+            if (part.constraint, part.field) == (constraint.name, "base") and drive.name in at
+        ]
+        if isinstance(constraint, Distance) and len(parts) > 1:
+            legs.setdefault(tuple(name for name, _ in parts), []).append((constraint, [part for _, part in parts]))
+    for names, moved in legs.items():
+        share = Fraction(1, len(moved))
+        points = [along(*((share, leg.base) for leg, _ in moved))]
+        for k, name in enumerate(names):
+            factors = coefficients(at[name])
+            steps = [(share * x, axis) for _, parts in moved for x, axis in zip(factors, parts[k].axes, strict=True)]
+            points.append(along((1, points[-1]), *steps))  # type: ignore[arg-type]
+        yield ", ".join(names), points
 
 
 def _driven_point(constraint: Constraint) -> str:

@@ -43,6 +43,8 @@ class Shape:
         Whether it belongs to the platform; then its joint is one of the base.
     path : tuple of points
         The line of an arm, in the fixed frame; it may be shifted along its direction, if it has one.
+    standing : int
+        How many points of the line are not shifted: an arm that is an axis begins at its motor.
     """
 
     kind: str
@@ -53,6 +55,7 @@ class Shape:
     joint: Point
     moves: bool = False
     path: tuple[Point, ...] = ()
+    standing: int = 0
 
     def lines(self, position: Point, rotation: Turn, size: float) -> tuple[tuple[Point, ...], ...]:
         """Open or closed lines that show it in a pose, in the fixed frame, for a robot of this size."""
@@ -62,7 +65,8 @@ class Shape:
         if self.kind == ARM:
             # Along an axis it stands where the joint does.
             shift = _dot(_minus(_moved(position, rotation, self.joint), self.path[-1]), self.direction)
-            return (tuple(_along(point, self.direction, shift) for point in self.path),)
+            moved = (_along(point, self.direction, shift) for point in self.path[self.standing :])
+            return ((*self.path[: self.standing], *moved),)
         if self.kind in (ARC, AXES):
             return self._of_angle(position, _turned(rotation, self.joint), size)
         if self.kind == POINT:
