@@ -199,6 +199,7 @@ def limits(tmp_path_factory: pytest.TempPathFactory) -> Reach:
     return Reach(examples, everywhere=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("checker", READERS)
 def test_a_sample_of_mutants_is_told_apart(checker: str, limits: Reach) -> None:
     check(checker)
