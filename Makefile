@@ -73,6 +73,7 @@ golden: $(VENV)/.installed
 	@$(BIN)/certify-poses statics models/dual-v.toml --position 0,0 --half-tangent 0 --modes +-+- --limits speeds=1 --limits forces=2 --limits length=3 -o certs/statics/dual-v.json >/dev/null
 	@$(BIN)/certify-poses region models/3-rpr-merlet-p.toml certs/regions/3-rpr-merlet-p.toml -o certs/regions/3-rpr-merlet-p.json >/dev/null
 	@$(BIN)/certify-poses statics certs/3-rps.json --model models/3-rps.toml --pose 2 --limits speeds=1 --limits forces=2 --limits length=3 --load 0,0,-10 -o certs/statics/3-rps.json >/dev/null
+	@$(BIN)/certify-poses statics certs/3-prs.json --model models/3-prs.toml --pose 1 --limits speeds=1 --limits forces=2 --limits length=3 --load 0,0,-10 -o certs/statics/3-prs.json >/dev/null
 	@$(BIN)/certify-poses region models/rolland-6-6.toml certs/regions/rolland-6-6.toml -o certs/regions/rolland-6-6.json >/dev/null
 	@$(BIN)/certify-poses mobility models/3-rps.toml --at 0,0,1/2,1,0,0,0 -o certs/mobility/3-rps.json >/dev/null
 	@$(BIN)/certify-poses mobility models/chains/bennett.toml -o certs/mobility/bennett.json >/dev/null

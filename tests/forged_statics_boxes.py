@@ -31,11 +31,12 @@ def _spun(numbers: list[int]) -> np.ndarray[Any, Any]:
     )
 
 
-def _box(position: list[float], quaternion: list[int]) -> Content:
+def box_of_pose(position: list[float], quaternion: list[int], room: float = 1e-13) -> Content:
+    """Position and rotation, with room around them."""
     turned = _spun(quaternion)
     return {
-        "position": [around(x, 1e-13) for x in position],
-        "rotation": [[around(x, 1e-13) for x in row] for row in turned],
+        "position": [around(x, room) for x in position],
+        "rotation": [[around(x, room) for x in row] for row in turned],
     }
 
 
@@ -60,7 +61,7 @@ def _general() -> Content:
         forces=[["1", "2"], ["-2", "1"], ["-3", "-1"], ["-1", "1"], ["0", "1"]],
         length="3",
         load=["1", "-2", "3", "1", "1", "-1"],
-        **_box([0.5, -0.25, 0.75], [4, 1, -2, 1]),
+        **box_of_pose([0.5, -0.25, 0.75], [4, 1, -2, 1]),
     )
 
 
@@ -74,7 +75,7 @@ def _planar() -> Content:
         speeds=["1", "1/2", "3"],
         length="2",
         load=["1", "2", "-3"],
-        **_box([0.25, 0.5, 0.0], [3, 0, 0, 1]),
+        **box_of_pose([0.25, 0.5, 0.0], [3, 0, 0, 1]),
     )
 
 
@@ -105,13 +106,13 @@ LINE, SQUARE, CUT, PLANE = (HONEST[name] for name in ("a line", "a square", "a s
 GENERAL = HONEST["all at once"]
 
 
-def _intervals(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+def intervals_of(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
     """Where intervals stand."""
     if isinstance(value, list) and len(value) == 2 and all(isinstance(x, str) for x in value):
         yield path
     elif isinstance(value, dict | list):
         for key, entry in value.items() if isinstance(value, dict) else enumerate(value):
-            yield from _intervals(entry, (*path, key))
+            yield from intervals_of(entry, (*path, key))
 
 
 @cache
@@ -119,7 +120,7 @@ def _claimed(name: str) -> list[tuple[Any, ...]]:
     """Intervals of claims, not of the pose and of limits."""
     content = HONEST[name]
     keys = ("jacobian", "expansion", "actuator_forces", "velocity_polytope", "wrench_polytope", "indices")
-    every = [path for key in keys for path in _intervals(content[key], (key,))]
+    every = [path for key in keys for path in intervals_of(content[key], (key,))]
     if name != "all at once":
         return every
     few = [path for path in every if path[0] in ("velocity_polytope", "wrench_polytope")]

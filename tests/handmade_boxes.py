@@ -62,15 +62,16 @@ def around(value: float, room: float) -> list[str]:
     return [str(Fraction(round((middle + way * half) * 10**15), 10**15)) for way in (-1, 1)]
 
 
-def _number(pair: Sequence[str]) -> float:
+def number(pair: Sequence[str]) -> float:
+    """The middle of an interval."""
     return float((Fraction(pair[0]) + Fraction(pair[1])) / 2)
 
 
 def rows_of(content: Content) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
     """P and E."""
     h = np.sqrt([float(x) for x in content["metric"]])
-    position = np.array([_number(pair) for pair in content["position"]])
-    rotation = np.array([[_number(pair) for pair in row] for row in content["rotation"]])
+    position = np.array([number(pair) for pair in content["position"]])
+    rotation = np.array([[number(pair) for pair in row] for row in content["rotation"]])
     freedoms, free = content["freedoms"], [content["freedoms"].index(k) for k in content["free"]]
     rows = []
     for entry in content["legs"]:
@@ -84,24 +85,25 @@ def rows_of(content: Content) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any
     twists[free] = np.eye(len(free))
     others = [k for k in range(len(freedoms)) if k not in free]
     if others:
-        forms = np.array([_slopes(form, h, position, rotation) for form in content["constraints"]])[:, freedoms]
+        forms = np.array([slopes(form, h, position, rotation) for form in content["constraints"]])[:, freedoms]
         twists[others] = -np.linalg.solve(forms[:, others], forms[:, free])
     return np.array(rows) @ twists, twists
 
 
-def _slopes(form: Sequence[str], h: Any, position: Any, rotation: Any) -> list[float]:
-    """The derivative of a form along six twists."""
+def value_of(form: Sequence[str], h: Any, position: Any, rotation: Any) -> float:
+    """A form at a pose in ordinary coordinates."""
     values = np.array([float(Fraction(x)) for x in form])
+    whole = [position @ position, *(rotation.T @ position) / h, *position / h, *(rotation * h / h[:, None]).ravel(), 1]
+    return float(values @ whole)
 
-    def value(place: Any, turned: Any) -> float:
-        whole = [place @ place, *(turned.T @ place) / h, *place / h, *(turned * h / h[:, None]).ravel(), 1]
-        return float(values @ whole)
 
+def slopes(form: Sequence[str], h: Any, position: Any, rotation: Any) -> list[float]:
+    """The derivative of a form along six twists."""
     found = []
     for k in range(6):
         v, w = np.eye(3)[k] if k < 3 else np.zeros(3), np.eye(3)[k - 3] if k >= 3 else np.zeros(3)
         spin = np.cross(np.eye(3), w)
-        ends = [value(position + way * v, rotation + way * spin @ rotation) for way in (1, -1)]
+        ends = [value_of(form, h, position + way * v, rotation + way * spin @ rotation) for way in (1, -1)]
         found.append((ends[0] - ends[1]) / 2)
     return found
 
@@ -111,9 +113,9 @@ def claims(content: Content, **gap: float) -> Content:
     p, e = rows_of(content)
     q = np.array([float(Fraction(x)) for x in content["speeds"]])
     found = content | {
-        "velocity_polytope": _velocity(p, q),
+        "velocity_polytope": bounds_polytope(p, np.stack([-q, q], axis=1)),
         "wrench_polytope": wrench_polytope(content),
-        "indices": _indices(content, p, e),
+        "indices": singular_values(content, p, e),
     }
     if content["load"] is not None:
         load = -e.T @ [float(Fraction(x)) for x in content["load"]]
@@ -125,24 +127,26 @@ def claims(content: Content, **gap: float) -> Content:
 def wrench_polytope(content: Content) -> Content:
     """That of forces alone."""
     p, _ = rows_of(content)
-    return _wrench(p, np.array([[float(Fraction(x)) for x in pair] for pair in content["forces"]]))
+    return sums_polytope(p, np.array([[float(Fraction(x)) for x in pair] for pair in content["forces"]]))
 
 
-def _velocity(p: Any, q: Any) -> Content:
+def bounds_polytope(p: Any, ends: Any) -> Content:
+    """That of what the rows map between ends."""
     m, f = p.shape
     vertices = []
     for chosen in map(list, combinations(range(m), f)):
         for signs in product((-1, 1), repeat=f):
-            point = np.linalg.solve(p[chosen], signs * q[chosen])
-            if all(abs(p[k] @ point) < q[k] for k in range(m) if k not in chosen):
+            point = np.linalg.solve(p[chosen], [ends[k, int(s > 0)] for k, s in zip(chosen, signs, strict=True)])
+            if all(ends[k, 0] < p[k] @ point < ends[k, 1] for k in range(m) if k not in chosen):
                 sides = [[k + 1, s] for k, s in zip(chosen, signs, strict=True)]
                 vertices.append({"sides": sides, "at": [around(x, ROOM) for x in point]})
     facets = sorted({tuple(side) for vertex in vertices for side in vertex["sides"]})
-    volume = around(np.prod(2 * q) / abs(np.linalg.det(p)), ROOM) if m == f else None
+    volume = around(np.prod(ends[:, 1] - ends[:, 0]) / abs(np.linalg.det(p)), ROOM) if m == f else None
     return {"facets": [list(side) for side in facets], "vertices": vertices, "volume": volume}
 
 
-def _wrench(p: Any, ends: Any) -> Content:
+def sums_polytope(p: Any, ends: Any) -> Content:
+    """That of sums of rows times numbers between ends."""
     m, f = p.shape
     facets, cells = [], set()
     for chosen in combinations(range(m), f - 1):
@@ -167,7 +171,8 @@ def _wrench(p: Any, ends: Any) -> Content:
     return {"facets": facets, "vertices": [list(cell) for cell in sorted(cells)], "volume": around(volume, ROOM)}
 
 
-def _indices(content: Content, p: Any, e: Any) -> Content:
+def singular_values(content: Content, p: Any, e: Any) -> Content:
+    """Bounds of the least and the greatest one, and of the condition."""
     length = 1.0 if content["length"] is None else float(Fraction(content["length"]))
     scale = np.array([length**2 if k >= 3 else 1.0 for k in content["freedoms"]])
     root = np.linalg.cholesky(e.T @ (scale[:, None] * e))
@@ -179,12 +184,15 @@ def _indices(content: Content, p: Any, e: Any) -> Content:
 
 def ellipsoid(content: Content, weights: Sequence[Any], gap: float, shrink: float = 1e-5) -> Content:
     """That of given weights, a little smaller, and by which part a larger one might be."""
-    p, _ = rows_of(content)
-    q = np.array([float(Fraction(x)) for x in content["speeds"]])
+    return content | {"ellipsoid": ellipsoid_of(rows_of(content)[0], content["speeds"], weights, gap, shrink)}
+
+
+def ellipsoid_of(p: Any, speeds: Sequence[Any], weights: Sequence[Any], gap: float, shrink: float = 1e-5) -> Content:
+    """That of rows and greatest speeds."""
+    q = np.array([float(Fraction(x)) for x in speeds])
     w = np.array([float(Fraction(x)) for x in weights])
     dual = p.shape[1] * (p.T * w / q**2) @ p
     matrix = np.linalg.inv(dual) * (1 - shrink)
     whole = [[str(Fraction(round((matrix[i, j] + matrix[j, i]) / 2 * 10**12), 10**12)) for j in range(len(matrix))]
              for i in range(len(matrix))]  # fmt: skip
-    entry = {"weights": [str(Fraction(x)) for x in weights], "matrix": whole, "gap": str(Fraction(gap))}
-    return content | {"ellipsoid": entry}
+    return {"weights": [str(Fraction(x)) for x in weights], "matrix": whole, "gap": str(Fraction(gap))}

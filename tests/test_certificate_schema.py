@@ -27,6 +27,7 @@ from pkm_exact.certify import (
     statics_box_build,
     statics_build,
     statics_driven_build,
+    statics_equations_build,
     system_build,
     tolerance_build,
 )
@@ -46,6 +47,7 @@ REGIONS_2 = "region-certificate-2.schema.json"
 STATICS = "statics-certificate-1.schema.json"
 STATICS_2 = "statics-certificate-2.schema.json"
 STATICS_3 = "statics-certificate-3.schema.json"
+STATICS_4 = "statics-certificate-4.schema.json"
 LINKS = "links-certificate-1.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
@@ -254,6 +256,9 @@ def test_the_page_of_statics_defines_every_key_in_its_order() -> None:
     assert _keys(_schema(STATICS_3)) == _keys(root)
     third = page.partition("## Version 3")[2]
     assert all(f"`{key}`" in third for key in _schema(STATICS_3)["properties"]["legs"]["items"]["properties"])
+    fourth = page.partition("## Version 4")[2].partition("### What")[0]
+    rows = re.findall(r"^\| (`.*?) \|", fourth, re.M)
+    assert [key for row in rows for key in re.findall(r"`(\w+)`", row)] == list(_schema(STATICS_4)["properties"])
     keys, parts = page.partition("## Version 2")[2].partition("### What is claimed")[0].split("| part |")
     assert re.findall(r"^\| `(\w+)` \|", keys, re.M) == list(second["properties"])
     for name in ("solution", "velocity_polytope", "wrench_polytope", "ellipsoid"):
@@ -293,6 +298,7 @@ def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
         region_build_2,
         statics_box_build,
         statics_driven_build,
+        statics_equations_build,
     )
     assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")

@@ -18,7 +18,8 @@ from pkm_exact import Mechanism, read_robot
 from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.check import check_bytes
-from pkm_exact.certify.statics_box_build import any_statics_certificate, statics_box_certificate
+from pkm_exact.certify.statics_any_build import any_statics_certificate
+from pkm_exact.certify.statics_box_build import statics_box_certificate
 from pkm_exact.certify.statics_build import statics_certificate
 from pkm_exact.certify.statics_driven_build import driven_legs, statics_driven_certificate
 from pkm_exact.certify.statics_of_poses import at_certified_poses
@@ -29,7 +30,9 @@ from pkm_exact.motions.motion_groups import PLANAR, SPHERICAL
 from pkm_exact.statics.machine_at_pose import machine_at
 
 Capture = pytest.CaptureFixture[str]
-SCHEMA, SECOND, THIRD = (Path(pure.__file__).with_name(f"statics-certificate-{k}.schema.json") for k in (1, 2, 3))
+SCHEMA, SECOND, THIRD, FOURTH = (
+    Path(pure.__file__).with_name(f"statics-certificate-{k}.schema.json") for k in (1, 2, 3, 4)
+)
 
 
 def redundant() -> Mechanism:
@@ -276,6 +279,26 @@ def test_a_leg_through_the_center_of_turns_is_certified() -> None:
     assert verdicts(content) == ("accepted", "accepted")
 
 
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("3-prrr", "3-rpr-turned", "3-prs", "spherical-3-rrr", "x-y"),
+        pytest.param("carriage-hexapod", marks=pytest.mark.slow),
+    ],
+)
+def test_machines_whose_actuators_drive_no_legs_have_certificates_too(name: str) -> None:
+    """Turned legs, offsets, hinges that slides move along, axes; and a carriage that bears all legs."""
+    at = at_certified_poses(golden(name), model(name), [0])[0]
+    measures = at.measures(speeds=1, forces=2, length=3)
+    content, left_out = any_statics_certificate(model(name), measures, [1] * len(at.twist), {"digest": "x", "pose": 1})
+    assert (content["version"], content["regular"]) == (4, True)
+    assert sorted(left_out) == (["ellipsoid", "indices"] if name == "carriage-hexapod" else [])
+    verdict = both(canonical_bytes(content))
+    assert verdict.status == "accepted", verdict.lines
+    assert len(verdict.lines) == 8 - len(left_out)
+    jsonschema.Draft202012Validator(json.loads(FOURTH.read_text())).validate(content)
+
+
 LARGE = ("rolland-6-6", "linapod-n")
 
 
@@ -333,7 +356,7 @@ def test_knees_that_are_not_rational_have_none() -> None:
     assert driven_legs(at) is None
     with pytest.raises(InputError, match="legs alone, 12 at most, with rational joints"):
         statics_driven_certificate(at.measures(speeds=1))
-    with pytest.raises(InputError, match="by lengths, slides or cranks, with rational joints"):
+    with pytest.raises(InputError, match="must be rational but for one square root each actuator"):
         any_statics_certificate(model("3-rrr"), at.measures(speeds=1))
 
 
@@ -374,9 +397,9 @@ def test_what_is_in_a_box_is_what_is_said_of_the_pose() -> None:
 
 def test_a_machine_that_has_none_is_refused_in_a_sentence(tmp_path: Path, capsys: Capture) -> None:
     target = tmp_path / "statics.json"
-    words = ["statics", "certs/3-prs.json", "--model", "models/3-prs.toml", "--pose", "1", "-o", str(target)]
-    assert main(words) == 2
-    assert "constraints that are not actuated" in capsys.readouterr().err
+    words = ["--position", "31/5,-19/5", "--half-tangent=-1/14", "--modes", "+++", "-o", str(target)]
+    assert main(["statics", "models/3-rrr.toml", *words]) == 2
+    assert "must be rational but for one square root each actuator" in capsys.readouterr().err
     assert not target.exists()
 
 

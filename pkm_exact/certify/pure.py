@@ -6,7 +6,8 @@ It prints what ``certify-poses check`` prints, and takes longer: one line per cl
 rejected, malformed or too-large. Exit code: 0 if all are accepted, 1 if one is rejected, otherwise 2. Certificates of
 version 2 need the file ``pure_mechanism.py`` beside this one, those of polynomial systems ``pure_system.py``, of
 mobility ``pure_mobility.py`` and ``pure_mobility_ideal.py``, of regions ``pure_region.py``, of statics
-``pure_statics.py`` (and ``pure_statics_box.py`` for version 2), of mechanisms with passive bodies ``pure_links.py``.
+``pure_statics.py`` (with ``pure_statics_box.py`` for version 2, and ``pure_statics_equations.py`` too for version 4),
+of mechanisms with passive bodies ``pure_links.py``.
 
 Written from the definition of the format and its proofs, ``docs/certificates.md``; the sections below have its order
 and its notation. It shares no line with the other checker and needs no library, so an error of one of them, or of

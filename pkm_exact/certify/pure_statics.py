@@ -113,9 +113,11 @@ def replayed(body: dict[str, Any]) -> Iterator[str]:
     """The content, read at once, and its checks, one after another."""
     if body.get("version") == 2:
         return pure.checks_beside("pure_statics_box", "a statics certificate of version 2")(body)
+    if body.get("version") == 4:
+        return pure.checks_beside("pure_statics_equations", "a statics certificate of version 4")(body)
     pure.well_formed(
         body.get("format") == FORMAT and type(body.get("version")) is int and body["version"] in (1, 3),
-        f"format: not a {FORMAT}, version 1, 2 or 3",
+        f"format: not a {FORMAT}, version 1, 2, 3 or 4",
     )
     values = fields(body, "certificate", KEYS)
     name, unit = values[2:4]

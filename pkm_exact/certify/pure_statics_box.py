@@ -294,9 +294,11 @@ def sides_of(value: Any, where: str, m: int) -> Sides:
     return tuple(found)
 
 
-def read_velocity(value: Any, m: int, f: int) -> tuple[Sides, list[tuple[Sides, list[Ends]]], Ends | None]:
+def read_velocity(
+    value: Any, m: int, f: int, where: str = "velocity_polytope"
+) -> tuple[Sides, list[tuple[Sides, list[Ends]]], Ends | None]:
     """Facets, vertices, volume."""
-    where, most = "velocity_polytope", pure_statics.MAX_VERTICES
+    most = pure_statics.MAX_VERTICES
     facets, vertices, volume = pure_statics.fields(value, where, "facets vertices volume")
     sides = sides_of(pure_statics.list_of(facets, f"{where}.facets", most), f"{where}.facets", m)
     points = []
@@ -311,9 +313,11 @@ def read_velocity(value: Any, m: int, f: int) -> tuple[Sides, list[tuple[Sides, 
     return sides, points, None if volume is None else ends_of(volume, f"{where}.volume")
 
 
-def read_wrench(value: Any, m: int, f: int) -> tuple[list[tuple[Any, ...]], list[tuple[int, ...]], Ends]:
+def read_wrench(
+    value: Any, m: int, f: int, where: str = "wrench_polytope"
+) -> tuple[list[tuple[Any, ...]], list[tuple[int, ...]], Ends]:
     """Facets as legs, side, normal and offset; vertices as ends of the forces; volume."""
-    where, most = "wrench_polytope", pure_statics.MAX_VERTICES
+    most = pure_statics.MAX_VERTICES
     facets, vertices, volume = pure_statics.fields(value, where, "facets vertices volume")
     planes = []
     for k, facet in enumerate(pure_statics.list_of(facets, f"{where}.facets", most), 1):
@@ -362,10 +366,10 @@ def checks(
         check_forces(listed, listed.load, borne)
         yield "forces: those that bear the load, within their bounds"
     if velocity is not None and listed.speeds is not None:
-        check_velocity(listed, listed.speeds, *velocity)
+        check_velocity(listed.p, both_ways(listed.speeds), *velocity)
         yield f"velocity polytope: {len(velocity[1])} vertices, {len(velocity[0])} facets, and no others"
     if wrench is not None and listed.forces is not None:
-        check_wrench(listed, listed.forces, *wrench)
+        check_wrench(listed.p, listed.forces, *wrench)
         yield f"wrench polytope: {len(wrench[1])} vertices, {len(wrench[0])} facets, and no others"
     if ellipsoid is not None and listed.speeds is not None:
         check_ellipsoid(listed, listed.speeds, *ellipsoid)
@@ -448,53 +452,67 @@ def check_forces(listed: Listed, load: Row, borne: list[Ends]) -> None:
     pure.require(lie_in(column(found, 0), borne), "actuator_forces: one is not within its bounds")
 
 
+def both_ways(speeds: Row) -> list[Ends]:
+    """Ends of what is limited both ways alike."""
+    return [(-speed, speed) for speed in speeds]
+
+
 def check_velocity(
-    listed: Listed, q: Row, facets: Sides, vertices: list[tuple[Sides, list[Ends]]], volume: Ends | None
+    p: list[Line],
+    ends: Sequence[Ends],
+    facets: Sides,
+    vertices: list[tuple[Sides, list[Ends]]],
+    volume: Ends | None,
+    where: str = "velocity_polytope",
 ) -> None:
     """Check 3: all points where f sides meet, and which are vertices."""
-    p, f = listed.p, len(listed.p[0])
+    f = len(p[0])
     found: dict[Sides, Line] = {}
     for chosen in combinations(range(len(p)), f):
         unit = [[whole(int(i == j)) for j in range(f)] for i in range(f)]
         inverse = solved([p[k] for k in chosen], unit)
         if inverse is None:
-            raise pure.Refusal("rejected", "velocity_polytope: legs may be dependent, or the box is too wide")
+            raise pure.Refusal("rejected", f"{where}: legs may be dependent, or the box is too wide")
         for signs in product((-1, 1), repeat=f):
-            right = [interval(side * q[k]) for side, k in zip(signs, chosen, strict=True)]
+            right = [interval(ends[k][side == 1]) for side, k in zip(signs, chosen, strict=True)]
             s = [scalar(row, right) for row in inverse]
-            speeds = [(size(scalar(row, s)), interval(q[k])) for k, row in enumerate(p) if k not in chosen]
-            if all(speed.high < most.low for speed, most in speeds):
+            others = [(scalar(row, s), *map(interval, ends[k])) for k, row in enumerate(p) if k not in chosen]
+            if all(least.high < value.low and value.high < most.low for value, least, most in others):
                 found[tuple(zip(chosen, signs, strict=True))] = s
                 continue
-            outside = any(speed.low > most.high for speed, most in speeds)
-            pure.require(outside, "velocity_polytope: whether there is a vertex is not decided in this box")
+            outside = any(value.high < least.low or value.low > most.high for value, least, most in others)
+            pure.require(outside, f"{where}: whether there is a vertex is not decided in this box")
     points = dict(vertices)
-    pure.require(len(points) == len(vertices), "velocity_polytope: a vertex is listed twice")
-    pure.require(points.keys() == found.keys(), "velocity_polytope: not all vertices are listed, or others are")
+    pure.require(len(points) == len(vertices), f"{where}: a vertex is listed twice")
+    pure.require(points.keys() == found.keys(), f"{where}: not all vertices are listed, or others are")
     good = all(lie_in(s, points[sides]) for sides, s in found.items())
-    pure.require(good, "velocity_polytope: a vertex is not within its bounds")
-    pure.require(len(set(facets)) == len(facets), "velocity_polytope: a facet is listed twice")
+    pure.require(good, f"{where}: a vertex is not within its bounds")
+    pure.require(len(set(facets)) == len(facets), f"{where}: a facet is listed twice")
     wanted = {side for sides in found for side in sides}
-    pure.require(set(facets) == wanted, "velocity_polytope: not all facets are listed, or others are")
+    pure.require(set(facets) == wanted, f"{where}: not all facets are listed, or others are")
     if volume is not None:
         room = whole(1)
-        for speed in q:
-            room = room * interval(2 * speed)
+        for low, high in ends:
+            room = room * interval(high - low)
         part = determinant(p)
-        pure.require(not part.contains_zero(), "velocity_polytope: the volume is not decided in this box")
-        pure.require(lies_in(room.over(size(part)), volume), "velocity_polytope: the volume is not within its bounds")
+        pure.require(not part.contains_zero(), f"{where}: the volume is not decided in this box")
+        pure.require(lies_in(room.over(size(part)), volume), f"{where}: the volume is not within its bounds")
 
 
 def check_wrench(
-    listed: Listed, forces: list[Ends], facets: list[tuple[Any, ...]], vertices: list[tuple[int, ...]], volume: Ends
+    p: list[Line],
+    forces: Sequence[Ends],
+    facets: list[tuple[Any, ...]],
+    vertices: list[tuple[int, ...]],
+    volume: Ends,
+    where: str = "wrench_polytope",
 ) -> None:
     """Check 4: the vector products of all f - 1 rows, and at which ends the forces of the others are."""
-    p, f = listed.p, len(listed.p[0])
-    m = len(p)
+    f, m = len(p[0]), len(p)
     planes = {(legs, side): (normal, offset) for legs, side, normal, offset in facets}
-    pure.require(len(planes) == len(facets), "wrench_polytope: a facet is listed twice")
+    pure.require(len(planes) == len(facets), f"{where}: a facet is listed twice")
     wanted = {(legs, side) for legs in combinations(range(m), f - 1) for side in (1, -1)}
-    pure.require(planes.keys() == wanted, "wrench_polytope: not all facets are listed, or others are")
+    pure.require(planes.keys() == wanted, f"{where}: not all facets are listed, or others are")
     cells: set[tuple[int, ...]] = set()
     for legs in combinations(range(m), f - 1):
         first = [determinant([p[k][:j] + p[k][j + 1 :] for k in legs]) for j in range(f)]
@@ -502,27 +520,27 @@ def check_wrench(
         for side in (1, -1):
             normal = first if side == 1 else [negative(x) for x in first]
             bounds, reach = planes[legs, side]
-            pure.require(lie_in(normal, bounds), "wrench_polytope: a normal is not within its bounds")
+            pure.require(lie_in(normal, bounds), f"{where}: a normal is not within its bounds")
             signs, offset = {}, whole(0)
             for k in range(m):
                 if k not in legs:
                     value = scalar(normal, p[k])
                     decided = not value.contains_zero()
-                    pure.require(decided, "wrench_polytope: more legs than usual may lie in a hyperplane")
+                    pure.require(decided, f"{where}: more legs than usual may lie in a hyperplane")
                     signs[k] = 1 if value.low > 0 else -1
                     offset = offset + value * interval(forces[k][value.low > 0])
-            pure.require(lies_in(offset, reach), "wrench_polytope: an offset is not within its bounds")
+            pure.require(lies_in(offset, reach), f"{where}: an offset is not within its bounds")
             for others in product((-1, 1), repeat=f - 1):
                 ends = signs | dict(zip(legs, others, strict=True))
                 cells.add(tuple(ends[k] for k in range(m)))
-    pure.require(len(set(vertices)) == len(vertices), "wrench_polytope: a vertex is listed twice")
-    pure.require(set(vertices) == cells, "wrench_polytope: not all vertices are listed, or others are")
+    pure.require(len(set(vertices)) == len(vertices), f"{where}: a vertex is listed twice")
+    pure.require(set(vertices) == cells, f"{where}: not all vertices are listed, or others are")
     ranges = [interval(high - low) for low, high in forces]
     found = total(
         times([size(determinant([p[k] for k in chosen])), *(ranges[k] for k in chosen)])
         for chosen in combinations(range(m), f)
     )
-    pure.require(lies_in(found, volume), "wrench_polytope: the volume is not within its bounds")
+    pure.require(lies_in(found, volume), f"{where}: the volume is not within its bounds")
 
 
 def times(factors: Sequence[Interval]) -> Interval:

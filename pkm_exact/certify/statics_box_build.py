@@ -8,40 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from math import frexp
 from typing import TYPE_CHECKING, Any, Final
 
-from flint import arb, arb_mat
-
 from pkm_exact.certify.build import sealed
+from pkm_exact.certify.statics_box_claims import both_ways, box_ellipsoid, box_indices
 from pkm_exact.certify.statics_box_machine import BoxedMachine, boxed_machine
-from pkm_exact.certify.statics_box_parts import (
-    actuator_forces,
-    ellipsoid_entry,
-    indices_entry,
-    velocity_entry,
-    wrench_entry,
-)
-from pkm_exact.certify.statics_build import is_for_legs_alone, short_weights, statics_certificate
-from pkm_exact.certify.statics_driven_build import driven_legs, statics_driven_certificate
+from pkm_exact.certify.statics_box_parts import actuator_forces, velocity_entry, wrench_entry
 from pkm_exact.certify.widened import texts
 from pkm_exact.errors import PkmExactError
 from pkm_exact.precision import working_precision
 from pkm_exact.statics.ball_rows import BITS
-from pkm_exact.statics.freedom import Freedom
-from pkm_exact.statics.largest_ellipsoid import proposed_weights
-from pkm_exact.statics.measures import Measures, RefusedError
+from pkm_exact.statics.measures import Measures
 
 if TYPE_CHECKING:
-    from pkm_exact.geometry.machine import Machine
     from pkm_exact.statics.at_pose import AtPose
 
-_NOT_CERTIFIED: Final = {
-    "wrench_polytope": ("forces", "it has no interior, or a leg exerts nothing"),
-    "ellipsoid": ("speeds", "none is proved to be nearly the largest"),
-    "indices": ("", "singular values need a length where translations and turns mix, and a regular pose"),
-}
-"""Parts that version 1 may lack although their limits are given, and why."""
 FORMAT: Final = "pkm_exact statics certificate"
 VERSION: Final = 2
 
@@ -91,10 +72,10 @@ def statics_box_certificate(
                 return None
 
         borne = tried("actuator_forces", load, lambda: actuator_forces(rows, twists, load or ()))
-        velocity = tried("velocity_polytope", limits.speeds, lambda: velocity_entry(rows, limits.speeds or ()))
+        velocity = tried("velocity_polytope", limits.speeds, lambda: velocity_entry(rows, both_ways(limits.speeds)))
         wrench = tried("wrench_polytope", ends, lambda: wrench_entry(rows, ends or []))
-        ellipsoid = tried("ellipsoid", limits.speeds, lambda: _ellipsoid(machine, limits.speeds or ()))
-        indices = tried("indices", True, lambda: _indices(machine, measures))
+        ellipsoid = tried("ellipsoid", limits.speeds, lambda: box_ellipsoid(rows, limits.speeds or ()))
+        indices = tried("indices", True, lambda: box_indices(machine.at, rows, twists, measures))
     content = {
         "format": FORMAT,
         "version": VERSION,
@@ -117,33 +98,6 @@ def statics_box_certificate(
     return sealed(content), left_out
 
 
-def any_statics_certificate(
-    machine: Machine | None,
-    measures: Measures,
-    load: Sequence[Fraction] | None = None,
-    solution: Mapping[str, Any] | None = None,
-) -> tuple[dict[str, Any], dict[str, str]]:
-    """The certificate of what was asked, and why parts of it are not there.
-
-    Version 1 at an exact pose of legs alone, version 3 if slides and cranks drive them and no load is given, else
-    version 2.
-    """
-    at: AtPose = measures.freedom.at  # type: ignore[assignment]
-    left_out = dict[str, str]()
-    if machine is not None and is_for_legs_alone(machine, at):
-        content = statics_certificate(machine, measures)
-    elif load is None and driven_legs(at) is not None:
-        content = statics_driven_certificate(measures)
-    else:
-        return statics_box_certificate(measures, load, solution)
-    for name, (limit, reason) in _NOT_CERTIFIED.items():
-        if content[name] is None and (limit == "" or content[limit] is not None):
-            left_out[name] = reason
-    if load is not None:
-        left_out["actuator_forces"] = "at an exact pose of legs alone they are exact as they are printed"
-    return content, left_out
-
-
 def _pose_entries(machine: BoxedMachine) -> dict[str, Any]:
     """Machine and box."""
     at = machine.at
@@ -164,38 +118,3 @@ def _pose_entries(machine: BoxedMachine) -> dict[str, Any]:
         "constraints": [list(map(str, form)) for form in machine.constraints],
         "free": list(machine.free),
     }
-
-
-def _ellipsoid(machine: BoxedMachine, speeds: Sequence[Fraction]) -> dict[str, Any]:
-    from pkm_exact.polytopes.enclosures import ball_of
-
-    rows = machine.rows
-    sizes = [_power(max(abs(float(x.mid())) for x in column)) for column in rows.transpose().tolist()]
-    scaled = [
-        [x / (ball_of(speed) * size) for x, size in zip(row, sizes, strict=True)]
-        for speed, row in zip(speeds, rows.tolist(), strict=True)
-    ]
-    return ellipsoid_entry(rows, speeds, short_weights(proposed_weights(arb_mat(scaled))))
-
-
-def _indices(machine: BoxedMachine, measures: Measures) -> dict[str, Any]:
-    measures.require_norms()
-    if len(measures.freedom.units) > 1:
-        raise RefusedError("mixes actuators of different units: the certificate has singular values of J unscaled")
-    length = measures.limits.length
-    scales = [Fraction(1) if k < 3 or length is None else length**2 for k in machine.at.motion.twist]
-    near = Measures(Freedom(machine.at), measures.limits).singular_values
-    pairs = [_positive(near[0]), _positive(near[-1])]
-    return indices_entry(machine.rows, machine.twists, scales, pairs)
-
-
-def _power(value: float) -> arb:
-    """A power of 2 near a number: weights do not depend on the units of the coordinates."""
-    return arb(2) ** frexp(value)[1]
-
-
-def _positive(value: Any) -> tuple[Fraction, Fraction]:
-    from pkm_exact.polytopes.enclosures import interval_of
-
-    found = interval_of(value)
-    return Fraction(found.lo), Fraction(found.hi)

@@ -81,6 +81,20 @@ class BoxedMachine:
         return hulls(self.expansion)
 
 
+def is_of_legs(at: AtPose) -> bool:
+    """Whether all actuators drive legs with rational joints, and the other constraints are rational forms."""
+    if at.held.is_redundant:
+        return False
+    try:
+        for k in range(len(at.held.actuators)):
+            boxed_leg(at, k)
+        for index in at.held.structural:
+            _form(at.equations[index])
+    except InputError:
+        return False
+    return True
+
+
 def boxed_machine(at: AtPose) -> BoxedMachine:
     """The machine of a pose, at the precision in force.
 
@@ -95,9 +109,9 @@ def boxed_machine(at: AtPose) -> BoxedMachine:
     constraints = tuple(_form(at.equations[index]) for index in at.held.structural)
     if len(constraints) > MOST_CONSTRAINTS:
         raise InputError(_HINGES)
-    position, rotation = _box(at)
+    position, rotation = box_of(at)
     place = [hull(*ends) for ends in position], [[hull(*ends) for ends in row] for row in rotation]
-    boxed = at if not at.is_exact else at_box(_Named(at), at.held, *_intervals(position, rotation), at.rank)
+    boxed = at if not at.is_exact else in_box(at, position, rotation)
     freedoms = at.motion.twist
     free = Freedom(boxed).free.places
     roots = [arb(g).sqrt() for g in at.metric]
@@ -181,7 +195,13 @@ def _rational(form: AnyForm, refusal: str) -> tuple[Fraction, ...]:
     return tuple(found)
 
 
-def _box(at: AtPose) -> tuple[tuple[Ends, ...], tuple[tuple[Ends, ...], ...]]:
+def in_box(at: AtPose, position: Sequence[Ends], rotation: Sequence[Sequence[Ends]]) -> AtPose:
+    """The machine of an exact pose in a box around it."""
+    return at_box(_Named(at), at.held, *_intervals(position, rotation), at.rank)
+
+
+def box_of(at: AtPose) -> tuple[tuple[Ends, ...], tuple[tuple[Ends, ...], ...]]:
+    """The box of a pose, or a narrow one around an exact pose."""
     if not at.is_exact:
         return (
             tuple((Fraction(x.lo), Fraction(x.hi)) for x in at.position),

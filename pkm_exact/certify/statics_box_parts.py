@@ -33,8 +33,8 @@ def actuator_forces(rows: arb_mat, twists: arb_mat, load: Sequence[Fraction]) ->
     return [texts(ends) for ends in widened_all(found.entries())]
 
 
-def velocity_entry(rows: arb_mat, speeds: Sequence[Fraction]) -> dict[str, Any]:
-    """The polytope of twists: vertices where n sides and no more meet."""
+def velocity_entry(rows: arb_mat, ends: Sequence[tuple[Fraction, Fraction]], room: int = 1) -> dict[str, Any]:
+    """The polytope of what rows map between ends: vertices where n sides and no more meet."""
     m, n = rows.nrows(), rows.ncols()
     vertices: list[dict[str, Any]] = []
     _require_few(m, n, n)
@@ -43,26 +43,34 @@ def velocity_entry(rows: arb_mat, speeds: Sequence[Fraction]) -> dict[str, Any]:
         inverse = _inverse(rows, chosen)
         reach = _picked(rows, others) * inverse if others else None
         for signs in product((-1, 1), repeat=n):
-            bounds = arb_mat([[s * ball(speeds[k])] for s, k in zip(signs, chosen, strict=True)])
+            bounds = arb_mat([[ball(ends[k][s > 0])] for s, k in zip(signs, chosen, strict=True)])
             values: list[arb] = [] if reach is None else (reach * bounds).entries()
-            rooms = [sign(ball(speeds[k]) - abs(value)) for k, value in zip(others, values, strict=True)]
-            if all(room > 0 for room in rooms):
-                point = widened_all((inverse * bounds).entries())
+            found = [_side(value, *ends[k]) for k, value in zip(others, values, strict=True)]
+            if all(side > 0 for side in found):
+                point = widened_all((inverse * bounds).entries(), room)
                 sides = [[k + 1, s] for k, s in zip(chosen, signs, strict=True)]
-                vertices.append({"sides": sides, "at": [texts(ends) for ends in point]})
-            elif not any(room < 0 for room in rooms):
+                vertices.append({"sides": sides, "at": [texts(pair) for pair in point]})
+            elif not any(side < 0 for side in found):
                 raise UndecidedError(_WIDE)
     facets = sorted({tuple(side) for vertex in vertices for side in vertex["sides"]})
     volume = None
     if m == n:
         total = 1 / abs(rows.det())
-        for speed in speeds:
-            total *= ball(2 * speed)
-        volume = texts(widened(total))
+        for low, high in ends:
+            total *= ball(high - low)
+        volume = texts(widened(total, 0, room))
     return {"facets": [list(side) for side in facets], "vertices": vertices, "volume": volume}
 
 
-def wrench_entry(rows: arb_mat, ends: Sequence[tuple[Fraction, Fraction]]) -> dict[str, Any]:
+def _side(value: arb, low: Fraction, high: Fraction) -> int:
+    """1 between the ends, -1 outside, 0 if that is not decided."""
+    bottom, top = ball(low), ball(high)
+    if value < bottom or value > top:
+        return -1
+    return 1 if value > bottom and value < top else 0
+
+
+def wrench_entry(rows: arb_mat, ends: Sequence[tuple[Fraction, Fraction]], room: int = 1) -> dict[str, Any]:
     """The polytope of wrenches: n - 1 rows and no more in every facet."""
     m, n = rows.nrows(), rows.ncols()
     _require_few(m, n - 1, n)
@@ -79,8 +87,8 @@ def wrench_entry(rows: arb_mat, ends: Sequence[tuple[Fraction, Fraction]]) -> di
                 {
                     "legs": [k + 1 for k in chosen],
                     "side": side,
-                    "normal": [texts(pair) for pair in widened_all([side * x for x in normal])],
-                    "offset": texts(widened(offset, _size(values.values(), ends))),
+                    "normal": [texts(pair) for pair in widened_all([side * x for x in normal], room)],
+                    "offset": texts(widened(offset, _size(values.values(), ends), room)),
                 }
             )
             for picked in product((-1, 1), repeat=n - 1):
@@ -92,7 +100,11 @@ def wrench_entry(rows: arb_mat, ends: Sequence[tuple[Fraction, Fraction]]) -> di
         for k in chosen:
             part *= ball(ends[k][1] - ends[k][0])
         total += part
-    return {"facets": facets, "vertices": [list(cell) for cell in sorted(cells)], "volume": texts(widened(total))}
+    return {
+        "facets": facets,
+        "vertices": [list(cell) for cell in sorted(cells)],
+        "volume": texts(widened(total, 0, room)),
+    }
 
 
 def _size(values: Any, ends: Sequence[tuple[Fraction, Fraction]]) -> arb:

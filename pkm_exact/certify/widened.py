@@ -15,8 +15,8 @@ Ends: TypeAlias = tuple[Fraction, Fraction]
 _SLACK: Final = arb(2) ** -80
 
 
-def widened(value: arb, scale: arb | int = 0) -> Ends:
-    """The ends of an interval twice as wide, and wider by a small part of a scale.
+def widened(value: arb, scale: arb | int = 0, room: int = 1) -> Ends:
+    """The ends of an interval twice as wide, or wider by so many radii, and by a small part of a scale.
 
     Examples
     --------
@@ -24,17 +24,17 @@ def widened(value: arb, scale: arb | int = 0) -> Ends:
     >>> round(float(low), 6), round(float(high), 6)
     (0.5, 1.5)
     """
-    room = value.rad() + _SLACK * abs(value).max(scale if isinstance(scale, arb) else arb(scale)).abs_upper()
-    found = interval_of(value + arb(0, room.abs_upper()))
+    most = abs(value).max(scale if isinstance(scale, arb) else arb(scale)).abs_upper()
+    found = interval_of(value + arb(0, (room * value.rad() + _SLACK * most).abs_upper()))
     return Fraction(found.lo), Fraction(found.hi)
 
 
-def widened_all(values: Sequence[arb]) -> list[Ends]:
+def widened_all(values: Sequence[arb], room: int = 1) -> list[Ends]:
     """All of them, with the largest one as their scale."""
     scale = arb(0)
     for value in values:
         scale = scale.max(abs(value).abs_upper())
-    return [widened(value, scale) for value in values]
+    return [widened(value, scale, room) for value in values]
 
 
 def hulls(rows: Sequence[Sequence[Ends]]) -> arb_mat:

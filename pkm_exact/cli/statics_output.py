@@ -39,7 +39,7 @@ def write_certificate(
         If there is no such certificate.
     """
     from pkm_exact.certify.build import canonical_bytes
-    from pkm_exact.certify.statics_box_build import any_statics_certificate
+    from pkm_exact.certify.statics_any_build import any_statics_certificate
     from pkm_exact.interactive.robots import read_robot  # it was announced when it was read first
 
     for file in sources:
@@ -48,11 +48,6 @@ def write_certificate(
     arguments.require_writable(Path(output), "-o")
     if extra.measures is None:
         raise InputError("-o: there is no J at this pose, and nothing to be certified; give --model, or another pose")
-    if extra.measures.freedom.forward is not None:
-        raise InputError(
-            "-o: certificates are about q' = J t, and speeds of the actuators do not follow from the twist here; "
-            "--format json has T, t = T q'"
-        )
     machine = None if solution is not None else read_robot(sources[0])
     load = extra.load
     if load is not None and not all(isinstance(value, int | Fraction) for value in load):

@@ -167,6 +167,13 @@ def _driven_statics(body: dict[str, Any]) -> Iterator[str]:
     return check_statics(read_statics(body, is_driven=True))
 
 
+def _equation_statics(body: dict[str, Any]) -> Iterator[str]:
+    from pkm_exact.certify.checker.statics_equations_checks import check_equation_statics
+    from pkm_exact.certify.checker.statics_equations_document import read_equation_statics
+
+    return check_equation_statics(read_equation_statics(body))
+
+
 def _box_statics(body: dict[str, Any]) -> Iterator[str]:
     from pkm_exact.certify.checker.statics_box_checks import check_box_statics
     from pkm_exact.certify.checker.statics_box_document import read_box_statics
@@ -187,4 +194,5 @@ KINDS: Final = (
     CertificateKind(STATICS, 1, _statics),
     CertificateKind(STATICS, 2, _box_statics),
     CertificateKind(STATICS, 3, _driven_statics),
+    CertificateKind(STATICS, 4, _equation_statics),
 )

@@ -21,6 +21,7 @@ from pkm_exact.certify.checker.statics_box_document import (
     Ends,
     Numbers,
     Side,
+    Table,
 )
 from pkm_exact.certify.checker.verdict import rejected, too_large
 
@@ -36,23 +37,23 @@ def check_box_statics(document: BoxStatics) -> Iterator[str]:
         _require_affordable(document)
         _check_rows(document)
         yield f"machine: {len(document.legs)} legs in a box of poses, {len(document.free)} freedoms, J in its bounds"
-        box = _Listed(document)
+        box = ListedRows(document.jacobian, document.expansion)
         if document.load is not None and document.actuator_forces is not None:
-            _check_forces(box, document.load, document.actuator_forces)
+            check_forces(box, document.load, document.actuator_forces)
             yield "forces: those that bear the load, within their bounds"
         if document.velocity is not None and document.speeds is not None:
-            _check_velocity(box, document.speeds, document.velocity)
+            check_velocity(box, both_ways(document.speeds), document.velocity)
             facets, vertices = len(document.velocity.facets), len(document.velocity.vertices)
             yield f"velocity polytope: {vertices} vertices, {facets} facets, and no others"
         if document.wrench is not None and document.forces is not None:
-            _check_wrench(box, document.forces, document.wrench)
+            check_wrench(box, document.forces, document.wrench)
             facets, vertices = len(document.wrench.facets), len(document.wrench.vertices)
             yield f"wrench polytope: {vertices} vertices, {facets} facets, and no others"
         if document.ellipsoid is not None and document.speeds is not None:
-            _check_ellipsoid(box, document.speeds, document.ellipsoid)
+            check_ellipsoid(box, document.speeds, document.ellipsoid)
             yield "ellipsoid: in the velocity polytope, and no larger one but for the part that is said"
         if document.indices is not None:
-            _check_indices(box, document, document.indices)
+            check_indices(box, document.freedoms, document.length, document.indices)
             yield "indices: singular values and condition within their bounds"
 
 
@@ -73,29 +74,29 @@ def charge_steps(document: BoxStatics, m: int, f: int) -> None:
     charge(STEP * (100 + steps))
 
 
-def _ball(value: Fraction) -> arb:
+def ball_around(value: Fraction) -> arb:
     return arb(fmpq(value.numerator, value.denominator))
 
 
-def _hull(ends: Ends) -> arb:
-    return _ball(ends[0]).union(_ball(ends[1]))
+def hull_of(ends: Ends) -> arb:
+    return ball_around(ends[0]).union(ball_around(ends[1]))
 
 
-def _holds(ends: Ends, value: arb) -> bool:
+def holds(ends: Ends, value: arb) -> bool:
     """Whether an interval contains a ball, which is proved."""
-    return bool(value >= _ball(ends[0])) and bool(value <= _ball(ends[1]))
+    return bool(value >= ball_around(ends[0])) and bool(value <= ball_around(ends[1]))
 
 
 def _check_rows(document: BoxStatics) -> None:
     """Check 1."""
     roots = [arb(g).sqrt() for g in document.metric]
-    position = [_hull(ends) for ends in document.position]
-    rotation = arb_mat([[_hull(ends) for ends in row] for row in document.rotation])
+    position = [hull_of(ends) for ends in document.position]
+    rotation = arb_mat([[hull_of(ends) for ends in row] for row in document.rotation])
     n, free = len(document.freedoms), document.free
     others = [k for k in range(n) if k not in free]
     expansion = [[arb(int(k == place)) for place in free] for k in range(n)]
     if others:
-        forms = [_form_row(form, roots, position, rotation) for form in document.constraints]
+        forms = [form_row(form, roots, position, rotation) for form in document.constraints]
         rows = [[row[k] for k in document.freedoms] for row in forms]
         left = arb_mat([[row[k] for k in others] for row in rows])
         right = arb_mat([[row[k] for k in free] for row in rows])
@@ -106,26 +107,26 @@ def _check_rows(document: BoxStatics) -> None:
         for i, place in enumerate(others):
             expansion[place] = [-found[i, j] for j in range(len(free))]
     for line, listed in zip(expansion, document.expansion, strict=True):
-        if not all(_holds(ends, value) for ends, value in zip(listed, line, strict=True)):
+        if not all(holds(ends, value) for ends, value in zip(listed, line, strict=True)):
             raise rejected("expansion: an entry is not within its bounds")
     for number, (leg, listed) in enumerate(zip(document.legs, document.jacobian, strict=True), 1):
         whole = _leg_row(leg, number, roots, position, rotation)
         row = arb_mat([[whole[k] for k in document.freedoms]]) * arb_mat(expansion)
-        if not all(_holds(ends, row[0, j]) for j, ends in enumerate(listed)):
+        if not all(holds(ends, row[0, j]) for j, ends in enumerate(listed)):
             raise rejected(f"jacobian: an entry of leg {number} is not within its bounds")
 
 
 def _leg_row(leg: BoxLeg, number: int, roots: Sequence[arb], position: Sequence[arb], rotation: arb_mat) -> list[arb]:
     """(d; a x d) / p."""
-    arm = (rotation * arb_mat([[root * _ball(x)] for root, x in zip(roots, leg.platform, strict=True)])).entries()
-    d = [c + a - root * _ball(x) for c, a, root, x in zip(position, arm, roots, leg.base, strict=True)]
+    arm = (rotation * arb_mat([[root * ball_around(x)] for root, x in zip(roots, leg.platform, strict=True)])).entries()
+    d = [c + a - root * ball_around(x) for c, a, root, x in zip(position, arm, roots, leg.base, strict=True)]
     if leg.direction is None:
         square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
         if not square > 0:
             raise rejected(f"legs[{number}]: its length may be 0")
         speed = square.sqrt()
     else:
-        x, y, z = (root * _ball(n) * e for root, n, e in zip(roots, leg.direction, d, strict=True))
+        x, y, z = (root * ball_around(n) * e for root, n, e in zip(roots, leg.direction, d, strict=True))
         speed = x + y + z
         if speed.contains(0):
             raise rejected(f"legs[{number}]: its actuator may not move it")
@@ -133,12 +134,12 @@ def _leg_row(leg: BoxLeg, number: int, roots: Sequence[arb], position: Sequence[
     return [value / speed for value in (*d, *moment)]
 
 
-def _form_row(form: Numbers, roots: Sequence[arb], position: Sequence[arb], rotation: arb_mat) -> list[arb]:
+def form_row(form: Numbers, roots: Sequence[arb], position: Sequence[arb], rotation: arb_mat) -> list[arb]:
     """The derivative of a form along a twist, in ordinary coordinates."""
-    square = 2 * _ball(form[0])
-    arm = rotation * arb_mat([[_ball(form[1 + k]) / roots[k]] for k in range(3)])
-    force = [square * position[k] + arm[k, 0] + _ball(form[4 + k]) / roots[k] for k in range(3)]
-    table = arb_mat([[_ball(form[7 + 3 * i + j]) * roots[j] / roots[i] for j in range(3)] for i in range(3)])
+    square = 2 * ball_around(form[0])
+    arm = rotation * arb_mat([[ball_around(form[1 + k]) / roots[k]] for k in range(3)])
+    force = [square * position[k] + arm[k, 0] + ball_around(form[4 + k]) / roots[k] for k in range(3)]
+    table = arb_mat([[ball_around(form[7 + 3 * i + j]) * roots[j] / roots[i] for j in range(3)] for i in range(3)])
     # R_j x c_j for the columns of both, summed over j, is what is not symmetric in R c^T.
     turned = rotation * table.transpose()
     moment = []
@@ -148,13 +149,13 @@ def _form_row(form: Numbers, roots: Sequence[arb], position: Sequence[arb], rota
     return [*force, *moment]
 
 
-class _Listed:
+class ListedRows:
     """P and E as they are listed, and determinants of rows of P."""
 
-    def __init__(self, document: BoxStatics) -> None:
-        self.rows = arb_mat([[_hull(ends) for ends in row] for row in document.jacobian])
-        self.twists = arb_mat([[_hull(ends) for ends in row] for row in document.expansion])
-        self.m, self.f = len(document.legs), len(document.free)
+    def __init__(self, jacobian: Table, expansion: Table) -> None:
+        self.rows = arb_mat([[hull_of(ends) for ends in row] for row in jacobian])
+        self.twists = arb_mat([[hull_of(ends) for ends in row] for row in expansion])
+        self.m, self.f = len(jacobian), len(jacobian[0])
 
     def picked(self, chosen: Sequence[int]) -> arb_mat:
         """Some rows."""
@@ -172,104 +173,113 @@ class _Listed:
         return total
 
 
-def _check_forces(box: _Listed, load: Numbers, listed: Sequence[Ends]) -> None:
+def check_forces(box: ListedRows, load: Numbers, listed: Sequence[Ends]) -> None:
     """Check 2."""
-    wanted = box.twists.transpose() * arb_mat([[-_ball(x)] for x in load])
+    wanted = box.twists.transpose() * arb_mat([[-ball_around(x)] for x in load])
     back = box.rows.transpose()
     try:
         found = back.solve(wanted) if box.m == box.f else box.rows * (back * box.rows).solve(wanted)
     except ZeroDivisionError:
         raise rejected("actuator_forces: not decided in this box") from None
-    if not all(_holds(ends, found[k, 0]) for k, ends in enumerate(listed)):
+    if not all(holds(ends, found[k, 0]) for k, ends in enumerate(listed)):
         raise rejected("actuator_forces: one is not within its bounds")
 
 
-def _check_velocity(box: _Listed, speeds: Numbers, claim: BoxVelocity) -> None:
-    """Check 3."""
-    wanted = _meeting_points(box, speeds)
+def both_ways(speeds: Numbers) -> list[Ends]:
+    """Ends of what is limited both ways alike."""
+    return [(-speed, speed) for speed in speeds]
+
+
+def check_velocity(box: ListedRows, ends: Sequence[Ends], claim: BoxVelocity, where: str = "velocity_polytope") -> None:
+    """Check 3, of what the rows map between the ends."""
+    wanted = _meeting_points(box, ends, where)
     listed = dict(claim.vertices)
     if len(listed) != len(claim.vertices):
-        raise rejected("velocity_polytope: a vertex is listed twice")
+        raise rejected(f"{where}: a vertex is listed twice")
     if listed.keys() != wanted.keys():
-        raise rejected("velocity_polytope: not all vertices are listed, or others are")
+        raise rejected(f"{where}: not all vertices are listed, or others are")
     for sides, point in wanted.items():
-        if not all(_holds(ends, point[j, 0]) for j, ends in enumerate(listed[sides])):
-            raise rejected("velocity_polytope: a vertex is not within its bounds")
+        if not all(holds(pair, point[j, 0]) for j, pair in enumerate(listed[sides])):
+            raise rejected(f"{where}: a vertex is not within its bounds")
     if len(set(claim.facets)) != len(claim.facets):
-        raise rejected("velocity_polytope: a facet is listed twice")
+        raise rejected(f"{where}: a facet is listed twice")
     if set(claim.facets) != {side for sides in wanted for side in sides}:
-        raise rejected("velocity_polytope: not all facets are listed, or others are")
+        raise rejected(f"{where}: not all facets are listed, or others are")
     if claim.volume is not None:
         size = 1 / abs(box.rows.det())
-        for speed in speeds:
-            size *= 2 * _ball(speed)
-        if not _holds(claim.volume, size):
-            raise rejected("velocity_polytope: the volume is not within its bounds")
+        for low, high in ends:
+            size *= ball_around(high - low)
+        if not holds(claim.volume, size):
+            raise rejected(f"{where}: the volume is not within its bounds")
 
 
-def _meeting_points(box: _Listed, speeds: Numbers) -> dict[tuple[Side, ...], arb_mat]:
+def _meeting_points(box: ListedRows, ends: Sequence[Ends], where: str) -> dict[tuple[Side, ...], arb_mat]:
     """All vertices under the sides that meet there."""
     found: dict[tuple[Side, ...], arb_mat] = {}
     for chosen in combinations(range(box.m), box.f):
         try:
             inverse = box.picked(chosen).inv()
         except ZeroDivisionError:
-            raise rejected("velocity_polytope: legs may be dependent, or the box is too wide") from None
+            raise rejected(f"{where}: legs may be dependent, or the box is too wide") from None
         reach = box.rows * inverse
         others = [k for k in range(box.m) if k not in chosen]
         for signs in product((-1, 1), repeat=box.f):
-            bounds = arb_mat([[s * _ball(speeds[k])] for s, k in zip(signs, chosen, strict=True)])
+            bounds = arb_mat([[ball_around(ends[k][side > 0])] for side, k in zip(signs, chosen, strict=True)])
             values = reach * bounds
-            rooms = [_ball(speeds[k]) - abs(values[k, 0]) for k in others]
+            rooms = [
+                room
+                for k in others
+                for room in (values[k, 0] - ball_around(ends[k][0]), ball_around(ends[k][1]) - values[k, 0])
+            ]
             if all(room > 0 for room in rooms):
                 found[tuple(zip(chosen, signs, strict=True))] = inverse * bounds
             elif not any(room < 0 for room in rooms):
-                raise rejected("velocity_polytope: whether there is a vertex is not decided in this box")
+                raise rejected(f"{where}: whether there is a vertex is not decided in this box")
     return found
 
 
-def _check_wrench(box: _Listed, forces: Sequence[Ends], claim: BoxWrench) -> None:
+def check_wrench(box: ListedRows, forces: Sequence[Ends], claim: BoxWrench, where: str = "wrench_polytope") -> None:
     """Check 4."""
     listed = {(facet.legs, facet.side): facet for facet in claim.facets}
     if len(listed) != len(claim.facets):
-        raise rejected("wrench_polytope: a facet is listed twice")
+        raise rejected(f"{where}: a facet is listed twice")
     places = list(combinations(range(box.m), box.f - 1))
     if listed.keys() != set(product(places, (1, -1))):
-        raise rejected("wrench_polytope: not all facets are listed, or others are")
+        raise rejected(f"{where}: not all facets are listed, or others are")
     cells: set[tuple[int, ...]] = set()
     for facet in claim.facets:
-        cell = _check_facet(box, forces, facet)
+        cell = _check_facet(box, forces, facet, where)
         for ends_of in product((-1, 1), repeat=len(facet.legs)):
             cell |= zip(facet.legs, ends_of, strict=True)
             cells.add(tuple(cell[k] for k in range(box.m)))
     if len(set(claim.vertices)) != len(claim.vertices):
-        raise rejected("wrench_polytope: a vertex is listed twice")
+        raise rejected(f"{where}: a vertex is listed twice")
     if set(claim.vertices) != cells:
-        raise rejected("wrench_polytope: not all vertices are listed, or others are")
-    if not _holds(claim.volume, box.weighted_minors([_ball(high - low) for low, high in forces], squared=False)):
-        raise rejected("wrench_polytope: the volume is not within its bounds")
+        raise rejected(f"{where}: not all vertices are listed, or others are")
+    if not holds(claim.volume, box.weighted_minors([ball_around(high - low) for low, high in forces], squared=False)):
+        raise rejected(f"{where}: the volume is not within its bounds")
 
 
-def _check_facet(box: _Listed, forces: Sequence[Ends], facet: BoxFacet) -> dict[int, int]:
+def _check_facet(box: ListedRows, forces: Sequence[Ends], facet: BoxFacet, where: str) -> dict[int, int]:
     """At which end the forces of the other legs are on a facet, if it is where the certificate says."""
     normal = [facet.side * x for x in _vector_product(box, facet.legs)]
-    if not all(_holds(ends, x) for ends, x in zip(facet.normal, normal, strict=True)):
-        raise rejected("wrench_polytope: a normal is not within its bounds")
+    if not all(holds(ends, x) for ends, x in zip(facet.normal, normal, strict=True)):
+        raise rejected(f"{where}: a normal is not within its bounds")
     signs, offset = {}, arb(0)
     for k in range(box.m):
         if k in facet.legs:
             continue
         value = sum((x * box.rows[k, j] for j, x in enumerate(normal)), arb(0))
         if not (value > 0 or value < 0):
-            raise rejected("wrench_polytope: more legs than usual may lie in a hyperplane")
+            raise rejected(f"{where}: more legs than usual may lie in a hyperplane")
         signs[k] = 1 if value > 0 else -1
-        offset += value * _ball(forces[k][value > 0])
-    if not _holds(facet.offset, offset):
-        raise rejected("wrench_polytope: an offset is not within its bounds")
+        offset += value * ball_around(forces[k][value > 0])
+    if not holds(facet.offset, offset):
+        raise rejected(f"{where}: an offset is not within its bounds")
     return signs
 
 
-def _vector_product(box: _Listed, chosen: Sequence[int]) -> list[arb]:
+def _vector_product(box: ListedRows, chosen: Sequence[int]) -> list[arb]:
     found = []
     for j in range(box.f):
         minor = arb_mat([[box.rows[k, i] for i in range(box.f) if i != j] for k in chosen]).det()
@@ -277,7 +287,7 @@ def _vector_product(box: _Listed, chosen: Sequence[int]) -> list[arb]:
     return found
 
 
-def _check_ellipsoid(box: _Listed, speeds: Numbers, claim: BoxEllipsoid) -> None:
+def check_ellipsoid(box: ListedRows, speeds: Numbers, claim: BoxEllipsoid) -> None:
     """Check 5."""
     f = box.f
     exact = fmpq_mat(f, f, [fmpq(x.numerator, x.denominator) for row in claim.matrix for x in row])
@@ -290,25 +300,25 @@ def _check_ellipsoid(box: _Listed, speeds: Numbers, claim: BoxEllipsoid) -> None
     if min(claim.weights) < 0 or sum(claim.weights) != 1:
         raise rejected("ellipsoid: weights are negative, or their sum is not 1")
     reach = box.rows * arb_mat(exact) * box.rows.transpose()
-    if not all(reach[k, k] <= _ball(speed * speed) for k, speed in enumerate(speeds)):
+    if not all(reach[k, k] <= ball_around(speed * speed) for k, speed in enumerate(speeds)):
         raise rejected("ellipsoid: may leave the velocity polytope")
-    parts = [_ball(weight / (speed * speed)) for weight, speed in zip(claim.weights, speeds, strict=True)]
+    parts = [ball_around(weight / (speed * speed)) for weight, speed in zip(claim.weights, speeds, strict=True)]
     share = arb(exact.det()) * box.weighted_minors(parts, squared=True) * f**f
-    if not share >= _ball(1 - claim.gap):
+    if not share >= ball_around(1 - claim.gap):
         raise rejected("ellipsoid: not proved to be as large as that")
 
 
-def _check_indices(box: _Listed, document: BoxStatics, indices: Sequence[Ends]) -> None:
+def check_indices(box: ListedRows, freedoms: Sequence[int], length: Fraction | None, indices: Sequence[Ends]) -> None:
     """Check 6."""
-    length = Fraction(1) if document.length is None else document.length**2
-    scales = [_ball(length) if k >= 3 else arb(1) for k in document.freedoms]
+    square = Fraction(1) if length is None else length**2
+    scales = [ball_around(square) if k >= 3 else arb(1) for k in freedoms]
     gram = box.rows.transpose() * box.rows
     twists = box.twists.tolist()
     scaled = arb_mat([[scale * x for x in row] for scale, row in zip(scales, twists, strict=True)])
     norm = box.twists.transpose() * scaled
 
     def definite(s: Fraction, way: int) -> bool | None:
-        return _definite(way * (gram - _ball(s * s) * norm))
+        return is_definite(way * (gram - ball_around(s * s) * norm))
 
     least, greatest, condition = indices
     if definite(least[0], 1) is not True:
@@ -323,7 +333,7 @@ def _check_indices(box: _Listed, document: BoxStatics, indices: Sequence[Ends]) 
         raise rejected("indices: condition may not be between its bounds")
 
 
-def _definite(matrix: arb_mat) -> bool | None:
+def is_definite(matrix: arb_mat) -> bool | None:
     """Whether a symmetric matrix is positive definite, by its pivots; None if they do not tell."""
     left = matrix.tolist()
     for place, line in enumerate(left):

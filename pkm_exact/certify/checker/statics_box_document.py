@@ -120,17 +120,17 @@ def read_box_statics(body: dict[str, Any]) -> BoxStatics:
     text(values["name"], "name")
     text(values["unit"], "unit")
     if values["solution"] is not None:
-        _solution(values["solution"])
+        require_solution(values["solution"])
     metric = items(values["metric"], "metric", 3, whole)
     if min(metric) <= 0:
         raise malformed("metric: one is not positive")
-    freedoms = _places(values["freedoms"], "freedoms", range(6))
+    freedoms = places_of(values["freedoms"], "freedoms", range(6))
     for name, most in (("legs", MAX_LEGS), ("constraints", MAX_CONSTRAINTS)):
         if isinstance(values[name], list) and len(values[name]) > most:
             raise too_large(f"{name}: more than {most} entries")
     legs = items(values["legs"], "legs", None, _leg)
     forms = items(values["constraints"], "constraints", None, vector_of(FORM))
-    free = _places(values["free"], "free", freedoms)
+    free = places_of(values["free"], "free", freedoms)
     n, f, m = len(freedoms), len(free), len(legs)
     if f != n - len(forms):
         raise malformed("free: not as many as freedoms less constraints")
@@ -153,51 +153,56 @@ def read_box_statics(body: dict[str, Any]) -> BoxStatics:
     return BoxStatics(
         metric,
         freedoms,
-        items(values["position"], "position", 3, _ends),
-        items(values["rotation"], "rotation", 3, _ends_of(3)),
+        items(values["position"], "position", 3, ends_of),
+        items(values["rotation"], "rotation", 3, rows_of_ends(3)),
         legs,
         forms,
         tuple(freedoms.index(k) for k in free),
         None if speeds is None else items(speeds, "speeds", m, positive),
-        None if forces is None else items(forces, "forces", m, _range),
+        None if forces is None else items(forces, "forces", m, range_of),
         None if values["length"] is None else positive(values["length"], "length"),
         None if load is None else items(load, "load", n, rational),
-        items(values["jacobian"], "jacobian", m, _ends_of(f)),
-        items(values["expansion"], "expansion", n, _ends_of(f)),
-        None if borne is None else items(borne, "actuator_forces", m, _ends),
-        None if velocity is None else _velocity(velocity, m, f),
-        None if wrench is None else _wrench(wrench, m, f),
-        None if ellipsoid is None else _ellipsoid(ellipsoid, m, f),
-        None if values["indices"] is None else _indices(values["indices"]),
+        items(values["jacobian"], "jacobian", m, rows_of_ends(f)),
+        items(values["expansion"], "expansion", n, rows_of_ends(f)),
+        None if borne is None else items(borne, "actuator_forces", m, ends_of),
+        None if velocity is None else velocity_of(velocity, m, f),
+        None if wrench is None else wrench_of(wrench, m, f),
+        None if ellipsoid is None else ellipsoid_of(ellipsoid, m, f),
+        None if values["indices"] is None else indices_of(values["indices"]),
     )
 
 
-def _ends_of(length: int) -> Any:
-    return lambda value, where: items(value, where, length, _ends)
+def rows_of_ends(length: int) -> Any:
+    """Reads so many intervals."""
+    return lambda value, where: items(value, where, length, ends_of)
 
 
-def _ends(value: Any, where: str) -> Ends:
+def ends_of(value: Any, where: str) -> Ends:
+    """An interval."""
     low, high = items(value, where, 2, rational)
     if low > high:
         raise malformed(f"{where}: the ends are not in order")
     return low, high
 
 
-def _range(value: Any, where: str) -> Ends:
-    low, high = _ends(value, where)
+def range_of(value: Any, where: str) -> Ends:
+    """Two numbers, the first below the second."""
+    low, high = ends_of(value, where)
     if low == high:
         raise malformed(f"{where}: the least is not below the greatest")
     return low, high
 
 
-def _places(value: Any, where: str, known: Any) -> tuple[int, ...]:
+def places_of(value: Any, where: str, known: Any) -> tuple[int, ...]:
+    """Increasing numbers of those that are known."""
     found = items(value, where, None, integer)
     if not found or list(found) != sorted(set(found)) or not set(found) <= set(known):
         raise malformed(f"{where}: not increasing numbers of those that there are")
     return found
 
 
-def _solution(value: Any) -> None:
+def require_solution(value: Any) -> None:
+    """A digest and the number of a pose, which describe."""
     digest, pose = entries(value, "solution", ("digest", "pose"))
     text(digest, "solution.digest")
     if count(pose, "solution.pose") == 0:
@@ -228,8 +233,8 @@ def _limited(value: Any, where: str) -> None:
         raise too_large(f"{where}: more than {MAX_VERTICES} entries")
 
 
-def _velocity(value: Any, m: int, f: int) -> BoxVelocity:
-    where = "velocity_polytope"
+def velocity_of(value: Any, m: int, f: int, where: str = "velocity_polytope") -> BoxVelocity:
+    """Facets, vertices and volume of what rows map between ends."""
     facets, vertices, volume = entries(value, where, ("facets", "vertices", "volume"))
     _limited(facets, f"{where}.facets")
     _limited(vertices, f"{where}.vertices")
@@ -239,19 +244,19 @@ def _velocity(value: Any, m: int, f: int) -> BoxVelocity:
         found = _sides(sides, f"{place}.sides", f, m)
         if [leg for leg, _ in found] != sorted({leg for leg, _ in found}):
             raise malformed(f"{place}.sides: legs are not increasing")
-        return found, items(at, f"{place}.at", f, _ends)
+        return found, items(at, f"{place}.at", f, ends_of)
 
     if (volume is None) != (m > f):
         raise malformed(f"{where}.volume: is there exactly if there are as many legs as free components")
     return BoxVelocity(
         _sides(facets, f"{where}.facets", None, m),
         items(vertices, f"{where}.vertices", None, vertex),
-        None if volume is None else _ends(volume, f"{where}.volume"),
+        None if volume is None else ends_of(volume, f"{where}.volume"),
     )
 
 
-def _wrench(value: Any, m: int, f: int) -> BoxWrench:
-    where = "wrench_polytope"
+def wrench_of(value: Any, m: int, f: int, where: str = "wrench_polytope") -> BoxWrench:
+    """Facets, vertices and volume of sums of rows times what is between ends."""
     facets, vertices, volume = entries(value, where, ("facets", "vertices", "volume"))
     _limited(facets, f"{where}.facets")
     _limited(vertices, f"{where}.vertices")
@@ -264,14 +269,14 @@ def _wrench(value: Any, m: int, f: int) -> BoxWrench:
         return BoxFacet(
             tuple(leg - 1 for leg in chosen),
             _sign(side, f"{place}.side"),
-            items(normal, f"{place}.normal", f, _ends),
-            _ends(offset, f"{place}.offset"),
+            items(normal, f"{place}.normal", f, ends_of),
+            ends_of(offset, f"{place}.offset"),
         )
 
     return BoxWrench(
         items(facets, f"{where}.facets", None, facet),
         items(vertices, f"{where}.vertices", None, lambda x, w: items(x, w, m, _sign)),
-        _ends(volume, f"{where}.volume"),
+        ends_of(volume, f"{where}.volume"),
     )
 
 
@@ -281,7 +286,8 @@ def _sign(value: Any, where: str) -> int:
     return int(value)
 
 
-def _ellipsoid(value: Any, m: int, f: int) -> BoxEllipsoid:
+def ellipsoid_of(value: Any, m: int, f: int) -> BoxEllipsoid:
+    """Weights, matrix and gap."""
     weights, matrix, gap = entries(value, "ellipsoid", ("weights", "matrix", "gap"))
     part = rational(gap, "ellipsoid.gap")
     if not 0 <= part < 1:
@@ -291,11 +297,12 @@ def _ellipsoid(value: Any, m: int, f: int) -> BoxEllipsoid:
     )
 
 
-def _indices(value: Any) -> tuple[Ends, ...]:
+def indices_of(value: Any) -> tuple[Ends, ...]:
+    """Bounds of least and greatest singular value and of the condition."""
     names = ("sigma_min", "sigma_max", "condition")
     found = []
     for name, entry in zip(names, entries(value, "indices", names), strict=True):
-        low, high = _ends(entry, f"indices.{name}")
+        low, high = ends_of(entry, f"indices.{name}")
         if low < 0:
             raise malformed(f"indices.{name}: negative")
         found.append((low, high))
