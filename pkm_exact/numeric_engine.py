@@ -22,6 +22,7 @@ from pkm_exact.failures.contradiction import attached, require
 from pkm_exact.final_checks import consistent
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.chart_equations import ChartSystem
+from pkm_exact.numeric.nearby import from_home
 from pkm_exact.numeric.poses import Approximations, approximations, certified_solutions, is_tracked, real_poses
 from pkm_exact.numeric.seeds import has_seeds, seeds
 from pkm_exact.numeric.start import StartSection
@@ -34,6 +35,7 @@ from pkm_exact.stages import Stages
 ATTEMPTS: Final = 2
 """Times that all paths are tracked, each time along other paths, before the exact engine takes over."""
 PATHS: Final = "path tracking"
+NEIGHBOUR: Final = "Newton's method from a neighbour"
 TEMPLATE: Final = "elimination template"
 """Stages in which floating point finds solutions."""
 FORMULATION: Final = "AFD6"
@@ -71,6 +73,8 @@ def _by_numbers(
             found = find()
         except OverflowError:
             break
+        if found is None:
+            continue
         stages.enter("Krawczyk operator")
         system, isolated = certified_solutions(problem, found, stages.amount)
         count = isolated.count
@@ -89,9 +93,10 @@ def _by_numbers(
 
 def _searches(
     problem: ForwardProblem, policy: Policy, stages: Stages, start: StartSection | None
-) -> Iterator[tuple[str, Callable[[], Approximations]]]:
+) -> Iterator[tuple[str, Callable[[], Approximations | None]]]:
     """Ways to find all solutions, each with the name of its stage. What is certified does not depend on the way."""
     if start is not None:
+        yield NEIGHBOUR, partial(from_home, problem, start)
         yield PATHS, partial(approximations, problem, start, 0, stages.amount)
     if has_seeds(problem):
         yield TEMPLATE, partial(seeds, problem)

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from random import Random
 from typing import Any
 
 import numpy as np
 import pytest
-from samples import random_placed, shipped
+from samples import model, random_placed, shipped
 
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion import Motion
 from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
-from pkm_exact.numeric.nearby import nearby_start
+from pkm_exact.numeric.nearby import from_home, nearby_start
 from pkm_exact.numeric.poses import approximations
 from pkm_exact.numeric.start import StartSection, find_start, generic_start
 from pkm_exact.numeric.study_system import (
@@ -126,6 +127,34 @@ def test_starts_near_a_robot_are_complex_and_keep_its_frames() -> None:
 @pytest.mark.parametrize("name", ["mssm", "similar-planar-s", "ssm-exact"])
 def test_robots_with_fewer_solutions_have_no_start_of_their_own(name: str) -> None:
     assert nearby_start(shipped(name)) is None
+
+
+def test_solutions_of_neighbours_follow_from_those_at_home_or_not_at_all() -> None:
+    robot, problem = model("3-rpr-merlet-p"), shipped("3-rpr-merlet-p")
+    start = nearby_start(problem)
+    assert start is not None
+    assert start.home is not None
+    squares = [leg.length_squared for leg in problem.distances]
+    for factor, is_near in ((Fraction(1001, 1000), True), (Fraction(9), False)):
+        other = robot.problem([squares[0] * factor, *squares[1:]])
+        found = from_home(other, start)
+        assert (found is not None) is is_near
+        if found is None:
+            continue
+        values = np.einsum("kij,pi,pj->pk", found.section.quadrics, found.points, found.points)
+        assert np.abs(values).max() < 1e-12
+        overlaps = np.abs(found.points.conj() @ found.points.T) - np.eye(6)
+        assert np.abs(overlaps).max() < 1 - 1e-6
+    assert from_home(problem, replace(start, home=None)) is None
+
+
+def test_a_home_with_a_solution_twice_is_of_no_use() -> None:
+    problem = shipped("3-rpr-merlet-p")
+    start = nearby_start(problem)
+    assert start is not None
+    assert start.home is not None
+    twice = np.concatenate([start.home[:5], start.home[:1]])
+    assert from_home(problem, replace(start, home=twice)) is None
 
 
 def test_paths_to_a_double_solution_do_not_arrive() -> None:

@@ -10,11 +10,25 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from types import MappingProxyType
 from typing import ClassVar
 
 from pkm_exact.constraints.constraint import Linear, Role
 from pkm_exact.constraints.form import Form, Vector, form, outer, scaled
+
+
+@lru_cache(maxsize=64)
+def _form_of_joints(metric: tuple[int, int, int], base: Vector, platform: Vector) -> Form:
+    """The form without the length: many robots differ in that alone."""
+    squares = sum((g * (a * a + b * b) for g, a, b in zip(metric, base, platform, strict=True)), Fraction(0))
+    return form(
+        Fraction(1),
+        scaled(metric, platform, 2),
+        scaled(metric, base, -2),
+        outer(metric, base, platform, -2),
+        squares,
+    )
 
 
 @dataclass(frozen=True)
@@ -54,18 +68,8 @@ class Distance(Linear):
 
     def forms(self, metric: tuple[int, int, int]) -> tuple[Form, ...]:
         """The hyperplane of the leg."""
-        squares = sum(
-            (g * (a * a + b * b) for g, a, b in zip(metric, self.base, self.platform, strict=True)), Fraction(0)
-        )
-        return (
-            form(
-                Fraction(1),
-                scaled(metric, self.platform, 2),
-                scaled(metric, self.base, -2),
-                outer(metric, self.base, self.platform, -2),
-                squares - self.length_squared,
-            ),
-        )
+        without_length = _form_of_joints(metric, self.base, self.platform)
+        return ((*without_length[:-1], without_length[-1] - self.length_squared),)
 
     def scales(self, metric: tuple[int, int, int], length: Fraction) -> tuple[Fraction, ...]:  # noqa: ARG002
         """(2 l)^2: the row is then the derivative of the length."""

@@ -61,7 +61,7 @@ def integral(values: Form) -> tuple[int, ...]:
     (3, 2)
     """
     denominator = lcm(*(value.denominator for value in values))
-    return tuple(int(value * denominator) for value in values)
+    return tuple(value.numerator * (denominator // value.denominator) for value in values)
 
 
 def ordinary(values: Sequence[Any], roots: Sequence[Any]) -> list[Any]:

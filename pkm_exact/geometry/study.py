@@ -58,7 +58,12 @@ def motion_quadrics(metric: Sequence[int]) -> list[Quadric]:
     >>> motion_quadrics((1, 1, 1))[-1]
     {(0, 0): 1, (1, 1): 1, (2, 2): 1, (3, 3): 1}
     """
-    g = metric
+    return [dict(quadric) for quadric in _motion_quadrics(tuple(metric))]
+
+
+@lru_cache(maxsize=8)
+def _motion_quadrics(g: tuple[int, ...]) -> tuple[Quadric, ...]:
+    """The same, not to be changed."""
     volume = g[0] * g[1] * g[2]
     square = {(4, 4): 1} | {(5 + i, 5 + i): volume // g[i] for i in range(3)}
     turned: list[Quadric] = []
@@ -74,7 +79,7 @@ def motion_quadrics(metric: Sequence[int]) -> list[Quadric]:
         sign = -1 if (i, j, k) in CYCLIC else 1
         rotation[i, j] = {(1 + min(i, j), 1 + max(i, j)): 2 * g[j], (0, 1 + k): 2 * sign * g[j] * g[k]}
     norm = {(0, 0): volume} | {(1 + i, 1 + i): g[i] for i in range(3)}
-    return [square, *turned, *position, *(rotation[i, j] for i in range(3) for j in range(3)), norm]
+    return (square, *turned, *position, *(rotation[i, j] for i in range(3) for j in range(3)), norm)
 
 
 def form_quadric(form: Sequence[int], metric: Sequence[int]) -> Quadric:
@@ -87,7 +92,7 @@ def form_quadric(form: Sequence[int], metric: Sequence[int]) -> Quadric:
     True
     """
     quadric: Quadric = {}
-    for coefficient, values in zip(form, motion_quadrics(metric), strict=True):
+    for coefficient, values in zip(form, _motion_quadrics(tuple(metric)), strict=True):
         if coefficient:
             for key, value in values.items():
                 quadric[key] = quadric.get(key, 0) + coefficient * value

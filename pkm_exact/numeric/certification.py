@@ -178,7 +178,7 @@ def _without_conjugates(points: Complex) -> Complex:
 
 def _is_decided(box: Box) -> bool:
     """Whether the solution in the box is real, or provably not."""
-    return box.is_real or box.is_disjoint(box.conjugate())
+    return box.is_real or any(abs(imaginary) > RADIUS for _, imaginary in box.centre)
 
 
 def _column(point: Complex | acb_mat) -> acb_mat:

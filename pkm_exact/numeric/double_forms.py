@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import ldexp
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,16 +46,13 @@ class DoubleForms:
             If a coefficient is too large for a double.
         """
         places = sorted({place for polynomial in polynomials for place in polynomial})
-        heads, tails = [], []
         powers = [max(abs(value).bit_length() for value in polynomial.values()) for polynomial in polynomials]
-        for polynomial, power in zip(polynomials, powers, strict=True):
-            for value in (polynomial.get(place, 0) for place in places):
-                rounded = float(value)
-                heads.append(ldexp(rounded, -power))
-                tails.append(ldexp(float(value - int(rounded)), -power))
-        shape = len(polynomials), len(places)
+        values = [polynomial.get(place, 0) for polynomial in polynomials for place in places]
+        heads = [float(value) for value in values]
+        tails = [float(value - int(head)) if head else 0.0 for value, head in zip(values, heads, strict=True)]
         first, second = np.array(places, dtype=np.intp).reshape(-1, 2).T
-        table = np.array([heads, tails]).reshape(2, *shape)
+        table = np.array([heads, tails]).reshape(2, len(polynomials), len(places))
+        table = np.ldexp(table, -np.array(powers)[:, None])
         return cls(first, second, table[0], table[1], np.array(powers))
 
     def at(self, points: Real | Complex) -> tuple[Real | Complex, Real]:

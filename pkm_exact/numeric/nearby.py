@@ -2,7 +2,9 @@
 
 The section has the robot's own joints, in the robot's own frames, and complex squared lengths around given ones: it is
 generic among the sections of this robot. Its solutions are tracked once from the generic start. From there to real
-lengths only the constants of the legs move, along a line that meets no singular robot, with probability one.
+lengths only the constants of the legs move, along a line that meets no singular robot, with probability one. They are
+tracked to the given lengths at once: where others are so close that Newton's method leads from the one's solutions to
+as many of the other's, no path is needed.
 """
 
 from __future__ import annotations
@@ -12,8 +14,9 @@ from typing import Final
 import numpy as np
 
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.numeric.start import StartSection, generic_start, joined, start_quadrics
-from pkm_exact.numeric.study_system import numeric_section, section_quadrics
+from pkm_exact.numeric.poses import Approximations
+from pkm_exact.numeric.start import SAME, StartSection, generic_start, joined, start_quadrics
+from pkm_exact.numeric.study_system import Complex, Real, numeric_section, section_quadrics
 from pkm_exact.numeric.tracker import polished, track
 
 OFFSET: Final = 0.06
@@ -22,6 +25,8 @@ ATTEMPTS: Final = 3
 """Times that paths are tracked, each time others, before the robot counts as one with fewer solutions."""
 GREATEST_CHANGE: Final = 1e-5
 """An end point that Newton's method still moves by more than this is not taken for a solution."""
+HOME_STEPS: Final = 4
+"""Newton steps from the solutions at home."""
 
 
 def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
@@ -62,5 +67,36 @@ def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
             ends, change = polished(ends[arrived], quadrics)
         solutions = joined(solutions, ends[change < GREATEST_CHANGE])
         if len(solutions) == problem.solution_bound:
-            return StartSection(legs, solutions, section.frames)
+            return StartSection(legs, solutions, section.frames, _home(solutions, quadrics, section.quadrics))
     return None
+
+
+def _home(solutions: Complex, quadrics: Complex, target: Complex) -> Complex | None:
+    """The solutions at the ends of the paths to the robot itself; None if these are not all different."""
+    with np.errstate(all="ignore"):
+        ends, arrived = track(solutions, quadrics, target)
+        ends, change = polished(ends, target)
+    return ends if arrived.all() and _are_solutions(ends, change) else None
+
+
+def from_home(problem: ForwardProblem, start: StartSection) -> Approximations | None:
+    """The solutions to which Newton's method leads from those at home; None if these are not as many.
+
+    Raises
+    ------
+    OverflowError
+        If a number of the robot is too large for floating point.
+    """
+    if start.home is None:
+        return None
+    section = numeric_section(problem, start.frames)
+    with np.errstate(all="ignore"):
+        points, change = polished(start.home, section.quadrics, HOME_STEPS)
+        return Approximations(section, points) if _are_solutions(points, change) else None
+
+
+def _are_solutions(points: Complex, change: Real) -> bool:
+    """Whether Newton's method has come to rest at points of norm 1, and no two of them are the same."""
+    overlaps = np.abs(points.conj() @ points.T)
+    np.fill_diagonal(overlaps, 0)
+    return bool((change < GREATEST_CHANGE).all() and (overlaps < 1 - SAME).all())

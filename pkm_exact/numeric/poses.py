@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Final
 
 import numpy as np
-from flint import arb
+from flint import arb, arb_mat
 
 from pkm_exact.balls import Balls
 from pkm_exact.errors import InternalContradictionError
@@ -209,7 +209,9 @@ def _narrowed(system: ChartSystem, box: Box, exponent: int) -> Balls:
     """
     wanted = [arb(2) ** (box.exponents[0] - box.exponents[index // 4] - exponent) for index in system.support]
     precision, most = 2 * box.exponents[0] + GUARD_BITS, exponent + box.exponents[0] + GUARD_BITS
-    enclosure = _near_limit(system, box, exponent, most)
+    enclosure = _known(system, box, most)
+    if enclosure is None:
+        enclosure = _near_limit(system, box, exponent, most)
     if enclosure is None:
         with working_precision(precision):
             enclosure = enclosing_balls(system, box)
@@ -225,6 +227,16 @@ def _narrowed(system: ChartSystem, box: Box, exponent: int) -> Balls:
             enclosure = near.point + krawczyk(near, enclosure - near.point).moved
         precision = min(2 * precision, most)
     raise InternalContradictionError("a certified box cannot be narrowed")
+
+
+def _known(system: ChartSystem, box: Box, precision: int) -> Balls | None:
+    """Where doubles have proved that the solution is, if they have."""
+    known = system.double_solutions.get(box)
+    if known is None:
+        return None
+    with working_precision(precision):
+        rows = zip(known.point.tolist(), known.step.tolist(), known.error.tolist(), strict=True)
+        return arb_mat(system.size, 1, [arb(point, error) - arb(step) for point, step, error in rows])
 
 
 def _near_limit(system: ChartSystem, box: Box, exponent: int, most: int) -> Balls | None:

@@ -27,7 +27,7 @@ SEED: Final = 20081125
 SIZES: Final = {"base": 0.6, "platform": 0.4, "square": 0.5}
 """Typical joints and squared lengths of normalised robots."""
 _ROUNDS: Final = 40
-_SAME: Final = 1e-8
+SAME: Final = 1e-8
 
 
 @dataclass(frozen=True)
@@ -41,11 +41,14 @@ class StartSection:
         p = 40 and n = 8, or 6 and 4 if planar, ..: the degree, and the number of coordinates.
     frames : Frames or None
         Those of the robot for which the section was made: of a robot that is tracked from here, they are used as well.
+    home : (p, n) complex array or None
+        All solutions of this robot itself, in these frames, if they were found.
     """
 
     legs: Complex
     solutions: Complex
     frames: Frames | None = None
+    home: Complex | None = None
 
 
 @cache
@@ -96,7 +99,7 @@ def find_start(seed: int, motion: Motion) -> StartSection:
             points, ended = track(points, start, target)
             arrived &= ended
         points, change = polished(points, here)
-        solutions = joined(solutions, points[arrived & (change < _SAME)])
+        solutions = joined(solutions, points[arrived & (change < SAME)])
         if len(solutions) == motion.degree:
             return StartSection(legs, polished(solutions, here)[0])
     raise RuntimeError(f"{len(solutions)} of {motion.degree} solutions were found; take another seed")
@@ -128,7 +131,7 @@ def _gaussian(random: np.random.Generator, *shape: int) -> Complex:
 def joined(known: Complex, further: Complex) -> Complex:
     """The known projective points, of norm 1, and those of the others that are new."""
     for point in normalised(further):
-        if np.max(np.abs(known.conj() @ point), initial=0) < 1 - _SAME:
+        if np.max(np.abs(known.conj() @ point), initial=0) < 1 - SAME:
             known = np.concatenate([known, point[None]])
     return known
 

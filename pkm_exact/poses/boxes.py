@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
-from math import floor
+from math import ceil, floor
 from typing import TypeAlias
 
 from flint import arb, arb_poly
@@ -52,10 +52,7 @@ def exponent_for_width(width: Fraction) -> int:
     """
     if not isinstance(width, Fraction | int) or width <= 0:
         raise InputError(f"width: {shown(width)} cannot be used; give a Fraction greater than 0")
-    exponent = 0
-    while Fraction(2, 1 << exponent) > width:
-        exponent += 1
-    return exponent
+    return (ceil(2 / Fraction(width)) - 1).bit_length()
 
 
 def pose_boxes(

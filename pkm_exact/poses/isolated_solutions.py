@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 RADIUS = 4
 """Half the width of a box, in units of its grid."""
@@ -26,7 +27,7 @@ class Box:
     exponents: tuple[int, int]
     centre: tuple[tuple[int, int], ...]
 
-    @property
+    @cached_property
     def is_real(self) -> bool:
         """Whether the box holds real points only: its centre is real."""
         return all(imaginary == 0 for _, imaginary in self.centre)

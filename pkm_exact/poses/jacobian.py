@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import reduce
+from functools import lru_cache, reduce
 from math import isfinite, isqrt
 
 from flint import arb, arb_mat
@@ -55,7 +55,7 @@ def characteristic_length(problem: ForwardProblem) -> Fraction:
     Fraction(1, 1)
     """
     platform, base = (points(problem, role) for role in (Role.PLATFORM_POINT, Role.BASE_POINT))
-    square = _spread(platform, problem.metric) or _spread(base, problem.metric)
+    square = _spread(tuple(platform), problem.metric) or _spread(tuple(base), problem.metric)
     if square == 0:
         return Fraction(1)
     shift = 16 - (square.numerator.bit_length() - square.denominator.bit_length()) // 2
@@ -64,7 +64,8 @@ def characteristic_length(problem: ForwardProblem) -> Fraction:
     return Fraction(isqrt(scaled.numerator // scaled.denominator)) / scale
 
 
-def _spread(joints: Sequence[Vector], metric: Sequence[int]) -> Fraction:
+@lru_cache(maxsize=8)
+def _spread(joints: tuple[Vector, ...], metric: tuple[int, ...]) -> Fraction:
     """Mean square distance from the centroid."""
     square = Fraction(0)
     for axis, g in enumerate(metric):
