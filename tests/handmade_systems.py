@@ -151,6 +151,9 @@ def system_content(unknowns: str, texts: Sequence[str], **entries: Any) -> Conte
         "solutions": [],
         "notes": [],
     }
+    if "subdivision" in entries:
+        last = {key: content.pop(key) for key in ("witness", "box_exponent", "solutions", "notes")}
+        content |= {"subdivision": None} | last
     assert set(entries) <= set(content)
     return content | entries
 
@@ -195,6 +198,13 @@ ENDS = at_infinity([(1, 0), (0, 1)], (1, 1), (1, 2), 2)
 DOUBLE = ("x^2", "y^2-1")
 TANGENT = ("x^2-y", "y^2")
 LINE = ("x*y-x", "x*y-2*x")
+CURVES = ("x^3*y-900", "x*y+x-19")
+CROSSINGS = [(10, Fraction(9, 10)), (15, Fraction(4, 15)), (-6, Fraction(-25, 6))]
+CELLS = {"lifting": ["6 6", "0 4 7"], "obstructions": ["0 0 -1 0 1 1 1 0 1 1 1 2 1 2 -3"]}
+BILINEAR_CELLS = {
+    "lifting": ["6 6", "0 4 7 6"],
+    "obstructions": ["0 0 -1 0 1 1 1 0 1 1 3 -1", "0 0 -1 0 1 1 1 0 2 1 1 -1 1 2 -1"],
+}
 
 
 def _slices(constants: Sequence[int]) -> list[Content]:
@@ -221,6 +231,12 @@ def handmade() -> dict[str, Content]:
         ),
         "rank": listed(
             "x,y", DOUBLE, represented([(0, -1), (0, 1)], (1, 1)), multiplicities=2, **complete("modular-rank", 4)
+        ),
+        "cells": listed(
+            "x,y", CURVES, represented(CROSSINGS, (1, 0)), **complete("mixed-volume", 3, subdivision=CELLS)
+        ),
+        "cells of groups": listed(
+            "x,y", BILINEAR, represented(PAIR, (1, 0)), **complete("mixed-volume", 2, subdivision=BILINEAR_CELLS)
         ),
         "infinity": listed(
             "x,y", BILINEAR, represented(PAIR, (1, 0)), **complete("counting-at-infinity", 2, infinity=ENDS)

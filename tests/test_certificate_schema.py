@@ -193,7 +193,7 @@ def test_the_page_of_version_2_defines_every_key_in_its_order() -> None:
 
 def test_the_page_of_systems_defines_every_key_in_its_order() -> None:
     root = _schema(SYSTEMS)
-    parts = [root["$defs"][key] for key in ("representation", "infinity", "witness", "solution")]
+    parts = [root["$defs"][key] for key in ("representation", "infinity", "subdivision", "witness", "solution")]
     assert _tables("Format", "### Polynomials", "certificates-systems.md") == [_keys(root), *map(_keys, parts)]
     page = (CERTS.parent / "docs" / "certificates-systems.md").read_text()
     words = [root["properties"][key]["enum"] for key in ("claim", "completeness_route")]

@@ -30,6 +30,7 @@ FREE = (
     Free("variables", "names; in another order, another system of which the same is proved"),
     Free("polynomials", "in another order, or one of them twice: the same system", below=False),
     Free("polynomials", "the question: the same is proved of the other system", OPEN),
+    Free("subdivision", "other numbers, or reasons, prove the same"),
     Free("elimination", "steps to be followed: others that end the same prove the same"),
     Free("claim", "detected is evidence, nothing is proved either way", ("nothing", "detected")),
     Free("representation.separating_form", "any c with the same values, if numerators are dependent"),

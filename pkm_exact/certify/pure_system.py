@@ -60,6 +60,7 @@ PRODUCT: Final = re.compile(r"(?:0|[1-9][0-9]{0,5})(?: (?:[0-9]|[1-5][0-9]|6[0-3
 ROUTES: Final = (
     "refined-bezout",
     "multihomogeneous-bezout",
+    "mixed-volume",
     "modular-rank",
     "counting-at-infinity",
     "exact-elimination",
@@ -69,6 +70,8 @@ KEYS: Final = (
     "format version title variables polynomials claim completeness_route complex_solutions distinct_solutions "
     "real_solutions representation groups infinity elimination witness box_exponent solutions notes"
 )
+KEYS_WITH_CELLS: Final = KEYS.replace(" witness", " subdivision witness")
+NUMBERS: Final = re.compile(r"(?:0|-?[1-9][0-9]{0,17})( (?:0|-?[1-9][0-9]{0,17}))*", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -77,6 +80,14 @@ class Infinity:
 
     points: pure.Representation
     multiplicity: int
+
+
+@dataclass(frozen=True)
+class Cells:
+    """The number by which each point of each support is lifted, and obstructions: weights of points."""
+
+    lifting: tuple[tuple[int, ...], ...]
+    obstructions: tuple[dict[tuple[int, int], int], ...]
 
 
 @dataclass(frozen=True)
@@ -112,6 +123,7 @@ class Certificate:
     groups: tuple[tuple[int, ...], ...] | None
     infinity: Infinity | None
     elimination: tuple[pure.Step, ...] | None
+    cells: Cells | None
     witness: Witness | None
     box_exponent: int
     solutions: tuple[Solution, ...]
@@ -228,6 +240,32 @@ def a_slice(number: int, value: Any, where: str) -> tuple[Fraction, pure.Represe
     return found, a_representation(number, representation, f"{where}.representation")
 
 
+def some_integers(value: Any, where: str) -> tuple[int, ...]:
+    """Integers in one text."""
+    text = pure.a_text(value, where)
+    pure.well_formed(NUMBERS.fullmatch(text), f"{where}: not integers with spaces between them")
+    return tuple(map(int, text.split(" ")))
+
+
+def an_obstruction(value: Any, where: str) -> dict[tuple[int, int], int]:
+    """The weight of each point of an obstruction, which is a support and a number in it."""
+    integers = some_integers(value, where)
+    triples = [integers[start : start + 3] for start in range(0, len(integers), 3)]
+    whole = len(integers) % 3 == 0 and all(i >= 0 and k >= 0 and weight != 0 for i, k, weight in triples)
+    rising = whole and all(one[:2] < other[:2] for one, other in pairwise(triples))
+    pure.well_formed(rising, f"{where}: not points, each after the one before, with weights")
+    return {(i, k): weight for i, k, weight in triples}
+
+
+def some_cells(number: int, value: Any, where: str) -> Cells:
+    """What bounds a mixed volume."""
+    lifting, obstructions = pure.an_object(value, where, "lifting obstructions")
+    return Cells(
+        pure.a_list(some_integers, number)(lifting, f"{where}.lifting"),
+        pure.a_list(an_obstruction)(obstructions, f"{where}.obstructions"),
+    )
+
+
 def a_witness(number: int, value: Any, where: str) -> Witness:
     """What proves a positive dimension."""
     cause, forms, slices = pure.an_object(value, where, "cause forms slices")
@@ -253,7 +291,8 @@ def read(body: dict[str, Any]) -> Certificate:
     """The content of a certificate."""
     version = body.get("version")
     pure.well_formed(type(version) is int and version == 1, "format: not a system certificate, version 1")
-    values = dict(zip(KEYS.split(), pure.an_object(body, "certificate", KEYS), strict=True))
+    keys = KEYS_WITH_CELLS if "subdivision" in body else KEYS
+    values = dict(zip(keys.split(), pure.an_object(body, "certificate", keys), strict=True))
 
     def entry(key: str, read: pure.Reader) -> Any:
         return read(values[key], key)
@@ -276,6 +315,7 @@ def read(body: dict[str, Any]) -> Certificate:
         groups=entry("groups", pure.nullable(partial(some_groups, number))),
         infinity=entry("infinity", pure.nullable(partial(an_infinity, number))),
         elimination=entry("elimination", pure.nullable(pure.a_list(a_step))),
+        cells=entry("subdivision", partial(some_cells, number)) if keys is KEYS_WITH_CELLS else None,
         witness=entry("witness", pure.nullable(partial(a_witness, number))),
         box_exponent=exponent,
         solutions=entry("solutions", pure.a_list(partial(a_solution, number))),
@@ -1010,6 +1050,122 @@ def multihomogeneous(polynomials: Sequence[pure.Terms], groups: Sequence[Sequenc
 
 
 # ---------------------------------------------------------------------------------------------------------------------
+# Check 12: mixed volumes
+# ---------------------------------------------------------------------------------------------------------------------
+
+MAX_CELL_VARIABLES: Final = 12
+MODULUS: Final = (1 << 31) - 1
+
+
+def check_cells(certificate: Certificate, cells: Cells, solutions: int) -> None:
+    """The terms that occur admit no more solutions than these, which are regular."""
+    number = certificate.number
+    pure.affordable(number <= MAX_CELL_VARIABLES, f"subdivision: more than {MAX_CELL_VARIABLES} variables")
+    square = len(certificate.polynomials) == number
+    pure.require(square, "subdivision: there are not as many polynomials as variables")
+    supports = [sorted({*terms, (0,) * number}, key=pure.order, reverse=True) for terms in certificate.polynomials]
+    fits = [len(row) for row in cells.lifting] == [len(points) for points in supports]
+    pure.require(fits, "subdivision: the numbers are not those of the terms")
+    clashes = [lowest_nowhere(weights, supports, cells.lifting) for weights in cells.obstructions]
+    volume = 0
+    for edges in unobstructed(supports, clashes):
+        pure.spend(5000 + 300 * number**3)
+        volume += abs(determinant([[b - a for a, b in zip(one, other, strict=True)] for one, other in edges]))
+        pure.require(volume <= solutions, f"subdivision: there is room for more than {solutions} solutions")
+    pure.require(volume == solutions, f"subdivision: {solutions} solutions, but its cells have the volume {volume}")
+    check_general(certificate.polynomials, supports)
+
+
+def lowest_nowhere(
+    weights: Mapping[tuple[int, int], int],
+    supports: Sequence[Sequence[pure.Monomial]],
+    lifting: Sequence[Sequence[int]],
+) -> frozenset[tuple[int, int]]:
+    """The points that an obstruction shows not to be lowest together."""
+    pure.spend(len(weights) * (3000 + 400 * len(supports)))
+    known = all(i < len(supports) and k < len(supports[i]) for i, k in weights)
+    pure.require(known, "subdivision: an obstruction has points that there are not")
+    for i in range(len(supports)):
+        level = sum(weight for (j, _), weight in weights.items() if i == j)
+        along = sum(weight * supports[j][k][i] for (j, k), weight in weights.items())
+        pure.require(level == along == 0, "subdivision: the weights of an obstruction do not sum to 0")
+    falls = sum(weight * lifting[i][k] for (i, k), weight in weights.items()) < 0
+    pure.require(falls, "subdivision: an obstruction does not lower the sum of the numbers")
+    return frozenset(place for place, weight in weights.items() if weight < 0)
+
+
+def unobstructed(
+    supports: Sequence[Sequence[pure.Monomial]], clashes: Sequence[frozenset[tuple[int, int]]]
+) -> Iterator[list[tuple[pure.Monomial, pure.Monomial]]]:
+    """Two points of each support, small supports first, that have none of the sets of points among them."""
+    order = sorted(range(len(supports)), key=lambda i: (len(supports[i]), i))
+    rank = {i: place for place, i in enumerate(order)}
+    meeting: list[dict[int, list[frozenset[tuple[int, int]]]]] = [{} for _ in order]
+    for clash in clashes:
+        last = max(rank[i] for i, _ in clash)
+        for k in {k for i, k in clash if rank[i] == last}:
+            meeting[last].setdefault(k, []).append(clash)
+
+    def chosen(level: int, places: frozenset[tuple[int, int]]) -> Iterator[frozenset[tuple[int, int]]]:
+        if level == len(order):
+            yield places
+            return
+        i = order[level]
+        for pair in combinations(range(len(supports[i])), 2):
+            near = [clash for k in pair for clash in meeting[level].get(k, ())]
+            pure.spend(4000 + 200 * len(places) + 400 * len(near))
+            further = places | {(i, k) for k in pair}
+            if not any(map(further.issuperset, near)):
+                yield from chosen(level + 1, further)
+
+    for places in chosen(0, frozenset()):
+        ends = sorted(places)
+        yield [(supports[i][k], supports[i][j]) for (i, k), (_, j) in zip(ends[::2], ends[1::2], strict=True)]
+
+
+def determinant(rows: Sequence[Sequence[int]]) -> int:
+    """By elimination without fractions (Bareiss).
+
+    Examples
+    --------
+    >>> determinant([[0, 2], [3, 4]]), determinant([[1, 2], [2, 4]])
+    (-6, 0)
+    """
+    left, sign, last = [list(row) for row in rows], 1, 1
+    while left:
+        place = next((number for number, row in enumerate(left) if row[0]), None)
+        if place is None:
+            return 0
+        pivot = left.pop(place)
+        sign = -sign if place % 2 else sign
+        left = [[(pivot[0] * b - row[0] * a) // last for a, b in zip(pivot[1:], row[1:], strict=True)] for row in left]
+        last = pivot[0]
+    return sign * last
+
+
+def check_general(polynomials: Sequence[pure.Terms], supports: Sequence[Sequence[pure.Monomial]]) -> None:
+    """For any coordinates that are 0 at a point: general polynomials with these terms that vanish there are regular."""
+    number, random = len(supports), Random(7)
+    for chosen in range(1 << number):
+        gone = [place for place in range(number) if chosen & 1 << place]
+        pure.spend(sum(map(len, supports)) * (3000 + 300 * number) + 300 * number**3)
+        if any(sum(not any(m[place] for place in gone) for m in terms) == 1 for terms in polynomials):
+            continue
+        rows = []
+        for points in supports:
+            row = [0] * number
+            for point in points:
+                weight, times = random.randrange(1, MODULUS), sum(point[place] for place in gone)
+                if times == 0:
+                    row = [a + weight * b for a, b in zip(row, point, strict=True)]
+                elif times == 1:
+                    row[next(place for place in gone if point[place])] += weight
+            rows.append(row)
+        regular = determinant(rows) % MODULUS
+        pure.require(regular, "subdivision: not excluded that solutions lie where some coordinates are 0")
+
+
+# ---------------------------------------------------------------------------------------------------------------------
 # Checks 7 and 8: elements, and the number of homogeneous polynomials
 # ---------------------------------------------------------------------------------------------------------------------
 
@@ -1249,6 +1405,7 @@ def check_parts(certificate: Certificate) -> None:
         ("groups", certificate.groups, "multihomogeneous-bezout"),
         ("infinity", certificate.infinity, "counting-at-infinity"),
         ("elimination", certificate.elimination, "exact-elimination"),
+        ("subdivision", certificate.cells, "mixed-volume"),
     ):
         pure.require((value is not None) == (route == of), f"{key}: not as the route {route or 'null'} needs")
     positive = certificate.claim == "positive-dimensional-proved"
@@ -1346,6 +1503,11 @@ def proved_of_all(certificate: Certificate, representation: pure.Representation,
         pure.require(closes, f"groups: {number} solutions are not proved to be all by their number")
         line = f"complete: {number} isolated solutions are the multihomogeneous Bezout number, there is no other"
         return Proved("complete", "multihomogeneous-bezout", number, by_weight, line)
+    if certificate.cells is not None:
+        pure.require(regular, "subdivision: not all solutions are isolated and simple")
+        check_cells(certificate, certificate.cells, number)
+        line = f"complete: {number} isolated solutions are the mixed volume of the terms, there is no other"
+        return Proved("complete", "mixed-volume", number, by_weight, line)
     if certificate.infinity is not None:
         further = certificate.infinity.multiplicity
         total, by_weight = filled(certificate, representation, weights, (bound or 0) - further)

@@ -16,6 +16,7 @@ from pkm_exact.systems.polynomial_terms import spelled_terms
 
 if TYPE_CHECKING:
     from pkm_exact.algebra.representation import UnivariateRepresentation
+    from pkm_exact.systems.mixed_volume import Subdivision
     from pkm_exact.systems.system_solution import InfinitePoints, RealSolution, SystemSolution, Witness
 
 FORMAT: Final = "pkm_exact system certificate"
@@ -61,6 +62,7 @@ def _content(solution: SystemSolution, title: str) -> dict[str, Any]:
         "groups": [list(group) for group in proof.groups] if proof is not None and proof.groups else None,
         "infinity": None if proof is None or proof.infinity is None else _infinity(proof.infinity),
         "elimination": products_entry(proof.elimination) if proof is not None and has_steps else None,
+        **({} if proof is None or proof.subdivision is None else {"subdivision": _subdivision(proof.subdivision)}),
         "witness": None if witness is None else _witness(witness),
         "box_exponent": solution.box_exponent if solution.solutions else 0,
         "solutions": [_solution(entry) for entry in solution.solutions],
@@ -83,6 +85,14 @@ def _infinity(points: InfinitePoints) -> dict[str, Any]:
         "eliminant": coefficients(points.univariate.eliminant),
         "coordinates": [coefficients(numerator) for numerator in points.univariate.numerators],
         "multiplicity": points.multiplicity,
+    }
+
+
+def _subdivision(found: Subdivision) -> dict[str, Any]:
+    flat = [[number for (i, k), value in each for number in (i, k, value)] for each in found.obstructions]
+    return {
+        "lifting": [" ".join(map(str, numbers)) for numbers in found.lifting],
+        "obstructions": [" ".join(map(str, numbers)) for numbers in flat],
     }
 
 

@@ -26,6 +26,7 @@ from pkm_exact.stages import Watch
 from pkm_exact.systems.algebra_multiplicities import algebra_multiplicities
 from pkm_exact.systems.bezout import groups_with, product_of_degrees, total_degrees
 from pkm_exact.systems.local_multiplicity import exact_weights
+from pkm_exact.systems.mixed_volume import subdivision_for
 from pkm_exact.systems.points_at_infinity import with_room_left
 from pkm_exact.systems.regularity import Weights, derivatives, has_full_rank, total_weight, weights_at
 from pkm_exact.systems.shortened_elimination import with_basis_only, with_falls_only
@@ -123,6 +124,10 @@ def prove_by_search(
     weights = found.filling(room)
     if room is not None and weights is not None:
         return ListProof(SystemRoute.COUNTING_AT_INFINITY, room, weights, infinity=points)
+    number = found.representation.degree
+    subdivision = subdivision_for(system, number, policy) if found.is_regular else None
+    if subdivision is not None:
+        return ListProof(SystemRoute.MIXED_VOLUME, number, subdivision=subdivision)
     proofs = (_by_elimination(basis, found, system, policy, watch) for basis in _eliminations(system, policy))
     return next((proof for proof in proofs if proof is not None), None)
 

@@ -17,9 +17,13 @@ def spelled_terms(polynomial: fmpz_mpoly, names: Sequence[str]) -> list[str]:
     >>> spelled_terms(5 - 3 * y + x**2 * y - y**3, ("x", "y"))
     ['x^2*y', '-y^3', '-3*y', '5']
     """
+    return [_spelled(exponents, value, names) for exponents, value in decreasing_terms(polynomial)]
+
+
+def decreasing_terms(polynomial: fmpz_mpoly) -> list[tuple[tuple[int, ...], int]]:
+    """Exponents and coefficients, monomials decreasing in the degree reverse lexicographic order."""
     terms = [(tuple(map(int, exponents)), int(value)) for exponents, value in polynomial.to_dict().items()]
-    terms.sort(key=lambda term: (sum(term[0]), *(-exponent for exponent in reversed(term[0]))), reverse=True)
-    return [_spelled(exponents, value, names) for exponents, value in terms]
+    return sorted(terms, key=lambda term: (sum(term[0]), *(-exponent for exponent in reversed(term[0]))), reverse=True)
 
 
 def _spelled(exponents: Sequence[int], value: int, names: Sequence[str]) -> str:

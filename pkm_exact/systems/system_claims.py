@@ -15,6 +15,8 @@ class SystemRoute(StrEnum):
 
     ``MULTIHOMOGENEOUS_BEZOUT``: as many as the degrees in groups of variables admit.
 
+    ``MIXED_VOLUME``: as many as the terms that occur admit.
+
     ``MODULAR_RANK``: ranks of integer matrices modulo a prime, no greater than over Q, leave room for no other.
 
     ``COUNTING_AT_INFINITY``: finite solutions and points at infinity, with multiplicity, are the product of the
@@ -26,6 +28,7 @@ class SystemRoute(StrEnum):
 
     REFINED_BEZOUT = "refined-bezout"
     MULTIHOMOGENEOUS_BEZOUT = "multihomogeneous-bezout"
+    MIXED_VOLUME = "mixed-volume"
     MODULAR_RANK = "modular-rank"
     COUNTING_AT_INFINITY = "counting-at-infinity"
     EXACT_ELIMINATION = "exact-elimination"

@@ -10,6 +10,7 @@ from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.claim import Claim
 from pkm_exact.roots.interval import Interval
+from pkm_exact.systems.mixed_volume import Subdivision
 from pkm_exact.systems.system_claims import SystemRoute, meaning_of
 from pkm_exact.wording import counted
 
@@ -44,6 +45,8 @@ class ListProof:
         For exact elimination.
     infinity : InfinitePoints or None
         For counting at infinity.
+    subdivision : Subdivision or None
+        For mixed volumes.
     """
 
     route: SystemRoute
@@ -52,6 +55,7 @@ class ListProof:
     groups: tuple[tuple[int, ...], ...] = ()
     elimination: Steps = ()
     infinity: InfinitePoints | None = None
+    subdivision: Subdivision | None = None
 
 
 @dataclass(frozen=True)

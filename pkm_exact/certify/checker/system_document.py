@@ -21,12 +21,14 @@ from pkm_exact.certify.checker.spelling import (
     rational_text,
     text,
 )
+from pkm_exact.certify.checker.system_supports import Subdivision
 from pkm_exact.certify.checker.system_terms import MAX_VARIABLES, Terms, read_polynomials, read_variables
 from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, MAX_ELIMINATION_ROWS, malformed, too_large
 
 ROUTES: Final = (
     "refined-bezout",
     "multihomogeneous-bezout",
+    "mixed-volume",
     "modular-rank",
     "counting-at-infinity",
     "exact-elimination",
@@ -53,11 +55,14 @@ _KEYS: Final = (
     "solutions",
     "notes",
 )
+_SUBDIVIDED: Final = (*_KEYS[:14], "subdivision", *_KEYS[14:])
+"""The keys where the route is that by mixed volumes."""
 _REPRESENTATION: Final = ("separating_form", "eliminant", "numerators")
 _INFINITY: Final = ("chart", "separating_form", "eliminant", "coordinates", "multiplicity")
 _WITNESS: Final = ("cause", "forms", "slices")
 _SOLUTION: Final = ("parameter", "values", "multiplicity")
 
+_NUMBERS: Final = re.compile(r"(?:0|-?[1-9][0-9]{0,17})(?: (?:0|-?[1-9][0-9]{0,17}))*", re.ASCII)
 _PRODUCT: Final = re.compile(r"(?:0|[1-9][0-9]{0,5})(?: (?:[0-9]|[1-5][0-9]|6[0-3])){0,64}", re.ASCII)
 
 
@@ -103,6 +108,7 @@ class SystemDocument:
     groups: tuple[tuple[int, ...], ...] | None
     infinity: InfinitePoints | None
     elimination: tuple[tuple[Row, ...], ...] | None
+    subdivision: Subdivision | None
     witness: Witness | None
     box_exponent: int
     solutions: tuple[ListedPose, ...]
@@ -110,7 +116,8 @@ class SystemDocument:
 
 def read_system_document(body: dict[str, Any]) -> SystemDocument:
     """The content of a certificate whose digest has been looked at."""
-    values = dict(zip(_KEYS, entries(body, "certificate", _KEYS), strict=True))
+    keys = _SUBDIVIDED if "subdivision" in body else _KEYS
+    values = dict(zip(keys, entries(body, "certificate", keys), strict=True))
     text(values["title"], "title")
     items(values["notes"], "notes", None, text)
     variables = read_variables(values["variables"])
@@ -133,6 +140,7 @@ def read_system_document(body: dict[str, Any]) -> SystemDocument:
         groups=None if groups is None else _groups(groups, size),
         infinity=None if infinity is None else _infinity(infinity, size),
         elimination=None if steps is None else items(steps, "elimination", None, _step),
+        subdivision=_subdivision(values["subdivision"], size) if "subdivision" in values else None,
         witness=None if witness is None else _witness(witness, size),
         box_exponent=exponent,
         solutions=items(values["solutions"], "solutions", None, lambda entry, where: _solution(entry, where, size)),
@@ -187,6 +195,30 @@ def _product(value: Any, where: str) -> Row:
     if factors != sorted(factors):
         raise malformed(f"{where}: the variables are not in increasing order")
     return index, tuple(factors)
+
+
+def _subdivision(value: Any, size: int) -> Subdivision:
+    lifting, obstructions = entries(value, "subdivision", ("lifting", "obstructions"))
+    return Subdivision(
+        items(lifting, "subdivision.lifting", size, _numbers),
+        items(obstructions, "subdivision.obstructions", None, _obstruction),
+    )
+
+
+def _numbers(value: Any, where: str) -> tuple[int, ...]:
+    if not _NUMBERS.fullmatch(text(value, where)):
+        raise malformed(f"{where}: not integers with a space between them")
+    return tuple(map(int, value.split(" ")))
+
+
+def _obstruction(value: Any, where: str) -> tuple[tuple[int, int, int], ...]:
+    numbers = _numbers(value, where)
+    found = tuple(zip(numbers[::3], numbers[1::3], numbers[2::3], strict=False))
+    places = [(i, k) for i, k, _ in found]
+    ordered = places == sorted(set(places)) and all(i >= 0 and k >= 0 and weight for i, k, weight in found)
+    if len(numbers) % 3 or not ordered:
+        raise malformed(f"{where}: not weights other than 0 of points in increasing order")
+    return found
 
 
 def _witness(value: Any, size: int) -> Witness:

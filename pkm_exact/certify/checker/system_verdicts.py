@@ -25,6 +25,7 @@ from pkm_exact.certify.checker.system_room import (
     multihomogeneous_number,
     room,
 )
+from pkm_exact.certify.checker.system_supports import require_bound
 from pkm_exact.certify.checker.system_terms import Terms, homogeneous, linear, top_form
 from pkm_exact.certify.checker.system_weights import Weighed, weighed_at_infinity, weighed_solutions
 from pkm_exact.certify.checker.traceform import quotient_algebra
@@ -67,6 +68,7 @@ def _check_parts(document: SystemDocument) -> None:
     parts = (
         ("groups", document.groups, document.route == "multihomogeneous-bezout"),
         ("infinity", document.infinity, document.route == "counting-at-infinity"),
+        ("subdivision", document.subdivision, document.route == "mixed-volume"),
         ("elimination", document.elimination, document.route == "exact-elimination"),
         ("witness", document.witness, document.claim == "positive-dimensional-proved"),
     )
@@ -136,12 +138,8 @@ def _proved(document: SystemDocument, points: Points, weighed: Weighed) -> _Prov
             raise rejected(f"claim: {_claimed(document)}, but what is proved is complete by refined-bezout")
         line = f"complete: {number} isolated solutions are the product of the degrees, there is no other"
         return _Proved("complete", number, (), line)
-    if document.groups is not None:
-        groups_bound = multihomogeneous_number(document.polynomials, document.groups)
-        if not weighed.are_regular or number != groups_bound:
-            raise rejected(f"groups: {number} solutions, the multihomogeneous Bezout number is {groups_bound}")
-        line = f"complete: {number} isolated solutions are the multihomogeneous Bezout number, there is no other"
-        return _Proved("complete", number, (), line)
+    if document.groups is not None or document.subdivision is not None:
+        return _by_terms(document, number, weighed)
     if document.infinity is not None:
         return _counted_at_infinity(document, points, weighed, bound)
     if document.elimination is not None:
@@ -152,6 +150,21 @@ def _proved(document: SystemDocument, points: Points, weighed: Weighed) -> _Prov
         raise rejected(f"claim: {_claimed(document)} is not proved by what is in the certificate")
     line = f"not proven complete: {number} solutions are proved, others are not excluded"
     return _Proved("not-proven-complete", None, (), line)
+
+
+def _by_terms(document: SystemDocument, number: int, weighed: Weighed) -> _Proved:
+    """The list is complete if it has as many regular solutions as the terms that occur admit."""
+    if document.groups is not None:
+        groups_bound = multihomogeneous_number(document.polynomials, document.groups)
+        if not weighed.are_regular or number != groups_bound:
+            raise rejected(f"groups: {number} solutions, the multihomogeneous Bezout number is {groups_bound}")
+        line = f"complete: {number} isolated solutions are the multihomogeneous Bezout number, there is no other"
+        return _Proved("complete", number, (), line)
+    if document.subdivision is None or not weighed.are_regular:
+        raise rejected("subdivision: not all solutions are proved isolated and simple")
+    require_bound(document.polynomials, document.size, document.subdivision, number)
+    line = f"complete: {number} isolated solutions are the mixed volume of the terms, there is no other"
+    return _Proved("complete", number, (), line)
 
 
 def _by_rank(document: SystemDocument, points: Points, weighed: Weighed) -> _Proved:

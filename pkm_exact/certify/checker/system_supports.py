@@ -1,0 +1,125 @@
+"""How many solutions the terms that occur admit: choices of two points of each support, none of them obstructed.
+
+A_i are the exponents of the i-th polynomial and 0. An obstruction shows that some points, lifted as the certificate
+says, are lowest together nowhere. The volumes of all choices of edges without such points sum to the mixed volume of
+the A_i at least.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations
+from typing import Final, NamedTuple
+
+from flint import fmpz_mat, nmod_mat
+
+from pkm_exact.certify.checker.budget import charge
+from pkm_exact.certify.checker.system_terms import Monomial, Terms
+from pkm_exact.certify.checker.verdict import rejected, too_large
+
+MOST_VARIABLES: Final = 12
+_PRIME: Final = (1 << 61) - 1
+
+
+class Subdivision(NamedTuple):
+    """A number for each point of each support; obstructions: support, point, weight."""
+
+    lifting: tuple[tuple[int, ...], ...]
+    obstructions: tuple[tuple[tuple[int, int, int], ...], ...]
+
+
+def require_bound(polynomials: Sequence[Terms], size: int, subdivision: Subdivision, number: int) -> None:
+    """Rejects unless so many regular solutions are proved to be all by the terms that occur."""
+    if size > MOST_VARIABLES:
+        raise too_large(f"subdivision: more than {MOST_VARIABLES} variables")
+    if len(polynomials) != size:
+        raise rejected("subdivision: the polynomials are not as many as the variables")
+    zero = (0,) * size
+    supports = [list(terms) if zero in terms else [*terms, zero] for terms in polynomials]
+    if list(map(len, subdivision.lifting)) != list(map(len, supports)):
+        raise rejected("subdivision: not a number for each term of the polynomials, and for 1")
+    lowest = [_obstructed(entry, supports, subdivision.lifting) for entry in subdivision.obstructions]
+    volume = _Cells(supports, lowest).volume(number)
+    if volume != number:
+        raise rejected(f"subdivision: {number} solutions, and its cells have the volume {volume}, or more")
+    _require_regular(polynomials, supports)
+
+
+def _obstructed(
+    entry: Sequence[tuple[int, int, int]], supports: Sequence[Sequence[Monomial]], lifting: Sequence[Sequence[int]]
+) -> list[tuple[int, int]]:
+    """The points that are not lowest together."""
+    charge(len(entry) * (3000 + 300 * len(supports)))
+    if not all(i < len(supports) and k < len(supports[i]) for i, k, _ in entry):
+        raise rejected("subdivision: an obstruction names a point that there is not")
+    sums, direction, height = [0] * len(supports), [0] * len(supports), 0
+    for i, k, weight in entry:
+        sums[i] += weight
+        height += weight * lifting[i][k]
+        for place, exponent in enumerate(supports[i][k]):
+            direction[place] += weight * exponent
+    if any(sums) or any(direction) or height >= 0:
+        raise rejected("subdivision: an obstruction is none")
+    return [(i, k) for i, k, weight in entry if weight < 0]
+
+
+class _Cells:
+    """Choices of two points in each support, those with the fewest points first; points are bits."""
+
+    def __init__(self, supports: Sequence[Sequence[Monomial]], obstructed: Sequence[Sequence[tuple[int, int]]]) -> None:
+        self.supports = sorted(supports, key=len)
+        order = sorted(range(len(supports)), key=lambda i: len(supports[i]))
+        self.level = {i: level for level, i in enumerate(order)}
+        starts = [sum(map(len, self.supports[:level])) for level in range(len(supports))]
+        self.bits = [[1 << start + k for k in range(len(s))] for start, s in zip(starts, self.supports, strict=True)]
+        self.ending: dict[int, list[int]] = {}
+        """Obstructed sets of points, by the last of them."""
+        for points in obstructed:
+            mask = sum(self.bits[self.level[i]][k] for i, k in points)
+            self.ending.setdefault(1 << mask.bit_length() - 1, []).append(mask)
+
+    def volume(self, most: int) -> int:
+        """The sum of the volumes, as soon as it is above ``most``."""
+        size = len(self.supports)
+        total = 0
+        waiting: list[tuple[int, tuple[tuple[int, int], ...]]] = [(0, ())]
+        while waiting and total <= most:
+            points, edges = waiting.pop()
+            if len(edges) == size:
+                charge(10_000 + 30 * size**3)
+                directions = zip(edges, self.supports, strict=True)
+                rows = [[b - a for a, b in zip(s[k], s[j], strict=True)] for (k, j), s in directions]
+                total += abs(int(fmpz_mat(rows).det()))
+                continue
+            bits = self.bits[len(edges)]
+            for k, j in combinations(range(len(bits)), 2):
+                further = points | bits[k] | bits[j]
+                known = [self.ending.get(bits[k], ()), self.ending.get(bits[j], ())]
+                charge(3000 + 100 * sum(map(len, known)))
+                if not any(mask & ~further == 0 for masks in known for mask in masks):
+                    waiting.append((further, (*edges, (k, j))))
+        return total
+
+
+def _require_regular(polynomials: Sequence[Terms], supports: Sequence[Sequence[Monomial]]) -> None:
+    """General polynomials that vanish at a point are regular there, whichever of its coordinates are 0.
+
+    Not where one of the polynomials has a single term left: it does not vanish there.
+    """
+    size = len(supports)
+    for number in range(1 << size):
+        zero = [place for place in range(size) if number >> place & 1]
+        charge(sum(map(len, supports)) * (2000 + 200 * size) + 30 * size**3)
+        if any(sum(not any(key[place] for place in zero) for key in terms) == 1 for terms in polynomials):
+            continue
+        rows, weight = [], 1
+        for support in supports:
+            row = [0] * size
+            for key in support:
+                order = sum(key[place] for place in zero)
+                weight = weight * 48271 % _PRIME
+                for place in range(size) if not order else zero if order == 1 else ():
+                    row[place] = (row[place] + weight * key[place]) % _PRIME
+            rows.append(row)
+        if not int(nmod_mat(rows, _PRIME).det()):
+            raise rejected("subdivision: not proved that no solution lies where coordinates are 0")

@@ -1,0 +1,204 @@
+"""Certificates that count cells: honest ones, and forged ones of which only one check sees what is wrong.
+
+A cubic in one variable, two roots of which are listed, has as many cells as one likes if an obstruction may be false.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from handmade_systems import (
+    BILINEAR,
+    BILINEAR_CELLS,
+    CELLS,
+    CROSSINGS,
+    CURVES,
+    PAIR,
+    Content,
+    complete,
+    handmade,
+    listed,
+    represented,
+)
+
+Row = tuple[Content, str, str]
+"""A certificate without its digest, the verdict, and what the last line says."""
+
+CUBIC = ("x^3-6*x^2+11*x-6",)
+EVEN = ("x^2+y-5", "x^2*y-8*y+4")
+"""Four solutions and four cells; general polynomials with these terms that vanish where x = 0 need not be regular."""
+EVEN_CELLS = {
+    "lifting": ["6 6 0", "4 7 6"],
+    "obstructions": ["0 0 -1 0 2 1 1 0 1 1 1 -1", "0 0 -1 0 1 -1 0 2 2 1 0 1 1 2 -1", "0 1 -1 0 2 1 1 1 1 1 2 -1"],
+}
+CROSS = ("x*y-x-y+1", "x*y-2*x-y+2")
+"""The line x = 1; two of its points are as many as the cells."""
+CROSS_CELLS = {
+    "lifting": ["3 4 1 6", "7 2 1 1"],
+    "obstructions": [
+        "0 0 1 0 1 -1 1 0 -1 1 1 1",
+        "0 1 -1 0 2 1 1 1 1 1 2 -1",
+        "0 0 -1 0 2 1 1 1 1 1 3 -1",
+        "0 0 1 0 2 -1 1 0 -1 1 2 1",
+        "0 0 -1 0 1 1 0 2 1 0 3 -1",
+        "0 1 1 0 3 -1 1 1 -1 1 3 1",
+        "0 2 1 0 3 -1 1 2 -1 1 3 1",
+    ],
+}
+MIDDLE = ["0 0 -1 0 1 2 0 2 -1", "0 1 -1 0 2 2 0 3 -1", "0 0 -2 0 1 3 0 3 -1"]
+"""Of x^3, x^2, x and 1, if lifted convexly, only neighbours are lowest together."""
+INNER = "0 0 1 0 1 -1 0 2 -1 0 3 1"
+"""So it would be a concave lifting for which x^2 and x are not."""
+
+TOGETHER = {"lifting": ["2 0 0 1", "0 0"], "obstructions": [MIDDLE[0], "0 3 -1 1 1 1"]}
+
+
+def _cubic(roots: list[int], lifting: str, obstructions: list[str]) -> Content:
+    cells = {"lifting": [lifting], "obstructions": obstructions}
+    points = represented([(root,) for root in roots], (1,))
+    return listed("x", CUBIC, points, **complete("mixed-volume", len(roots), subdivision=cells))
+
+
+def _curves(
+    points: Any,
+    lifting: list[str],
+    obstructions: list[str],
+    texts: tuple[str, ...] = CURVES,
+    form: tuple[int, int] = (1, 0),
+) -> Content:
+    cells = {"lifting": lifting, "obstructions": obstructions}
+    found = represented(points, form)
+    return listed("x,y", texts, found, **complete("mixed-volume", len(points), subdivision=cells))
+
+
+def _many(number: int) -> Content:
+    """One solution of x_1 x_2 = 1, x_i = 1."""
+    names = [f"x{i}" for i in range(number)]
+    texts = ("x0*x1-1", *(f"{name}-1" for name in names[1:]))
+    cells = {"lifting": ["0 0"] * number, "obstructions": []}
+    points = represented([(1,) * number], (1, *[0] * (number - 1)))
+    return listed(",".join(names), texts, points, **complete("mixed-volume", 1, subdivision=cells))
+
+
+def _part(name: str, key: str, value: Any) -> Content:
+    content = handmade()[name]
+    return content | {"subdivision": content["subdivision"] | {key: value}}
+
+
+def _moved() -> Content:
+    """The key at the end."""
+    content = handmade()["cells"]
+    return {key: value for key, value in content.items() if key != "subdivision"} | {"subdivision": CELLS}
+
+
+def _without() -> Content:
+    return {key: value for key, value in handmade()["cells"].items() if key != "subdivision"}
+
+
+def rows() -> dict[str, Row]:
+    """All of them, by name."""
+    honest = CELLS["obstructions"]
+    bad = "subdivision: "
+    return {
+        "twelve variables": (_many(12), "accepted", "mixed volume"),
+        "thirteen variables": (_many(13), "too-large", bad),
+        "a solution is missing": (_curves(CROSSINGS[:2], CELLS["lifting"], honest), "rejected", bad),
+        "too many cells": (_curves(CROSSINGS, CELLS["lifting"], []), "rejected", bad),
+        "weights do not sum to 0": (
+            _cubic([1, 2], "2 0 0 1", [MIDDLE[0], "0 3 -1"]),
+            "rejected",
+            bad,
+        ),
+        "weights sum to 0 together": (
+            listed(
+                "x,y",
+                (*CUBIC, "y-1"),
+                represented([(1, 1), (2, 1)], (1, 0)),
+                **complete("mixed-volume", 2, subdivision=TOGETHER),
+            ),
+            "rejected",
+            bad,
+        ),
+        "vectors do not sum to 0": (
+            _curves(CROSSINGS[:2], ["6 6", "0 4 0"], ["1 0 -1 1 1 -1 1 2 2", "1 0 2 1 1 -1 1 2 -1"]),
+            "rejected",
+            bad,
+        ),
+        "vectors sum to 0 but for the first variable": (
+            _curves(CROSSINGS[:2], ["6 6", "0 4 0"], ["1 1 -1 1 2 1"]),
+            "rejected",
+            bad,
+        ),
+        "vectors sum to 0 but for the last variable": (
+            _curves(CROSSINGS[:2], ["6 6", "0 4 0"], ["1 0 1 1 1 -1"]),
+            "rejected",
+            bad,
+        ),
+        "nothing is lowered": (_cubic([1, 2], "0 0 0 0", [*MIDDLE, INNER]), "rejected", bad),
+        "one is raised": (_cubic([1, 2], "1 0 0 1", [*MIDDLE, INNER]), "rejected", bad),
+        "a number too many": (_curves(CROSSINGS, ["6 6 5", "0 4 7"], honest), "rejected", bad),
+        "a number is missing": (_curves(CROSSINGS, ["6 6", "0 4"], honest), "rejected", bad),
+        "a point that there is not": (
+            _curves(CROSSINGS, CELLS["lifting"], [*honest, "1 2 -1 1 3 1"]),
+            "rejected",
+            bad,
+        ),
+        "a polynomial that there is not": (
+            _curves(CROSSINGS, CELLS["lifting"], [*honest, "2 0 -1 2 1 1"]),
+            "rejected",
+            bad,
+        ),
+        "more polynomials than variables": (
+            _curves(PAIR, BILINEAR_CELLS["lifting"], BILINEAR_CELLS["obstructions"], (*BILINEAR, BILINEAR[0])),
+            "rejected",
+            bad,
+        ),
+        "not isolated": (
+            _curves([(1, 3), (1, 5)], CROSS_CELLS["lifting"], CROSS_CELLS["obstructions"], CROSS, (0, 1)),
+            "rejected",
+            bad,
+        ),
+        "where x is 0": (
+            listed(
+                "x,y",
+                EVEN,
+                represented([(2, 1), (-2, 1), (3, -4), (-3, -4)], (1, 0)),
+                **complete("mixed-volume", 4, subdivision=EVEN_CELLS),
+            ),
+            "rejected",
+            bad,
+        ),
+        "no subdivision": (_without(), "rejected", bad),
+        "of another route": (
+            handmade()["cells"] | {"completeness_route": "modular-rank"},
+            "rejected",
+            bad,
+        ),
+        "at the end": (_moved(), "malformed", "certificate: "),
+        "null": (handmade()["cells"] | {"subdivision": None}, "malformed", bad),
+        "one text": (_part("cells", "lifting", ["6 6"]), "malformed", "subdivision.lifting"),
+        **{
+            f"obstruction {text!r}": (_part("cells", "obstructions", [*honest, text]), "malformed", "subdivision.obs")
+            for text in (
+                "",
+                "0 0",
+                "0 0 0",
+                "0 0 1 0",
+                "0 1 1 0 0 -1",
+                "0 0 1 0 0 -1",
+                "1 0 1 0 0 -1",
+                "0 -1 1",
+                "-1 0 1",
+            )
+        },
+        **{
+            f"lifting {text!r}": (_part("cells", "lifting", [text, "0 4 7"]), "malformed", "subdivision.lif")
+            for text in ("06 6", "6  6", "6 -0", "6 +6", "6 6 ", " 6 6", "6 1000000000000000000", "6,6", "٦ ٦")
+        },
+        "eighteen digits": (
+            _curves(CROSSINGS, ["999999999999999999 999999999999999999", "0 4 7"], honest),
+            "accepted",
+            "mixed volume",
+        ),
+        "negative numbers": (_curves(CROSSINGS, ["-6 -6", "0 4 7"], honest), "accepted", "mixed volume"),
+    }

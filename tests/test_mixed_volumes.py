@@ -1,0 +1,54 @@
+"""Completeness by mixed volumes: what checkers accept and refuse, and what the solver finds."""
+
+import re
+
+import pytest
+from certificate_tools import both
+from forged_subdivisions import rows
+from handmade_systems import sealed_bytes
+
+from pkm_exact import solve_system
+from pkm_exact.policy import Policy
+from pkm_exact.systems.mixed_volume import subdivision_for
+from pkm_exact.systems.system_sources import parse_system
+
+ROWS = rows()
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_both_checkers_say_what_is_true(name: str) -> None:
+    content, status, reason = ROWS[name]
+    verdict = both(sealed_bytes(content))
+    assert verdict.status == status, verdict.lines
+    assert re.search(reason, verdict.lines[-1]), verdict.lines[-1]
+
+
+def _cyclic(size: int) -> str:
+    """The sums of products of neighbours on a circle, and the product of all less 1."""
+    names = [f"x{i}" for i in range(size)]
+    sums = ["+".join("*".join((names * 2)[i : i + k]) for i in range(size)) for k in range(1, size)]
+    return f"{','.join(names)}\n0\n{','.join([*sums, '*'.join(names) + '-1'])}\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "volume"),
+    [
+        ("x,y\n0\nx^3*y-900,x*y+x-19\n", 3),
+        ("x,y\n0\nx*y-2,x*y-2*x-2*y+4\n", 2),
+        ("x,y\n0\n(x-1)*(y-1),(x-2)*(y-2)\n", 2),
+        (_cyclic(3), 6),
+        (_cyclic(5), 70),
+    ],
+)
+def test_the_cells_have_the_mixed_volume(text: str, volume: int) -> None:
+    """Known ones: those of cyclic-3 and cyclic-5 are the numbers of their solutions."""
+    system = parse_system(text)
+    assert subdivision_for(system, volume, Policy()) is not None
+    assert subdivision_for(system, volume - 1, Policy()) is None
+    assert subdivision_for(system, volume + 1, Policy()) is None
+
+
+def test_solutions_at_infinity_are_no_obstacle() -> None:
+    found = solve_system(["x = 2 + 3*x*y*z^2", "y = 5 - x^2*z*y", "z = 1 + 7*x*y*z"])
+    assert found.completeness_route == "mixed-volume"
+    assert both(found.certificate().data).status == "accepted"
