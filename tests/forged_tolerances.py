@@ -1,13 +1,16 @@
-"""Tolerance certificates in which one bound is a little narrower than what is proved, in all else as they should be."""
+"""Tolerance certificates in which one bound is a little narrower than what is proved, or one box wider, or askew."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import partial
+from math import isqrt
 
 from certificate_subjects import Content, subject
 from certificate_tools import Path_, at, tolerant_certificate, with_entry
+
+from pkm_exact.certify.checker.study_motion import motion
 
 Case = tuple[Callable[[], Content], str]
 REJECTED, ACCEPTED = "rejected", "accepted"
@@ -56,4 +59,86 @@ def _cases() -> Iterator[tuple[str, Case]]:
                 )
 
 
-TIGHT: dict[str, Case] = dict(_cases())
+# A robot that is made for its pose: e = (-5/4, 0, 0, 1), f = (0, f1, f2, 0)
+
+BASE, PLATFORM = ((-50, 10), (9, 12), (-50, 20)), ((0, 0), (5, -2), (-1, -1))
+ORIGINS, UNIT, GRID = ((-1, -14), (-1, -3)), 64, Fraction(1, 1 << 104)
+SLACK, INNER, OUTER, TOLERANCE = (Fraction(1, 10**digits) for digits in (6, 8, 4, 13))
+E0, F1, F2 = Fraction(-5, 4), Fraction(43, 256), Fraction(-21, 128)
+Numbers = list[Fraction]
+
+
+def _on_grid(value: Fraction) -> str:
+    return hex(-(-value // GRID))
+
+
+def _around(*values: Fraction) -> list[list[str]]:
+    """Bounds, and those of a third coordinate, which is 0."""
+    return [*([str(value - SLACK), str(value + SLACK)] for value in values), ["0", "0"]]
+
+
+def _made(radius: Fraction, e0: Fraction = Fraction(0), f1: Fraction = Fraction(0)) -> Content:
+    """The box around the pose has this radius in e0; the pose itself may be off its centre."""
+    e, f = (E0 + e0, Fraction(0), Fraction(0), Fraction(1)), (Fraction(0), F1 + f1, F2, Fraction(0))
+    placed = motion(e, f, (1, 1, 1))
+    rotation = [[x / placed.norm for x in row[:2]] for row in placed.rotation[:2]]
+
+    def turned(point: tuple[int, int]) -> Numbers:
+        return [row[0] * point[0] + row[1] * point[1] for row in rotation]
+
+    centroid = [x / placed.norm * UNIT + o for x, o in zip(placed.position, ORIGINS[0], strict=False)]
+    position = [x - y for x, y in zip(centroid, turned(ORIGINS[1]), strict=True)]
+    squares = [
+        sum(((c + x - y) ** 2 for c, x, y in zip(position, turned(b), a, strict=True)), Fraction(0))
+        for a, b in zip(BASE, PLATFORM, strict=True)
+    ]
+    root = Fraction(isqrt(placed.norm.numerator * 10**40 // placed.norm.denominator), 10**20)
+    none = ["0", "0"]
+    w, z = _around(E0 / root, 1 / root)[:2]
+    box = {
+        "pose": 1,
+        "chart": [[0, 0], [0, 0], [0, 0], [1, 0]],
+        "centre": [[_on_grid(x), "0x0"] for x in (E0, Fraction(1), F1, F2)],
+        "outer": [_on_grid(x) for x in (radius, OUTER, OUTER / UNIT, OUTER / UNIT)],
+        "inner": [_on_grid(x) for x in (INNER, INNER, INNER / UNIT, INNER / UNIT)],
+        "position": _around(*position),
+        "rotation": [*(_around(*row) for row in rotation), [none, *_around(Fraction(1))[::-1]]],
+        "quaternion": [w, none, none, z],
+        "centroid": _around(*centroid),
+        "position_error": str(SLACK),
+        "rotation_error": str(SLACK),
+    }
+    content = {key: value for key, value in tolerant_certificate("3-rpr-merlet-p", "1/100").items() if key != "digest"}
+    joints = {"base": _points(BASE), "platform": _points(PLATFORM)}
+    return content | {
+        "robot": content["robot"] | {"name": "made up", "source": "made up"} | joints,
+        "configuration": {"name": "home", "lengths_squared": list(map(str, squares))},
+        "tolerances": dict.fromkeys(("base", "platform", "lengths"), str(TOLERANCE)),
+        "frames": dict(zip(("base", "platform"), _points(ORIGINS), strict=True)) | {"unit": str(UNIT)},
+        "boxes": [box],
+        "unproved": [2],
+        "pairs": [],
+        "complete": False,
+    }
+
+
+def _points(points: Sequence[tuple[int, int]]) -> list[list[str]]:
+    return [[str(x), str(y), "0"] for x, y in points]
+
+
+NEAREST, HARDLY = GRID * (Fraction(1, 2) + Fraction(1, 1 << 20)), Fraction(1, 1 << 216)
+"""How far the pose may be from the centre, and by how much it is farther."""
+NARROW = Fraction(1, 1 << 9)
+MADE: dict[str, Case] = {
+    "a box made for its pose": (partial(_made, NARROW), ACCEPTED),
+    "a box made for its pose, too wide in one unknown": (partial(_made, Fraction(1, 8)), REJECTED),
+    **{
+        f"a pose just too far from the grid point in {unknown}, end {sign}": (
+            partial(_made, NARROW, **{unknown: sign * (NEAREST + HARDLY)}),
+            REJECTED,
+        )
+        for unknown in ("e0", "f1")
+        for sign in (1, -1)
+    },
+}
+TIGHT: dict[str, Case] = dict(_cases()) | MADE

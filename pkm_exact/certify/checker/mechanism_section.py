@@ -227,7 +227,7 @@ def _homogeneous(metric: Metric) -> tuple[fmpz_mat, ...]:
 
 
 def _parts(quadrics: Sequence[Mapping[_Product, nmod | int]], size: int, p: int, highest: int) -> Iterator[int]:
-    """The dimensions of A_0, A_1, .. up to the first that is 0, or to degree ``highest``."""
+    """The dimensions of A_0, A_1, .. to degree ``highest``; behind one that is 0 all are."""
     yield 1
     yield size
     symbols: list[_Product] = [(i, j) for i in range(size) for j in range(i, size)]
@@ -239,8 +239,6 @@ def _parts(quadrics: Sequence[Mapping[_Product, nmod | int]], size: int, p: int,
     part = _quotient(table, symbols)
     for _ in range(2, highest):
         yield part.dimension
-        if not part.dimension:
-            return
         part = _next(part, size, p)
     yield part.dimension
 
