@@ -95,11 +95,13 @@ def _searches(
     problem: ForwardProblem, policy: Policy, stages: Stages, start: StartSection | None
 ) -> Iterator[tuple[str, Callable[[], Approximations | None]]]:
     """Ways to find all solutions, each with the name of its stage. What is certified does not depend on the way."""
+    ways: list[tuple[str, Callable[[], Approximations | None]]] = []
     if start is not None:
         yield NEIGHBOUR, partial(from_home, problem, start)
-        yield PATHS, partial(approximations, problem, start, 0, stages.amount)
+        ways.append((PATHS, partial(approximations, problem, start, 0, stages.amount)))
     if has_seeds(problem):
-        yield TEMPLATE, partial(seeds, problem)
+        ways.insert(0 if start and start.has_long_paths else len(ways), (TEMPLATE, partial(seeds, problem)))
+    yield from ways
     for attempt in range(ATTEMPTS):
         yield PATHS, partial(approximations, problem, None, policy.seed * attempt, stages.amount)
 

@@ -15,9 +15,11 @@ import numpy as np
 
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.poses import Approximations
+from pkm_exact.numeric.seeds import has_seeds, seeds
 from pkm_exact.numeric.start import SAME, StartSection, generic_start, joined, start_quadrics
-from pkm_exact.numeric.study_system import Complex, Real, numeric_section, section_quadrics
+from pkm_exact.numeric.study_system import Complex, numeric_section, section_quadrics
 from pkm_exact.numeric.tracker import polished, track
+from pkm_exact.stages import Amount
 
 OFFSET: Final = 0.06
 """How far the complex squared lengths are from the real ones, for a robot of size 1."""
@@ -25,8 +27,10 @@ ATTEMPTS: Final = 3
 """Times that paths are tracked, each time others, before the robot counts as one with fewer solutions."""
 GREATEST_CHANGE: Final = 1e-5
 """An end point that Newton's method still moves by more than this is not taken for a solution."""
-HOME_STEPS: Final = 4
+HOME_STEPS: Final = 6
 """Newton steps from the solutions at home."""
+LONG: Final = 12
+"""Steps of a path, near singular poses, that take longer than an elimination template."""
 
 
 def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
@@ -67,16 +71,14 @@ def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
             ends, change = polished(ends[arrived], quadrics)
         solutions = joined(solutions, ends[change < GREATEST_CHANGE])
         if len(solutions) == problem.solution_bound:
-            return StartSection(legs, solutions, section.frames, _home(solutions, quadrics, section.quadrics))
+            steps: list[Amount] = []
+            with np.errstate(all="ignore"):
+                ends, _ = track(solutions, quadrics, section.quadrics, watch=steps.append)
+            home = _all_different(ends, section.quadrics)
+            if home is None and has_seeds(problem):
+                home = _all_different(seeds(problem).points, section.quadrics)
+            return StartSection(legs, solutions, section.frames, home, len(steps) > LONG)
     return None
-
-
-def _home(solutions: Complex, quadrics: Complex, target: Complex) -> Complex | None:
-    """The solutions at the ends of the paths to the robot itself; None if these are not all different."""
-    with np.errstate(all="ignore"):
-        ends, arrived = track(solutions, quadrics, target)
-        ends, change = polished(ends, target)
-    return ends if arrived.all() and _are_solutions(ends, change) else None
 
 
 def from_home(problem: ForwardProblem, start: StartSection) -> Approximations | None:
@@ -90,13 +92,14 @@ def from_home(problem: ForwardProblem, start: StartSection) -> Approximations | 
     if start.home is None:
         return None
     section = numeric_section(problem, start.frames)
+    points = _all_different(start.home, section.quadrics)
+    return None if points is None or len(points) < problem.solution_bound else Approximations(section, points)
+
+
+def _all_different(points: Complex, quadrics: Complex) -> Complex | None:
+    """Where Newton's method leads from the points; None if it does not come to rest, or twice at the same place."""
     with np.errstate(all="ignore"):
-        points, change = polished(start.home, section.quadrics, HOME_STEPS)
-        return Approximations(section, points) if _are_solutions(points, change) else None
-
-
-def _are_solutions(points: Complex, change: Real) -> bool:
-    """Whether Newton's method has come to rest at points of norm 1, and no two of them are the same."""
-    overlaps = np.abs(points.conj() @ points.T)
+        found, change = polished(points, quadrics, HOME_STEPS)
+        overlaps = np.abs(found.conj() @ found.T)
     np.fill_diagonal(overlaps, 0)
-    return bool((change < GREATEST_CHANGE).all() and (overlaps < 1 - SAME).all())
+    return found if bool((change < GREATEST_CHANGE).all() and (overlaps < 1 - SAME).all()) else None

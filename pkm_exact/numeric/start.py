@@ -43,12 +43,15 @@ class StartSection:
         Those of the robot for which the section was made: of a robot that is tracked from here, they are used as well.
     home : (p, n) complex array or None
         All solutions of this robot itself, in these frames, if they were found.
+    has_long_paths : bool
+        Whether paths to this robot take so many steps that other ways are tried before them.
     """
 
     legs: Complex
     solutions: Complex
     frames: Frames | None = None
     home: Complex | None = None
+    has_long_paths: bool = False
 
 
 @cache
