@@ -17,11 +17,13 @@ from handmade_links import (
     box,
     carries,
     distance,
+    in_metric,
     in_plane,
     linear,
     on_cylinder,
     on_line,
     system,
+    unknowns_in_metric,
 )
 from tables_of_rows import merged, put
 
@@ -165,6 +167,53 @@ def _rows() -> dict[str, Row]:
     return found
 
 
+# Some of them in metrics, where R^T G R = G; with squares there is a body for each of those above
+
+STRETCHED = (
+    *("an upright body", "a body that does not turn", "a body at a point"),
+    *("a body on a line, with three numbers", "a point on two rods"),
+)
+ROOTS = (2, 1, 4)
+SQUARES = (4, 1, 16)
+SLANTED: tuple[str, list[Joined], list[Any]] = (
+    "planar:planar",
+    [(0, 1, at_point((1, 2, 0), (3, 1, 0))), (0, 1, in_plane((1, 2, 0), 11, (2, 2, 0)))],
+    [1, 0, "1/2", "1/2"],
+)
+"""Turned by 60 degrees, C + R (3, 1) = (1, 2) with R = ((1/2, -3/2), (1/2, 1/2)) in the metric (1, 3, 1)."""
+
+
+def _in_metrics() -> dict[str, Row]:
+    """Boxes and systems of version 2; with another metric, they are those of another mechanism."""
+    found: dict[str, Row] = {}
+    single = {name: POSES[name] for name in POSES if name in STRETCHED}
+    for name, (motions, plain, numbers) in (single | PAIRS).items():
+        joined, centre = in_metric(ROOTS, plain), unknowns_in_metric(ROOTS, motions, numbers)
+        found[f"{name}, a box in a metric"] = (box(motions, joined, centre, metric=SQUARES), "accepted", ONE)
+        beside = [*centre[:-1], centre[-1] + Fraction(1, 1 << 30)]
+        found[f"{name}, a box beside in a metric"] = (
+            box(motions, joined, beside, metric=SQUARES),
+            "rejected",
+            UNPROVED,
+        )
+        honest = system(motions, joined, SQUARES)
+        found[f"{name}, a system in a metric"] = (honest, "accepted", NOTHING)
+        others = system(motions, joined)["system"]["polynomials"]
+        if others != honest["system"]["polynomials"]:
+            forged = put(honest, others, "system", "polynomials")
+            found[f"{name}, a system of another metric"] = (forged, "rejected", SHEARED)
+    motions, joined, centre = SLANTED
+    found["a turn by 60 degrees"] = (box(motions, joined, centre, metric=(1, 3, 1)), "accepted", ONE)
+    for g in ((3, 1, 1), (1, 4, 1)):
+        found[f"a turn that is none in {g}"] = (box(motions, joined, centre, metric=g), "rejected", UNPROVED)
+    some = box(motions, joined, centre, metric=(1, 3, 1))
+    for what, value in (("two", ["1", "3"]), ("0", ["1", "0", "1"]), ("1/2", ["1", "1/2", "1"]), ("none", None)):
+        found[f"a metric of {what}"] = (put(some, value, "mechanism", "metric"), "malformed", "")
+    found["a metric in version 1"] = (put(some, 1, "version"), "malformed", "")
+    found["no metric in version 2"] = (put(SOME_PIN, 2, "version"), "malformed", "")
+    return found
+
+
 # x^2 + y^2 = 1 and y = 0, so that the image of a box about (1, 0) is known
 
 CIRCLE: list[Joined] = [(0, 1, distance(O, O, 1)), (0, 1, in_plane(Y, 0))]
@@ -175,6 +224,7 @@ TRAILING: list[Joined] = [
 """Of degree 4: derivatives are not in the middle between their bounds."""
 PIN: list[Joined] = [(0, 1, at_point((3, -2, 0)))]
 FLAT = "planar:translation"
+SOME_PIN = box(FLAT, PIN, [3, -2])
 
 
 def _reach(status: str, joined: list[Joined], centre: Any, radius: int, exponent: int) -> Row:
@@ -263,7 +313,7 @@ MIRRORED: dict[str, Row] = {
 
 # The format
 
-SOME = box(FLAT, PIN, [3, -2])
+SOME = SOME_PIN
 GIVEN = system(FLAT, PIN)
 IDLE: Joined = (0, 1, linear(*[0] * 17))
 
@@ -325,4 +375,4 @@ FORMAT: dict[str, Row] = {
 }
 FORMAT["other unknowns"][0]["system"]["polynomials"] = [["x1", "-3"], ["y2", "2"]]
 
-ROWS: dict[str, Row] = merged(_rows(), REACH, MIRRORED, FORMAT)
+ROWS: dict[str, Row] = merged(_rows(), _in_metrics(), REACH, MIRRORED, FORMAT)

@@ -49,6 +49,7 @@ STATICS_2 = "statics-certificate-2.schema.json"
 STATICS_3 = "statics-certificate-3.schema.json"
 STATICS_4 = "statics-certificate-4.schema.json"
 LINKS = "links-certificate-1.schema.json"
+LINKS_2 = "links-certificate-2.schema.json"
 GOLDEN = sorted(path.stem for path in CERTS.glob("*.json"))
 QUICK = [name for name, entry in SUBJECTS.items() if entry.quick]
 
@@ -72,7 +73,7 @@ def schema_of(content: Any) -> jsonschema.Draft202012Validator:
     "name",
     [
         *(POSES, SECOND, TOLERANCES, SYSTEMS, MOBILITY, MOBILITY_2, MOBILITY_3, PLATFORM),
-        *(REGIONS, REGIONS_2, STATICS, LINKS, STATICS_2, STATICS_3),
+        *(REGIONS, REGIONS_2, STATICS, LINKS, LINKS_2, STATICS_2, STATICS_3),
     ],
 )
 def test_schemas_are_schemas(name: str) -> None:
@@ -271,6 +272,11 @@ def test_the_page_of_links_defines_every_key_in_its_order() -> None:
     root = _schema(LINKS)
     parts = [root, *(root["$defs"][key] for key in ("mechanism", "body", "joined", "box"))]
     assert _tables("Format", "## Unknowns and polynomials", "certificates-links.md") == [_keys(part) for part in parts]
+    second = _schema(LINKS_2)
+    assert _keys(second) == _keys(root)
+    keys = _keys(root["$defs"]["mechanism"])
+    place = keys.index("planar") + 1
+    assert _keys(second["$defs"]["mechanism"]) == [*keys[:place], "metric", *keys[place:]]
 
 
 def test_words_and_limits_are_the_same_everywhere() -> None:
@@ -300,7 +306,9 @@ def test_versions_are_the_same_everywhere(kind: CertificateKind) -> None:
         statics_driven_build,
         statics_equations_build,
     )
-    assert [(w.FORMAT, w.VERSION) for w in writers].count((kind.format, kind.version)) == 1
+    versions = [(w.FORMAT, w.VERSION) for w in writers]
+    versions.append((links_build.FORMAT, links_build.IN_A_METRIC))
+    assert versions.count((kind.format, kind.version)) == 1
     stem = kind.format.removeprefix("pkm_exact ").replace(" ", "-")
     name = f"{stem}-{kind.version}.schema.json"
     schema = _schema(name)

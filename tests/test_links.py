@@ -2,9 +2,11 @@
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from math import atan2, degrees, hypot
+from itertools import chain
+from math import atan2, cos, degrees, dist, hypot, pi, sin, sqrt
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -15,14 +17,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pkm_exact import InputError, read_robot
+from pkm_exact.certify import pure
 from pkm_exact.certify.check import check_bytes
+from pkm_exact.certify.links_build import links_certificate_bytes
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.constraint_types import CONSTRAINTS
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import value_at
-from pkm_exact.geometry.inverse import rotation_of
+from pkm_exact.geometry.inverse import Metric, rotation_of
 from pkm_exact.geometry.links import LinkBody, Links
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.reader import any_from_toml, read_links
@@ -42,6 +46,7 @@ COUNTS = {  # complex solutions, real poses
     "watt": (4, 2),
     "stephenson": (6, 2),
     "3-rrr-links": (6, 2),
+    "3-rrr-regular": (6, 2),
     "3-prrr-rotary": (8, 8),
     "micabo-h-links": (12, 2),
 }
@@ -91,6 +96,33 @@ def test_published_poses_of_the_3_rrr() -> None:
     assert home[:2] == pytest.approx([0.03, 0.02], abs=1e-7)
     assert atan2(home[3], home[2]) == pytest.approx(0.2, abs=1e-6)
     assert other == pytest.approx([-0.0029, 0.046781, -0.109346, -0.994004], abs=1e-6)
+
+
+def test_regular_triangles_are_exact_in_their_metric() -> None:
+    """Joints, cranks and rods of the platform's pose next to that of the example, in ordinary coordinates."""
+    found = _solved("3-rrr-regular")
+    assembly = found.assemblies[1]
+    *cranks, platform = assembly.poses
+    ends = []
+    for k, crank in enumerate(cranks):
+        turn = 2 * k * pi / 3 - 5 * pi / 6
+        foot = (sqrt(3) / 6 * cos(turn), sqrt(3) / 6 * sin(turn))
+        assert [float(x.midpoint) for x in crank.position[:2]] == pytest.approx(foot)
+        elbow = _placed(crank, (0.2, 0))
+        wrist = _placed(platform, (0.2 / sqrt(3) * cos(turn), 0.2 / sqrt(3) * sin(turn)))
+        assert dist(elbow, foot) == pytest.approx(0.2)
+        assert dist(elbow, wrist) == pytest.approx(0.2)
+        ends.append(wrist)
+    assert [dist(ends[k], ends[k - 1]) for k in range(3)] == pytest.approx([0.2] * 3)
+    assert [float(x.midpoint) for x in platform.position[:2]] == pytest.approx([0.03, 0.02], abs=0.001)
+
+
+def _placed(pose: Pose, point: tuple[float, float]) -> tuple[float, float]:
+    x, y = (
+        float(pose.position[i].midpoint) + sum(float(pose.rotation[i][j].midpoint) * point[j] for j in range(2))
+        for i in range(2)
+    )
+    return x, y
 
 
 def test_the_3_rrr_without_its_links_has_the_same_poses() -> None:
@@ -267,7 +299,7 @@ def test_a_mirrored_body_is_no_pose() -> None:
 
 numbers = st.integers(-5, 5).map(Fraction)
 quaternions = st.tuples(numbers, numbers, numbers, numbers).filter(any)
-poses = st.tuples(st.tuples(numbers, numbers, numbers), quaternions.map(lambda e: rotation_of(e, (1, 1, 1))))
+poses = st.tuples(st.tuples(numbers, numbers, numbers), quaternions)
 
 
 def _example(type_: type[Constraint], random: Random) -> Constraint:
@@ -285,35 +317,129 @@ def _example(type_: type[Constraint], random: Random) -> Constraint:
     return found
 
 
-def _relative(one: tuple[Any, Matrix], other: tuple[Any, Matrix]) -> tuple[Any, Any]:
+def _relative(one: tuple[Any, Matrix], other: tuple[Any, Matrix], g: Metric) -> tuple[Any, Any]:
+    """R_a^-1 d and R_a^-1 R_b, with R^-1 = G^-1 R^T G."""
     (c, r), (d, s) = one, other
+    inverse = [[r[i][j] * g[i] / g[j] for i in range(3)] for j in range(3)]
     difference = [y - x for x, y in zip(c, d, strict=True)]
-    position = tuple(sum((r[i][j] * difference[i] for i in range(3)), Fraction(0)) for j in range(3))
-    rotation = tuple(tuple(sum((r[i][j] * s[i][k] for i in range(3)), Fraction(0)) for k in range(3)) for j in range(3))
+    position = tuple(sum((inverse[j][i] * difference[i] for i in range(3)), Fraction(0)) for j in range(3))
+    rotation = tuple(
+        tuple(sum((inverse[j][i] * s[i][k] for i in range(3)), Fraction(0)) for k in range(3)) for j in range(3)
+    )
     return position, rotation
 
 
 @pytest.mark.parametrize("type_", CONSTRAINTS)
 @budget(12)
-@given(poses, poses, st.integers(0, 99))
+@given(poses, poses, st.integers(0, 99), st.sampled_from([(1, 1, 1), (1, 3, 1), (2, 3, 5)]))
 def test_equations_are_those_of_the_motion_of_one_body_seen_from_the_other(
-    type_: str, one: tuple[Any, Matrix], other: tuple[Any, Matrix], seed: int
+    type_: str, first: Any, second: Any, seed: int, metric: Metric
 ) -> None:
     constraint = _example(CONSTRAINTS[type_], Random(seed))
+    one, other = ((place, rotation_of(quaternion, metric)) for place, quaternion in (first, second))
     bodies = (LinkBody("a", SPATIAL), LinkBody("b", SPATIAL))
-    links = Links(Mechanism("x", "1", "x", (constraint,)), bodies, ((1, 2),), 2)
+    links = Links(Mechanism("x", "1", "x", (constraint,), metric=metric), bodies, ((1, 2),), 2)
     equations = LinkEquations(links, (constraint,))
     point = [value for c, r in (one, other) for value in (*c, *(entry for row in r for entry in row))]
     assert not any(_at(polynomial, point) for polynomial in equations.rotations(spare=True))
     found = [_at(polynomial, point) for polynomial in equations.constraint_polynomials()]
-    position, rotation = _relative(one, other)
-    asked = [value_at(form, position, rotation, (1, 1, 1)) for form in constraint.forms((1, 1, 1))]
-    for square in constraint.squares((1, 1, 1)):
-        linear, root = (value_at(form, position, rotation, (1, 1, 1)) for form in (square.linear, square.root))
+    position, rotation = _relative(one, other, metric)
+    asked = [value_at(form, position, rotation, metric) for form in constraint.forms(metric)]
+    for square in constraint.squares(metric):
+        linear, root = (value_at(form, position, rotation, metric) for form in (square.linear, square.root))
         asked.append(linear - square.factor * root * root)
     if type_ == "at-point":  # said in the coordinates of the ground
-        asked = [sum((one[1][i][j] * asked[j] for j in range(3)), Fraction(0)) for i in range(3)]
+        asked = [sum((one[1][i][j] * asked[j] / metric[j] for j in range(3)), Fraction(0)) for i in range(3)]
     assert found == asked
+
+
+def _stretched(links: Links, roots: Sequence[int]) -> Links:
+    """The same mechanism in coordinates of which the ordinary ones are these multiples, in the metric of squares."""
+
+    def vector(values: Sequence[Fraction]) -> Any:
+        return tuple(x / root for x, root in zip(values, roots, strict=True))
+
+    g = tuple(root * root for root in roots)
+    constraints = [
+        replace(each, **{field: vector(value) for field, value in vars(each).items() if isinstance(value, tuple)})  # type: ignore[type-var]
+        for each in links.declared.constraints
+    ]
+    bodies = []
+    for body in links.bodies:
+        if body.start is None:
+            bodies.append(body)
+            continue
+        place, rotation = body.start
+        rows = tuple(
+            tuple(x * b / a for x, b in zip(row, roots, strict=True)) for row, a in zip(rotation, roots, strict=True)
+        )
+        bodies.append(replace(body, start=(vector(place), rows)))  # type: ignore[arg-type]
+    declared = replace(links.declared, constraints=tuple(constraints), metric=g)  # type: ignore[arg-type]
+    return replace(links, declared=declared, bodies=tuple(bodies))
+
+
+def _meet(one: Pose, other: Pose) -> bool:
+    """Whether all bounds of two poses have numbers in common."""
+    pairs = zip((*one.position, *chain(*one.rotation)), (*other.position, *chain(*other.rotation)), strict=True)
+    return all(a.lo <= b.hi and b.lo <= a.hi for a, b in pairs)
+
+
+@pytest.mark.parametrize(
+    ("name", "roots"),
+    [
+        ("four-bar", (2, 3, 1)),
+        ("3-prrr-rotary", (3, 1, 2)),
+        pytest.param("3-rrr-links", (1, 2, 1), marks=pytest.mark.slow),
+    ],
+)
+def test_mechanisms_in_a_metric_have_the_poses_of_those_without(name: str, roots: Sequence[int]) -> None:
+    plain, stretched = _solved(name), solve_links(_stretched(_links(name), roots))
+    assert (stretched.claim, stretched.complex_solutions, len(stretched)) == (
+        plain.claim,
+        plain.complex_solutions,
+        len(plain),
+    )
+    for assembly in plain:
+        same = [all(map(_meet, assembly.poses, found.poses)) for found in stretched]
+        assert same.count(True) == 1
+    data = links_certificate_bytes(stretched)
+    assert (check_bytes(data).status, pure.check_bytes(data).status) == ("accepted", "accepted")
+
+
+def test_a_start_in_a_metric_finds_the_pose_of_that_without() -> None:
+    """Spatial bodies; other coordinates may lead to another pose, so that it starts at the one without."""
+    links = _links("micabo-h-links")
+    plain = solve_from_start(links)
+    near = []
+    for body, pose in zip(links.bodies, plain.assemblies[0].poses, strict=True):
+        place, *rows = (tuple(x.midpoint for x in row) for row in (pose.position, *pose.rotation))
+        near.append(replace(body, start=(place, tuple(rows))))  # type: ignore[arg-type]
+    stretched = solve_from_start(_stretched(replace(links, bodies=tuple(near)), (1, 2, 4)))
+    assert all(map(_meet, plain.assemblies[0].poses, stretched.assemblies[0].poses))
+    data = links_certificate_bytes(stretched)
+    assert (check_bytes(data).status, pure.check_bytes(data).status) == ("accepted", "accepted")
+
+
+def test_boxes_in_a_metric_are_as_narrow_as_asked() -> None:
+    width = Fraction(1, 10**6)
+    (pose, *_) = (
+        found
+        for assembly in solve_links(_stretched(_links("four-bar"), (4, 5, 1)), width=width)
+        for found in assembly.poses
+    )
+    assert all(x.hi - x.lo <= width for x in (*pose.position, *chain(*pose.rotation)))
+
+
+def test_a_start_is_in_ordinary_coordinates(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = (ROOT / "models" / "links" / "four-bar.toml").read_text()
+    assert 'motion = "planar"' in text
+    found = []
+    for metric in ("", "metric = [1, 1]\n"):
+        path = tmp_path / f"m{len(found)}.toml"
+        path.write_text(metric + text)
+        assert main(["solve", str(path), "--method", "krawczyk", "--start", "7,0,90"]) == 3
+        found.append(capsys.readouterr().out)
+    assert found[0] == found[1]
 
 
 def _at(polynomial: Any, point: Sequence[Fraction]) -> Fraction:
@@ -425,7 +551,8 @@ MODEL = str(ROOT / "models" / "links" / "four-bar.toml")
         ('bodies = ["base", "coupler"]', 'bodies = ["coupler", "base"]', "'base' is the second; name it first"),
         ('bodies = ["base", "coupler"]', 'bodies = ["coupler", "coupler"]', "constraints[1].bodies: 'coupler' twice"),
         ('bodies = ["base", "coupler"]', "", "constraints[1].bodies: is missing"),
-        ('motion = "planar"', "metric = [1, 3]", "unknown key 'metric'"),
+        ('motion = "planar"', 'motion = "planar"\nmetric = [1, "1/3"]', "metric[2]: 1/3 is not a positive integer"),
+        ('motion = "planar"', 'motion = "planar"\nmetric = 3', "metric: 3 is not a list"),
         ("point = [7, 0]", "point = [7, 0, 1]", "constraints[3] ('pin of the rocker').point"),
         ('type = "at-point"', 'type = "glue"', "constraints[1].type: 'glue' is unknown"),
         ("[platform]", "[nominal]\nposition = [0, 0]\n[platform]", "nominal: a file of kind links has no pose"),

@@ -4,6 +4,7 @@ import json
 from collections.abc import Callable
 from copy import deepcopy
 from functools import cache
+from math import dist
 from pathlib import Path
 from typing import Any
 
@@ -20,12 +21,14 @@ from pkm_exact.geometry.links import Links
 from pkm_exact.geometry.reader import any_from_toml, read_links
 from pkm_exact.links.link_engine import solve_links
 from pkm_exact.links.start_box import solve_from_start
+from pkm_exact.pictures.links_scene import links_scene
 
 Content = dict[str, Any]
 ROOT = Path(__file__).parent.parent
 MODELS, CERTS = ROOT / "models" / "links", ROOT / "certs" / "links"
 NAMES = sorted(path.stem for path in MODELS.glob("*.toml"))
 SLOW = ("watt", "stephenson", "micabo-h-links")
+IN_METRIC = json.loads(Path(pure.__file__).with_name("links-certificate-2.schema.json").read_text())
 SCHEMA = json.loads(Path(pure.__file__).with_name("links-certificate-1.schema.json").read_text())
 
 
@@ -63,7 +66,8 @@ def test_golden_certificates_are_made_again(name: str) -> None:
 def test_golden_certificates_are_accepted_by_both(name: str) -> None:
     data = (CERTS / f"{name}.json").read_bytes()
     assert both(data)
-    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(data))
+    content = json.loads(data)
+    jsonschema.Draft202012Validator(SCHEMA if content["version"] == 1 else IN_METRIC).validate(content)
 
 
 def test_a_spatial_box_is_accepted_by_both() -> None:
@@ -71,7 +75,72 @@ def test_a_spatial_box_is_accepted_by_both() -> None:
     assert last_line(verdict) == "not proven complete: one pose is proved, others are not excluded"
 
 
+@pytest.mark.parametrize("method", ["exact", "krawczyk"])
+def test_certificates_in_a_metric_are_accepted_by_both(method: str) -> None:
+    links = any_from_toml(TRIANGLE)
+    assert isinstance(links, Links)
+    found = solve_links(links) if method == "exact" else solve_from_start(links)
+    data = links_certificate_bytes(found)
+    assert both(data)
+    content = json.loads(data)
+    jsonschema.Draft202012Validator(IN_METRIC).validate(content)
+    assert not jsonschema.Draft202012Validator(SCHEMA).is_valid(content)
+    assert content["mechanism"]["metric"] == ["1", "3", "1"]
+    for other in (["1", "1", "1"], ["3", "1", "1"]):
+        forged = with_entry(content, ("mechanism", "metric"), other)
+        assert both_resealed(forged).status == "rejected"
+    scene = links_scene(content)
+    (first, *_) = scene.poses
+    pose = found.platform_pose(found.assemblies[0])
+    assert first.position == pytest.approx([float(x.midpoint) for x in pose.position])
+    for row, other in zip(first.rotation, pose.rotation, strict=True):
+        assert row == pytest.approx([float(x.midpoint) for x in other])
+    for bar in (part for part in first.parts if part.kind == "bar"):
+        assert dist(*bar.points) == pytest.approx(6 if bar.name == "link" else 5)
+
+
 HEAD = 'schema = 1\nname = "x"\nkind = "links"\nunit = "m"\nsource = "a test"\n'
+TRIANGLE = (
+    HEAD
+    + """motion = "planar"
+metric = [1, 3]
+[platform]
+body = "triangle"
+[[bodies]]
+name = "crank"
+start = { position = [0, 0], half_tangent = "1/2" }
+[[bodies]]
+name = "triangle"
+start = { position = [2, 3], half_tangent = "1/3" }
+"""
+)
+TRIANGLE += """[[constraints]]
+name = "hinge"
+type = "at-point"
+bodies = ["base", "crank"]
+point = [0, 0]
+platform = [0, 0]
+[[constraints]]
+name = "locked"
+type = "angle"
+bodies = ["base", "crank"]
+base = [1, 0]
+platform = [1, 0]
+product = "1/2"
+[[constraints]]
+name = "pin"
+type = "at-point"
+bodies = ["crank", "triangle"]
+point = [4, 0]
+platform = [2, 0]
+[[constraints]]
+name = "rod"
+type = "distance"
+bodies = ["base", "triangle"]
+base = [6, "1/2"]
+platform = [-1, 1]
+length_squared = 25
+"""
 TABLES = {
     "a point in the plane": (
         'motion = "planar"\n[[bodies]]\nname = "point"\nmotion = "translation"\n[[constraints]]\nname = "pin"\n'

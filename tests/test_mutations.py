@@ -262,6 +262,7 @@ OF_A_KIND = {
     "statics, version 2": lambda: golden("statics/3-rps"),
     "statics, version 3": lambda: golden("statics/dual-v"),
     "links": lambda: golden("links/four-bar"),
+    "links, version 2": lambda: golden("links/3-rrr-regular"),
 }
 
 

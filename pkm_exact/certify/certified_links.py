@@ -9,6 +9,7 @@ from typing import Any, Final
 
 from pkm_exact.certify.certified_machine import certified_constraint
 from pkm_exact.constraints.constraint import Constraint
+from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 
 FORMAT: Final = "pkm_exact links certificate"
 Numbers = tuple[Fraction, Fraction, Fraction]
@@ -25,7 +26,10 @@ class JoinedConstraint:
 
 @dataclass(frozen=True)
 class BodyPlace:
-    """Position and rotation matrix of a body, the middles of their certified bounds, and what these are off at most."""
+    """Position and rotation matrix of a body, the middles of their certified bounds, and what these are off at most.
+
+    All in the coordinates of the metric.
+    """
 
     position: Numbers
     rotation: tuple[Numbers, Numbers, Numbers]
@@ -56,20 +60,27 @@ def assemblies(content: Mapping[str, Any]) -> Iterator[tuple[tuple[BodyPlace, ..
 
 def _places(mechanism: Mapping[str, Any], balls: Sequence[tuple[Fraction, Fraction]]) -> tuple[BodyPlace, ...]:
     """The unknowns of all bodies one after the other, as docs/certificates-links.md has them."""
+    metric = certified_metric(mechanism)
     unknowns, widths, found = (value for value, _ in balls), [half for _, half in balls], []
     for body in mechanism["bodies"]:
         motion = body["motion"]
         free = 0 if motion == "spherical" else 2 if mechanism["planar"] or motion == "planar" else 3
         x, y, z = [next(unknowns) for _ in range(free)] + [Fraction(0)] * (3 - free)
-        found.append(BodyPlace((x, y, z), _rotation(motion, unknowns), max(widths)))
+        found.append(BodyPlace((x, y, z), _rotation(motion, unknowns, metric), max(widths)))
     return tuple(found)
 
 
-def _rotation(motion: str, unknowns: Iterator[Fraction]) -> tuple[Numbers, Numbers, Numbers]:
+def certified_metric(mechanism: Mapping[str, Any]) -> Metric:
+    """The Gram diagonal of a mechanism's coordinates."""
+    x, y, z = map(int, mechanism.get("metric", UNIT_METRIC))
+    return x, y, z
+
+
+def _rotation(motion: str, unknowns: Iterator[Fraction], metric: Metric) -> tuple[Numbers, Numbers, Numbers]:
     zero, one = Fraction(0), Fraction(1)
     if motion in ("planar", "schoenflies"):
         c, s = next(unknowns), next(unknowns)
-        return (c, -s, zero), (s, c, zero), (zero, zero, one)
+        return (c, -metric[1] * s, zero), (metric[0] * s, c, zero), (zero, zero, one)
     if motion == "translation":
         return (one, zero, zero), (zero, one, zero), (zero, zero, one)
     first, second, third = ((next(unknowns), next(unknowns), next(unknowns)) for _ in range(3))

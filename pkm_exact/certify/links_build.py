@@ -1,7 +1,7 @@
 """Certificates of mechanisms with passive bodies: their system, solved, or a box around one pose of all bodies.
 
-The format is described in ``docs/certificates-links.md``; its schema is ``links-certificate-1.schema.json`` in this
-folder.
+The format is described in ``docs/certificates-links.md``; its schemas are ``links-certificate-1.schema.json`` and, of
+mechanisms in a metric, ``links-certificate-2.schema.json`` in this folder.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 FORMAT: Final = "pkm_exact links certificate"
 VERSION: Final = 1
+IN_A_METRIC: Final = 2
 
 
 def links_certificate(solution: LinkSolution) -> dict[str, Any]:
@@ -38,7 +39,7 @@ def links_certificate(solution: LinkSolution) -> dict[str, Any]:
     return sealed(
         {
             "format": FORMAT,
-            "version": VERSION,
+            "version": VERSION if solution.links.declared.metric == UNIT_METRIC else IN_A_METRIC,
             "mechanism": _mechanism(solution),
             "configuration": solution.configuration.name,
             "method": solution.method,
@@ -56,16 +57,17 @@ def links_certificate_bytes(solution: LinkSolution) -> bytes:
 
 def _mechanism(solution: LinkSolution) -> dict[str, Any]:
     links = solution.links
-    constraints = links.locked(solution.configuration)
+    constraints, metric = links.locked(solution.configuration), links.declared.metric
     return {
         "name": links.name,
         "unit": links.declared.unit,
         "source": links.declared.source,
         "planar": links.is_planar,
+        **({} if metric == UNIT_METRIC else {"metric": list(map(str, metric))}),
         "platform": links.platform,
         "bodies": [{"name": body.name, "motion": body.motion.name} for body in links.bodies],
         "joined": [
-            {"bodies": list(pair), "constraint": constraint_entry(constraint, UNIT_METRIC)}
+            {"bodies": list(pair), "constraint": constraint_entry(constraint, metric)}
             for constraint, pair in zip(constraints, links.joined, strict=True)
         ],
     }

@@ -30,7 +30,7 @@ MAX_BODIES: Final = 32
 MAX_JOINED: Final = 64
 MAX_UNKNOWNS: Final = 64
 MAX_RADIUS: Final = 10**9
-METRIC: Final = (1, 1, 1)
+ORDINARY: Final = (1, 1, 1)
 
 # ---------------------------------------------------------------------------------------------------------------------
 # Format
@@ -69,6 +69,7 @@ class Box(NamedTuple):
 class Certificate:
     """What a certificate says."""
 
+    metric: pure.Metric
     names: tuple[str, ...]
     bodies: tuple[Body, ...]
     joined: tuple[Joined, ...]
@@ -111,13 +112,21 @@ def numbered(motions: Sequence[str], *, planar: bool) -> tuple[tuple[str, ...], 
     return tuple(names), tuple(bodies)
 
 
-def a_joined(bodies: int, value: Any, where: str) -> Joined:
+def a_metric(value: Any, where: str) -> pure.Metric:
+    """g, three positive integers."""
+    weights = pure.a_list(pure.a_positive_rational, 3)(value, where)
+    pure.well_formed(all(weight.denominator == 1 for weight in weights), f"{where}: not three integers")
+    x, y, z = map(int, weights)
+    return x, y, z
+
+
+def a_joined(bodies: int, metric: pure.Metric, value: Any, where: str) -> Joined:
     """A constraint and its bodies."""
     pair, constraint = pure.an_object(value, where, "bodies constraint")
     a, b = pure.a_list(pure.a_number, 2)(pair, f"{where}.bodies")
     fits = a <= bodies and 1 <= b <= bodies and a != b
     pure.well_formed(fits, f"{where}.bodies: not two bodies, the second not the ground")
-    return Joined(a, b, pure_mechanism.a_constraint(METRIC, constraint, f"{where}.constraint"))
+    return Joined(a, b, pure_mechanism.a_constraint(metric, constraint, f"{where}.constraint"))
 
 
 def a_few(most: int, read: pure.Reader, value: Any, where: str) -> tuple[Any, ...]:
@@ -140,20 +149,23 @@ def a_box(number: int, value: Any, where: str) -> Box:
 def read(body: dict[str, Any]) -> Certificate:
     """The content of a certificate."""
     version = body.get("version")
-    pure.well_formed(type(version) is int and version == 1, "format: not a links certificate, version 1")
+    known = type(version) is int and version in (1, 2)
+    pure.well_formed(known, "format: not a links certificate, version 1 or 2")
     _, _, mechanism, configuration, method, system, box, notes = pure.an_object(body, "certificate", KEYS)
     pure.a_text(configuration, "configuration")
     pure.a_list(pure.a_text)(notes, "notes")
-    *labels, planar, platform, bodies, joined = pure.an_object(
-        mechanism, "mechanism", "name unit source planar platform bodies joined"
+    name, unit, source, planar, *weights, platform, bodies, joined = pure.an_object(
+        mechanism, "mechanism", f"name unit source planar {'metric ' * (version == 2)}platform bodies joined"
     )
+    labels = name, unit, source
+    metric = a_metric(weights[0], "mechanism.metric") if weights else ORDINARY
     for key, label in zip(("name", "unit", "source"), labels, strict=True):
         pure.a_text(label, f"mechanism.{key}")
     is_planar = a_boolean(planar, "mechanism.planar")
     motions = a_few(MAX_BODIES, partial(a_motion, is_planar), bodies, "mechanism.bodies")
     chosen = pure.an_integer(platform, "mechanism.platform")
     pure.well_formed(1 <= chosen <= len(motions), "mechanism.platform: not the number of a body")
-    constraints = a_few(MAX_JOINED, partial(a_joined, len(motions)), joined, "mechanism.joined")
+    constraints = a_few(MAX_JOINED, partial(a_joined, len(motions), metric), joined, "mechanism.joined")
     names, places = numbered(motions, planar=is_planar)
     pure.affordable(len(names) <= MAX_UNKNOWNS, f"mechanism: more than {MAX_UNKNOWNS} unknowns")
     exact = pure.one_of(pure.METHODS)(method, "method") == "exact"
@@ -164,6 +176,7 @@ def read(body: dict[str, Any]) -> Certificate:
         first = its and type(system.get("version")) is int and system["version"] == 1
         pure.well_formed(first, "system: not a certificate of a system, version 1")
     return Certificate(
+        metric=metric,
         names=names,
         bodies=places,
         joined=constraints,
@@ -206,9 +219,9 @@ def size_of(value: Fraction) -> int:
     return max(value.numerator.bit_length(), value.denominator.bit_length())
 
 
-def scalar(u: Sequence[Poly], v: Sequence[Poly]) -> Poly:
-    """u.v."""
-    return plus(*((1, times(x, y)) for x, y in zip(u, v, strict=True)))
+def scalar(weights: Sequence[Fraction | int], u: Sequence[Poly], v: Sequence[Poly]) -> Poly:
+    """w_1 u_1 v_1 + w_2 u_2 v_2 + w_3 u_3 v_3."""
+    return plus(*((weight, times(x, y)) for weight, x, y in zip(weights, u, v, strict=True)))
 
 
 class Placed(NamedTuple):
@@ -228,6 +241,8 @@ class Mechanism:
     def __init__(self, certificate: Certificate) -> None:
         self.certificate = certificate
         self.number = len(certificate.names)
+        self.g = certificate.metric
+        self.inverses = [Fraction(1, weight) for weight in self.g]
         still = Body((None, None, None), None, None)
         self.placed = [self.place(body) for body in (still, *certificate.bodies)]
 
@@ -235,9 +250,9 @@ class Mechanism:
         """A constant."""
         return {(0,) * self.number: Fraction(value)} if value else {}
 
-    def unknown(self, place: int, sign: int = 1) -> Poly:
-        """An unknown, or less it."""
-        return {tuple(int(i == place) for i in range(self.number)): Fraction(sign)}
+    def unknown(self, place: int, factor: int = 1) -> Poly:
+        """A multiple of an unknown."""
+        return {tuple(int(i == place) for i in range(self.number)): Fraction(factor)}
 
     def place(self, body: Body) -> Placed:
         """C and R of a body."""
@@ -246,7 +261,7 @@ class Mechanism:
         if body.turn is not None:
             cosine, sine = body.turn
             r[0][0] = r[1][1] = self.unknown(cosine)
-            r[0][1], r[1][0] = self.unknown(sine, -1), self.unknown(sine)
+            r[0][1], r[1][0] = self.unknown(sine, -self.g[1]), self.unknown(sine, self.g[0])
         if body.r is not None:
             r = [[self.unknown(place) for place in row] for row in body.r]
         return Placed(c, r)
@@ -257,7 +272,8 @@ class Mechanism:
         for body, placed in zip(self.certificate.bodies, self.placed[1:], strict=True):
             if body.turn is not None:
                 c, s = (self.unknown(place) for place in body.turn)
-                found.append(plus((1, times(c, c)), (1, times(s, s)), (-1, self.constant(1))))
+                w = self.g[0] * self.g[1]
+                found.append(plus((1, times(c, c)), (w, times(s, s)), (-1, self.constant(1))))
             if body.r is not None:
                 found += self.rotation(placed, all_of_them=all_of_them)
         for joined in self.certificate.joined:
@@ -265,18 +281,28 @@ class Mechanism:
         return [cleared(polynomial) for polynomial in found if polynomial]
 
     def rotation(self, placed: Placed, *, all_of_them: bool) -> Iterator[Poly]:
-        """R^T R - 1, R R^T - 1, cofactors less entries."""
-        for vectors in (placed.columns(), placed.r) if all_of_them else (placed.columns(),):
+        """R^T G R - G, R G^-1 R^T - G^-1, g_j times cofactors less g_i times entries."""
+        sides: list[tuple[list[list[Poly]], Sequence[Fraction | int]]] = [(placed.columns(), self.g)]
+        if all_of_them:
+            sides.append((placed.r, self.inverses))
+        for vectors, weights in sides:
             for i in range(3):
                 for j in range(i, 3):
-                    yield plus((1, scalar(vectors[i], vectors[j])), (-1, self.constant(int(i == j))))
+                    yield plus((1, scalar(weights, vectors[i], vectors[j])), (-weights[i] * (i == j), self.constant(1)))
         if all_of_them:
             r = placed.r
             for i in range(3):
                 for j in range(3):
                     k, m, p, q = (i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3
-                    minor = ((1, times(r[k][p], r[m][q])), (-1, times(r[k][q], r[m][p])))
-                    yield plus(*minor, (-1, r[i][j]))
+                    minor = ((self.g[j], times(r[k][p], r[m][q])), (-self.g[j], times(r[k][q], r[m][p])))
+                    yield plus(*minor, (-self.g[i], r[i][j]))
+
+    def inverse_times(self, placed: Placed, vector: Sequence[Poly]) -> list[Poly]:
+        """R^-1 v = G^-1 R^T G v."""
+        return [
+            scalar([weight * inverse for weight in self.g], column, vector)
+            for column, inverse in zip(placed.columns(), self.inverses, strict=True)
+        ]
 
     def constraint(self, joined: Joined) -> Iterator[Poly]:
         """What a constraint asks."""
@@ -289,8 +315,9 @@ class Mechanism:
                 yield plus((1, two.c[i]), (-1, one.c[i]), *terms)
             return
         d = [plus((1, after), (-1, before)) for before, after in zip(one.c, two.c, strict=True)]
-        seen = [scalar(d, d), *(scalar(v, d) for v in two.columns()), *(scalar(v, d) for v in one.columns())]
-        seen += [scalar(v, w) for v in one.columns() for w in two.columns()]
+        seen = [scalar(self.g, d, d), *self.inverse_times(two, d), *self.inverse_times(one, d)]
+        entries = [self.inverse_times(one, column) for column in two.columns()]
+        seen += [entries[j][i] for i in range(3) for j in range(3)]
         seen.append(self.constant(1))
         values = [plus(*zip(form, seen, strict=True)) for form in constraint.forms]
         if constraint.weight is None:

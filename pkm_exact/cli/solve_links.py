@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from math import cos, radians, sin
+from math import cos, radians, sin, sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -98,6 +98,7 @@ def _start_pose(links: Links, numbers: tuple[float, ...]) -> tuple[Vector, Matri
     """Where the platform starts, as --start says: rational numbers near what is written."""
     from pkm_exact.geometry.inverse import UNIT_METRIC, rotation_of
 
+    g = links.declared.metric
     wanted = 3 if links.is_planar else 7
     if len(numbers) != wanted:
         what = "planar; give X,Y,DEGREES" if links.is_planar else "not planar; give X,Y,Z,Q0,Q1,Q2,Q3"
@@ -108,7 +109,15 @@ def _start_pose(links: Links, numbers: tuple[float, ...]) -> tuple[Vector, Matri
     x, y, z, q0, q1, q2, q3 = map(Fraction, numbers)
     if not any((q0, q1, q2, q3)):
         raise InputError("--start: all four numbers of the quaternion are 0; give one that is not")
-    return (x, y, z), rotation_of((q0, q1, q2, q3), UNIT_METRIC)
+    turned = rotation_of((q0, q1, q2, q3), UNIT_METRIC)
+    if g == UNIT_METRIC:
+        return (x, y, z), turned
+    # Given in ordinary coordinates, looked for in those of the file: only near, as it is a start.
+    u, v, w = (Fraction(float(value) / sqrt(weight)) for value, weight in zip((x, y, z), g, strict=True))
+    first, second, third = (
+        tuple(Fraction(float(turned[i][j]) * sqrt(g[j] / g[i])) for j in range(3)) for i in range(3)
+    )
+    return (u, v, w), (first, second, third)  # type: ignore[return-value]
 
 
 def _require_fitting(asked: Request) -> None:

@@ -10,7 +10,8 @@ from typing import Any, Final
 
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.fields import known_keys, label, required, table_field
-from pkm_exact.geometry.inverse import UNIT_METRIC
+from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
+from pkm_exact.geometry.joints import parse_metric
 from pkm_exact.geometry.links import GROUND, LinkBody, Links, number_of, require_names
 from pkm_exact.geometry.mechanism_reader import read_mechanism, read_motion
 from pkm_exact.geometry.pose_reader import read_pose
@@ -19,7 +20,8 @@ from pkm_exact.motions.motion_groups import MOTIONS
 from pkm_exact.wording import shown
 
 _KEYS: Final = (
-    *["schema", "name", "kind", "motion", "unit", "source", "platform", "bodies", "constraints", "configurations"],
+    *["schema", "name", "kind", "motion", "unit", "source", "metric", "platform", "bodies", "constraints"],
+    "configurations",
 )
 _OWN: Final = ("platform", "bodies")
 
@@ -36,7 +38,8 @@ def read_links_tables(table: dict[str, Any], head: Mapping[str, str]) -> Links:
     """
     known_keys(table, _KEYS, "")
     motion = read_motion(table)
-    bodies = [_body(row, f"bodies[{i}]", motion) for i, row in enumerate(_tables(table, "bodies"), 1)]
+    metric = parse_metric(table["metric"], motion) if "metric" in table else UNIT_METRIC
+    bodies = [_body(row, f"bodies[{i}]", motion, metric) for i, row in enumerate(_tables(table, "bodies"), 1)]
     names = [body.name for body in bodies]
     require_names(names)
     joined, rows = [], []
@@ -56,7 +59,7 @@ def _tables(table: dict[str, Any], key: str) -> list[dict[str, Any]]:
     return rows
 
 
-def _body(row: dict[str, Any], where: str, default: Motion) -> LinkBody:
+def _body(row: dict[str, Any], where: str, default: Motion, metric: Metric) -> LinkBody:
     known_keys(row, ("name", "motion", "start"), where)
     name = label(row, "name", f"{where}.")
     if name == GROUND:
@@ -73,9 +76,7 @@ def _body(row: dict[str, Any], where: str, default: Motion) -> LinkBody:
     if default.is_planar and isinstance(start, dict) and not motion.is_planar:
         known_keys(start, ("position",), f"{where}.start")
         start = start | {"half_tangent": 0}
-    return LinkBody(
-        name, motion, read_pose(start, f"{where}.start", default if default.is_planar else motion, UNIT_METRIC)
-    )
+    return LinkBody(name, motion, read_pose(start, f"{where}.start", default if default.is_planar else motion, metric))
 
 
 def _pair(row: dict[str, Any], where: str, names: Sequence[str]) -> tuple[int, int]:

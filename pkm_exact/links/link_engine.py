@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from pkm_exact.links.link_equations import LinkEquations
-from pkm_exact.links.link_poses import body_pose
+from pkm_exact.links.link_poses import body_pose, unknowns_width
 from pkm_exact.links.link_solution import EXACT, Assembly, LinkSolution
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.stages import Progress
@@ -59,10 +59,13 @@ def solve_links(
     """
     chosen = configuration or links.configuration()
     equations = LinkEquations(links, links.locked(chosen))
-    found = solver(equations.system(), width=width, progress=progress)
+    found = solver(equations.system(), width=unknowns_width(width, equations.metric), progress=progress)
     assemblies = []
     for solution in found.solutions:
         values = dict(zip(found.variables, solution.values, strict=True))
-        poses = tuple(body_pose(body, values, solution.multiplicity, found.box_exponent) for body in equations.bodies)
+        poses = tuple(
+            body_pose(body, values, solution.multiplicity, found.box_exponent, equations.metric)
+            for body in equations.bodies
+        )
         assemblies.append(Assembly(poses, solution.multiplicity))
     return LinkSolution(links, chosen, EXACT, found, tuple(assemblies), found.notes)

@@ -4,9 +4,11 @@ The k-th body has the unknowns xk, yk, zk for its position C, and for its rotati
 third axis) or rk_11, .., rk_33; those that its motion does not change are left out. So no pose is lost or met twice,
 and joints at a point are linear. With d = C_b - C_a, the motion of body b seen from a has the 17 coordinates
 
-    (d.d; R_b^T d; R_a^T d; R_a^T R_b; 1)
+    (d.d; R_b^-1 d; R_a^-1 d; R_a^-1 R_b; 1)
 
-in which constraints are linear forms (``constraints.form``), or a form minus a square.
+in which constraints are linear forms (``constraints.form``), or a form minus a square. In a metric with the Gram
+diagonal g, G = diag(g), all coordinates are the file's: R^T G R = G, R^-1 = G^-1 R^T G, and the cofactor of r_ij times
+g_j is g_i r_ij. A turn has c^2 + g_1 g_2 s^2 = 1 (``geometry.planar_rotation``).
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.constraints.at_point import AtPoint
 from pkm_exact.constraints.constraint import Constraint
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.inverse import UNIT_METRIC
+from pkm_exact.geometry.inverse import Metric
 from pkm_exact.systems.input_limits import INPUT_LIMITS
 from pkm_exact.systems.polynomial_grammar import rational_ring
 from pkm_exact.systems.system_sources import polynomial_system
@@ -113,6 +115,11 @@ class LinkEquations:
             )
 
     @property
+    def metric(self) -> Metric:
+        """The Gram diagonal of all coordinates."""
+        return self.links.declared.metric
+
+    @property
     def ring(self) -> fmpq_mpoly_ctx:
         """The polynomials in all unknowns."""
         return rational_ring(self.names)
@@ -130,7 +137,7 @@ class LinkEquations:
             rotation = unit
             if body.turn is not None:
                 c, s = (unknowns[name] for name in body.turn)
-                rotation = ((c, -s, zero), (s, c, zero), (zero, zero, one))
+                rotation = ((c, -self.metric[1] * s, zero), (self.metric[0] * s, c, zero), (zero, zero, one))
             elif body.rotation is not None:
                 rotation = tuple(tuple(unknowns[name] for name in row) for row in body.rotation)
             found.append(_Placed(position, rotation))
@@ -149,16 +156,17 @@ class LinkEquations:
 
     def rotations(self, *, spare: bool) -> Iterator[fmpq_mpoly]:
         """What makes rotations of matrices: R^T R = 1; with what follows from it and det R = 1, if ``spare``."""
+        g = self.metric
         for body, placed in zip(self.bodies, self.placed[1:], strict=True):
             if body.turn is not None:
-                (c, _, _), (s, _, _), _ = placed.rotation
-                yield c * c + s * s - 1
+                (c, minus, _), (s, _, _), _ = placed.rotation
+                yield c * c - minus * s - 1
             elif body.rotation is not None:
                 columns = tuple(zip(*placed.rotation, strict=True))
-                yield from _orthonormal(columns)
+                yield from _orthonormal(columns, [fmpq(weight) for weight in g])
                 if spare:
-                    yield from _orthonormal(placed.rotation)
-                    yield from _right_handed(placed.rotation)
+                    yield from _orthonormal(placed.rotation, [fmpq(1, weight) for weight in g])
+                    yield from _right_handed(placed.rotation, g)
 
     def constraint_polynomials(self) -> Iterator[fmpq_mpoly]:
         """What the constraints ask."""
@@ -167,25 +175,26 @@ class LinkEquations:
             if isinstance(constraint, AtPoint):
                 yield from _joined(constraint, a, b)
                 continue
-            seen = _seen(a, b)
-            for form in constraint.forms(UNIT_METRIC):
+            seen = _seen(a, b, self.metric)
+            for form in constraint.forms(self.metric):
                 yield _value(form, seen)
-            for square in constraint.squares(UNIT_METRIC):
+            for square in constraint.squares(self.metric):
                 root = _value(square.root, seen)
                 yield _value(square.linear, seen) - _rational(square.factor) * root * root
 
 
-def _orthonormal(vectors: Sequence[Sequence[Polynomial]]) -> Iterator[fmpq_mpoly]:
+def _orthonormal(vectors: Sequence[Sequence[Polynomial]], weights: Sequence[fmpq]) -> Iterator[fmpq_mpoly]:
+    """The products of the columns, or of the rows with the inverse weights, are the weights."""
     for i in AXES:
         for j in range(i, 3):
-            yield _dot(vectors[i], vectors[j]) - int(i == j)
+            yield _dot(_weighted(weights, vectors[i]), vectors[j]) - (weights[i] if i == j else 0)
 
 
-def _right_handed(rows: Sequence[Sequence[Polynomial]]) -> Iterator[fmpq_mpoly]:
-    """Each entry is its cofactor."""
+def _right_handed(rows: Sequence[Sequence[Polynomial]], metric: Metric) -> Iterator[fmpq_mpoly]:
+    """Each entry is its cofactor, but for their weights."""
     for i, a, b in _CYCLIC:
         for j, c, d in _CYCLIC:
-            yield rows[a][c] * rows[b][d] - rows[a][d] * rows[b][c] - rows[i][j]
+            yield metric[j] * (rows[a][c] * rows[b][d] - rows[a][d] * rows[b][c]) - metric[i] * rows[i][j]
 
 
 def _joined(constraint: AtPoint, a: _Placed, b: _Placed) -> Iterator[fmpq_mpoly]:
@@ -202,13 +211,26 @@ def _moved(placed: _Placed, point: Sequence[Fraction]) -> list[Polynomial]:
     ]
 
 
-def _seen(a: _Placed, b: _Placed) -> list[Polynomial]:
+def _seen(a: _Placed, b: _Placed, metric: Metric) -> list[Polynomial]:
     """The 17 coordinates of the motion of b seen from a."""
+    g = [fmpq(weight) for weight in metric]
     d = [second - first for first, second in zip(a.position, b.position, strict=True)]
-    of_a, of_b = (tuple(zip(*placed.rotation, strict=True)) for placed in (a, b))
-    turned, position = ([_dot(column, d) for column in columns] for columns in (of_b, of_a))
-    rotation = [_dot(left, right) for left in of_a for right in of_b]
-    return [_dot(d, d), *turned, *position, *rotation, 1]
+    heavy = _weighted(g, d)
+    of_a, of_b = (
+        tuple(
+            [x if weight == 1 else x / weight for x in column]
+            for column, weight in zip(zip(*placed.rotation, strict=True), g, strict=True)
+        )
+        for placed in (a, b)
+    )
+    turned, position = ([_dot(column, heavy) for column in columns] for columns in (of_b, of_a))
+    columns = tuple(zip(*b.rotation, strict=True))
+    rotation = [_dot(left, _weighted(g, right)) for left in of_a for right in columns]
+    return [_dot(d, heavy), *turned, *position, *rotation, 1]
+
+
+def _weighted(weights: Sequence[fmpq], vector: Sequence[Polynomial]) -> list[Polynomial]:
+    return [x if weight == 1 else weight * x for weight, x in zip(weights, vector, strict=True)]
 
 
 def _value(form: Sequence[Fraction], seen: Sequence[Polynomial]) -> Polynomial:

@@ -1,36 +1,74 @@
-"""From boxes of unknowns to poses of bodies: known entries exactly, quaternions enclosed."""
+"""From boxes of unknowns to poses of bodies: known entries exactly, quaternions enclosed.
+
+Unknowns are in the coordinates of the metric; poses are in ordinary ones, sqrt(g_i) times the position and
+sqrt(g_i / g_j) times the entries of the rotation matrix, rounded outwards where that is irrational.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import ceil, floor
+from math import ceil, floor, isqrt
 from typing import Final
 
 from flint import arb
 
 from pkm_exact.balls import hull
+from pkm_exact.geometry.inverse import UNIT_METRIC, Metric
 from pkm_exact.links.link_equations import AXES, BodyUnknowns
 from pkm_exact.poses.pose import Pose
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 
 GUARD_BITS: Final = 64
+_FINER: Final = 16
 _ZERO: Final = Interval(Fraction(0), Fraction(0))
 _ONE: Final = Interval(Fraction(1), Fraction(1))
 _UNIT: Final = tuple(tuple(_ONE if i == j else _ZERO for j in AXES) for i in AXES)
 
 
-def body_pose(body: BodyUnknowns, values: Mapping[str, Interval], multiplicity: int | None, exponent: int) -> Pose:
+def body_pose(
+    body: BodyUnknowns,
+    values: Mapping[str, Interval],
+    multiplicity: int | None,
+    exponent: int,
+    metric: Metric = UNIT_METRIC,
+) -> Pose:
     """The pose of a body where its unknowns have these bounds; its quaternion on the grid 2^-exponent."""
-    x, y, z = (_ZERO if name is None else values[name] for name in body.position)
+    g = list(map(Fraction, metric))
+    position = (_ZERO if name is None else values[name] for name in body.position)
+    x, y, z = (_times_root(value, square, exponent) for value, square in zip(position, g, strict=True))
     rotation = _UNIT
     if body.turn is not None:
         c, s = (values[name] for name in body.turn)
+        s = _times_root(s, g[0] * g[1], exponent)
         rotation = ((c, Interval(-s.hi, -s.lo), _ZERO), (s, c, _ZERO), (_ZERO, _ZERO, _ONE))
     elif body.rotation is not None:
-        rotation = tuple(tuple(values[name] for name in row) for row in body.rotation)
+        rotation = tuple(
+            tuple(_times_root(values[body.rotation[i][j]], g[i] / g[j], exponent) for j in AXES) for i in AXES
+        )
     return Pose(None, (x, y, z), rotation, unit_quaternion(rotation, exponent), multiplicity)
+
+
+def unknowns_width(width: Fraction, metric: Metric) -> Fraction:
+    """How wide boxes of unknowns may be, for coordinates and entries of matrices no wider than ``width``.
+
+    Examples
+    --------
+    >>> str(unknowns_width(Fraction(1), (1, 3, 1))), str(unknowns_width(Fraction(1, 10), (1, 1, 1)))
+    ('1/2', '1/10')
+    """
+    largest = metric[0] * metric[1] * metric[2]
+    return width if largest == 1 else width / (isqrt(largest) + 1)
+
+
+def _times_root(value: Interval, square: Fraction, exponent: int) -> Interval:
+    """Bounds times the square root of a positive rational number, outwards on a finer grid."""
+    if square == 1 or value.lo == value.hi == 0:
+        return value
+    with working_precision(2 * exponent + GUARD_BITS):
+        product = hull(value.lo, value.hi) * (arb(square.numerator) / square.denominator).sqrt()
+        return _on_grid(product, exponent + _FINER)
 
 
 def unit_quaternion(

@@ -17,7 +17,7 @@ from flint import arb, arb_mat, fmpz_mpoly
 from pkm_exact.balls import box_around_zero, hull
 from pkm_exact.errors import InputError, PkmExactError
 from pkm_exact.links.link_equations import AXES, LinkEquations
-from pkm_exact.links.link_poses import body_pose
+from pkm_exact.links.link_poses import body_pose, unknowns_width
 from pkm_exact.links.link_solution import KRAWCZYK, Assembly, LinkSolution, StartBox
 from pkm_exact.numeric.krawczyk_operator import is_inside, krawczyk
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width
@@ -87,11 +87,11 @@ def solve_from_start(
     stages.enter("search from the start")
     point = _found(equations, system)
     stages.enter("Krawczyk's operator")
-    box = _boxed(system, point, width)
+    box = _boxed(system, point, unknowns_width(width, equations.metric))
     _require_proper(equations, box)
     stages.leave()
     values = dict(zip(equations.names, box.intervals, strict=True))
-    poses = tuple(body_pose(body, values, 1, box.exponent) for body in equations.bodies)
+    poses = tuple(body_pose(body, values, 1, box.exponent, equations.metric) for body in equations.bodies)
     return LinkSolution(links, chosen, KRAWCZYK, None, (Assembly(poses, 1),), (_PROVED,), box)
 
 
@@ -145,7 +145,7 @@ def _start(equations: LinkEquations) -> tuple[list[Fraction], list[bool]]:
         position, rotation = body.start or ((zero,) * 3, unturned)
         found = [value for value, name in zip(position, unknowns.position, strict=True) if name is not None]
         if unknowns.turn is not None:
-            found += [rotation[0][0], rotation[1][0]]
+            found += [rotation[0][0], rotation[1][0] / equations.metric[0]]
         elif unknowns.rotation is not None:
             found += [value for row in rotation for value in row]
         values += found

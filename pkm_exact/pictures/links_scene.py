@@ -4,20 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
+from math import sqrt
 from typing import Any, Final, TypeAlias
 
-from pkm_exact.certify.certified_links import BodyPlace, JoinedConstraint, assemblies, joined_constraints
+from pkm_exact.certify.certified_links import (
+    BodyPlace,
+    JoinedConstraint,
+    assemblies,
+    certified_metric,
+    joined_constraints,
+)
 from pkm_exact.claim import Claim
 from pkm_exact.constraints.constraint import Role
 from pkm_exact.constraints.distance import Distance
+from pkm_exact.geometry.inverse import Metric
 from pkm_exact.geometry.kind_names import LINKS_KIND
 from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
 from pkm_exact.pictures.drawn_robot import BAR, BODY, Part, Point, PoseView, Scene, extent, moved
 from pkm_exact.pictures.mechanism_scene import shape_of
 from pkm_exact.pictures.shapes import AXES, Turn
 
-_METRIC: Final = (1, 1, 1)
-_ROOTS: Final = (1.0, 1.0, 1.0)
+_Roots: TypeAlias = tuple[float, float, float]
 _ORIGIN: Final = (0.0, 0.0, 0.0)
 _Place: TypeAlias = tuple[Point, Turn]
 _GROUND: Final[_Place] = _ORIGIN, ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -35,11 +42,12 @@ def links_scene(document: Mapping[str, Any]) -> Scene:
     (['first coupler', 'middle', 'second coupler'], 2)
     """
     mechanism, system = document["mechanism"], document["system"]
-    joined, asked = joined_constraints(document), mechanism["platform"]
-    joints = [_joints(joined, body) for body in range(len(mechanism["bodies"]) + 1)]
+    joined, asked, metric = joined_constraints(document), mechanism["platform"], certified_metric(mechanism)
+    roots = sqrt(metric[0]), sqrt(metric[1]), sqrt(metric[2])
+    joints = [_joints(joined, body, roots) for body in range(len(mechanism["bodies"]) + 1)]
     names = [body["name"] for body in mechanism["bodies"]]
     found = list(assemblies(document))
-    stood = [[_GROUND, *map(_place, places)] for places, _ in found]
+    stood = [[_GROUND, *(_place(place, roots) for place in places)] for places, _ in found]
     size = extent([*joints[0], *chain.from_iterable(_moved(joints, places) for places in stood)] or [_ORIGIN])
     poses = []
     for number, (places, (bodies, multiplicity)) in enumerate(zip(stood, found, strict=True), 1):
@@ -53,13 +61,13 @@ def links_scene(document: Mapping[str, Any]) -> Scene:
             PoseView(
                 number=number,
                 position=places[asked][0],
-                position_half_width=float(bodies[asked - 1].half_width),
+                position_half_width=float(bodies[asked - 1].half_width) * max(roots),
                 rotation=places[asked][1],
                 platform=standing[asked] or (places[asked][0],),
                 det_sign=None,
                 jacobian=None,
                 multiplicity=multiplicity,
-                parts=(*passive, *_between(joined, places, size)),
+                parts=(*passive, *_between(joined, places, size, metric)),
                 has_jacobian=False,
             )
         )
@@ -80,7 +88,7 @@ def links_scene(document: Mapping[str, Any]) -> Scene:
     )
 
 
-def _joints(joined: Sequence[JoinedConstraint], body: int) -> tuple[Point, ...]:
+def _joints(joined: Sequence[JoinedConstraint], body: int, roots: _Roots) -> tuple[Point, ...]:
     """The different points of a body that constraints hold, in its frame; a point of a line is none."""
     found: dict[Point, None] = {}
     for one in joined:
@@ -88,19 +96,23 @@ def _joints(joined: Sequence[JoinedConstraint], body: int) -> tuple[Point, ...]:
         for field, role in fields.items():
             owner = {Role.BASE_POINT: one.first, Role.PLATFORM_POINT: one.second}.get(role)
             if owner == body and not (field == "point" and "direction" in fields):
-                found[_point(getattr(one.constraint, field))] = None
+                found[_ordinary(getattr(one.constraint, field), roots)] = None
     return tuple(found)
 
 
-def _between(joined: Sequence[JoinedConstraint], places: Sequence[_Place], size: float) -> Iterator[Part]:
+def _between(
+    joined: Sequence[JoinedConstraint], places: Sequence[_Place], size: float, metric: Metric
+) -> Iterator[Part]:
     """Bars of known length between two bodies; lines, axes and planes of one at the joints of another."""
+    roots = sqrt(metric[0]), sqrt(metric[1]), sqrt(metric[2])
     for number, one in enumerate(joined, 1):
         constraint, first, second = one.constraint, places[one.first], places[one.second]
         if isinstance(constraint, Distance):
-            ends = moved(*first, _point(constraint.base)), moved(*second, _point(constraint.platform))
+            base, platform = (_ordinary(point, roots) for point in (constraint.base, constraint.platform))
+            ends = moved(*first, base), moved(*second, platform)
             yield Part(BAR, number, constraint.name, ends)
             continue
-        shape = shape_of(number, constraint, _ROOTS, _METRIC)
+        shape = shape_of(number, constraint, roots, metric)
         if shape is not None and shape.kind != AXES:
             for line in shape.lines(*_seen(first, second), size):
                 yield Part(shape.kind, number, constraint.name, tuple(moved(*first, point) for point in line))
@@ -124,9 +136,16 @@ def _moved(joints: Sequence[Sequence[Point]], places: Sequence[_Place]) -> Itera
         yield from (moved(*place, joint) for joint in own)
 
 
-def _place(place: BodyPlace) -> _Place:
-    u, v, w = map(_point, place.rotation)
-    return _point(place.position), (u, v, w)
+def _place(place: BodyPlace, roots: _Roots) -> _Place:
+    u, v, w = (
+        _point([root * float(entry) / other for entry, other in zip(row, roots, strict=True)])
+        for row, root in zip(place.rotation, roots, strict=True)
+    )
+    return _ordinary(place.position, roots), (u, v, w)
+
+
+def _ordinary(vector: Sequence[Any], roots: _Roots) -> Point:
+    return _point([float(value) * root for value, root in zip(vector, roots, strict=True)])
 
 
 def _point(vector: Sequence[Any]) -> Point:

@@ -191,6 +191,7 @@ KINDS: Final = (
     CertificateKind(REGIONS, 1, _region),
     CertificateKind(REGIONS, 2, _region_2),
     CertificateKind(LINKS, 1, _links),
+    CertificateKind(LINKS, 2, _links),
     CertificateKind(STATICS, 1, _statics),
     CertificateKind(STATICS, 2, _box_statics),
     CertificateKind(STATICS, 3, _driven_statics),

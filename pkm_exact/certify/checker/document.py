@@ -197,11 +197,11 @@ def check_labels(name: Any, unit: Any, source: Any) -> None:
         text(content, f"robot.{label}")
 
 
-def read_metric(value: Any) -> Metric:
+def read_metric(value: Any, where: str = "robot.metric") -> Metric:
     """Three positive integers."""
-    g = items(value, "robot.metric", 3, positive)
+    g = items(value, where, 3, positive)
     if any(number.denominator != 1 for number in g):
-        raise malformed("robot.metric: not three integers")
+        raise malformed(f"{where}: not three integers")
     return int(g[0]), int(g[1]), int(g[2])
 
 

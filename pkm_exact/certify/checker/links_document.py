@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Final
 
+from pkm_exact.certify.checker.document import read_metric
 from pkm_exact.certify.checker.mechanism_document import MOST_CONSTRAINTS, read_constraint
 from pkm_exact.certify.checker.mechanism_forms import GROUPS, Constraint
 from pkm_exact.certify.checker.spelling import choice, count, entries, hexadecimal, integer, items, text
+from pkm_exact.certify.checker.study_motion import Metric
 from pkm_exact.certify.checker.system_document import SystemDocument, read_system_document
 from pkm_exact.certify.checker.system_terms import MAX_VARIABLES
 from pkm_exact.certify.checker.verdict import MAX_BOX_EXPONENT, malformed, too_large
@@ -18,6 +20,8 @@ MOST_BODIES: Final = 32
 LARGEST_RADIUS: Final = 10**9
 _KEYS: Final = ("format", "version", "mechanism", "configuration", "method", "system", "box", "notes")
 _MECHANISM: Final = ("name", "unit", "source", "planar", "platform", "bodies", "joined")
+_IN_A_METRIC: Final = ("name", "unit", "source", "planar", "metric", "platform", "bodies", "joined")
+_ORDINARY: Final = (1, 1, 1)
 _IN_THE_PLANE: Final = ("planar", "translation")
 
 
@@ -59,6 +63,7 @@ class Box:
 class LinksDocument:
     """What a certificate says."""
 
+    metric: Metric
     bodies: tuple[Unknowns, ...]
     joined: tuple[Joined, ...]
     variables: tuple[str, ...] | None
@@ -76,7 +81,7 @@ def read_links(body: dict[str, Any]) -> LinksDocument:
     values = dict(zip(_KEYS, entries(body, "certificate", _KEYS), strict=True))
     text(values["configuration"], "configuration")
     items(values["notes"], "notes", None, text)
-    bodies, joined = _mechanism(values["mechanism"])
+    metric, bodies, joined = _mechanism(values["mechanism"], is_ordinary=values["version"] == 1)
     names = [name for unknowns in bodies for name in unknowns.names]
     if len(names) > MAX_VARIABLES:
         raise too_large(f"mechanism: more than {MAX_VARIABLES} unknowns")
@@ -85,6 +90,7 @@ def read_links(body: dict[str, Any]) -> LinksDocument:
     if (system is not None) != is_exact or (box is not None) == is_exact:
         raise malformed("method: system and box are not those of the method")
     return LinksDocument(
+        metric,
         bodies,
         joined,
         None if system is None else tuple(_variables(system)),
@@ -101,8 +107,12 @@ def _variables(system: Any) -> list[str]:
     return list(items(system.get("variables"), "variables", None, text))
 
 
-def _mechanism(value: Any) -> tuple[tuple[Unknowns, ...], tuple[Joined, ...]]:
-    name, unit, source, planar, platform, bodies, joined = entries(value, "mechanism", _MECHANISM)
+def _mechanism(value: Any, *, is_ordinary: bool) -> tuple[Metric, tuple[Unknowns, ...], tuple[Joined, ...]]:
+    """The metric is that of version 2; version 1 has none."""
+    name, unit, source, planar, *between, platform, bodies, joined = entries(
+        value, "mechanism", _MECHANISM if is_ordinary else _IN_A_METRIC
+    )
+    metric = _ORDINARY if is_ordinary else read_metric(between[0], "mechanism.metric")
     for label, word in (("name", name), ("unit", unit), ("source", source)):
         text(word, f"mechanism.{label}")
     if type(planar) is not bool:
@@ -113,8 +123,8 @@ def _mechanism(value: Any) -> tuple[tuple[Unknowns, ...], tuple[Joined, ...]]:
     motions = items(bodies, "mechanism.bodies", None, lambda entry, where: _motion(entry, where, planar))
     if not 1 <= integer(platform, "mechanism.platform") <= len(motions):
         raise malformed("mechanism.platform: not the number of a body")
-    read = items(joined, "mechanism.joined", None, lambda entry, where: _joined(entry, where, len(motions)))
-    return tuple(_unknowns(k, motion, planar) for k, motion in enumerate(motions, 1)), read
+    read = items(joined, "mechanism.joined", None, lambda entry, where: _joined(entry, where, len(motions), metric))
+    return metric, tuple(_unknowns(k, motion, planar) for k, motion in enumerate(motions, 1)), read
 
 
 def _motion(value: Any, where: str, planar: bool) -> str:
@@ -132,12 +142,12 @@ def _unknowns(number: int, motion: str, planar: bool) -> Unknowns:
     return Unknowns(position, turn, rotation)
 
 
-def _joined(value: Any, where: str, bodies: int) -> Joined:
+def _joined(value: Any, where: str, bodies: int, metric: Metric) -> Joined:
     pair, constraint = entries(value, where, ("bodies", "constraint"))
     first, second = items(pair, f"{where}.bodies", 2, count)
     if not (first <= bodies and 1 <= second <= bodies and first != second):
         raise malformed(f"{where}.bodies: not two bodies, the second not the ground")
-    read = read_constraint(constraint, f"{where}.constraint", (1, 1, 1))
+    read = read_constraint(constraint, f"{where}.constraint", metric)
     return Joined(first, second, read, constraint["type"] == "at-point")
 
 

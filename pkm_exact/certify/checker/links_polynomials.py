@@ -1,6 +1,7 @@
 """The polynomials of a mechanism with passive bodies, derived from its constraints.
 
-With d = C_b - C_a a constraint on body b, seen from body a, is one on the motion (d.d; R_b^T d; R_a^T d; R_a^T R_b; 1).
+With d = C_b - C_a a constraint on body b, seen from body a, is one on the motion (d.d; R_b^-1 d; R_a^-1 d; R_a^-1 R_b;
+1), products those of the metric: R^-1 = G^-1 R^T G.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.links_document import Joined, LinksDocument, Unknowns
+from pkm_exact.certify.checker.study_motion import Metric
 from pkm_exact.certify.checker.system_terms import Terms
 
 _COST = 2 * 10**6
@@ -34,9 +36,9 @@ class _Body:
         """Where a point of the body is."""
         return [self.origin[i] + sum(_number(place[j]) * self.turned[i][j] for j in _AXES) for i in _AXES]
 
-    def components(self, vector: Sequence[Entry]) -> list[Entry]:
-        """R^T times a vector."""
-        return [sum(self.turned[i][j] * vector[i] for i in _AXES) for j in _AXES]
+    def components(self, vector: Sequence[Entry], g: Metric) -> list[Entry]:
+        """R^-1 times a vector."""
+        return [sum(fmpq(g[i], g[j]) * self.turned[i][j] * vector[i] for i in _AXES) for j in _AXES]
 
 
 def polynomials_of(document: LinksDocument, *, spare: bool) -> list[Terms]:
@@ -44,17 +46,18 @@ def polynomials_of(document: LinksDocument, *, spare: bool) -> list[Terms]:
     ring = fmpq_mpoly_ctx.get(tuple(document.names), Ordering.degrevlex)
     gens = dict(zip(document.names, ring.gens(), strict=True))
     zero, one = ring.constant(0), ring.constant(1)
-    bodies = [_placed(body, gens, zero, one) for body in (Unknowns((None,) * 3, (), ()), *document.bodies)]
+    g = document.metric
+    bodies = [_placed(body, gens, (zero, one), g) for body in (Unknowns((None,) * 3, (), ()), *document.bodies)]
     found: list[fmpq_mpoly] = []
     for unknowns, body in zip(document.bodies, bodies[1:], strict=True):
         if unknowns.turn:
             c, s = (gens[name] for name in unknowns.turn)
-            found.append(c**2 + s**2 - 1)
+            found.append(c**2 + g[0] * g[1] * s**2 - 1)
         if unknowns.rotation:
-            found += _of_rotation(body.turned, spare=spare)
+            found += _of_rotation(body.turned, g, spare=spare)
     for joined in document.joined:
         charge(_COST * _words(joined))
-        found += _of_constraint(joined, bodies[joined.first], bodies[joined.second])
+        found += _of_constraint(joined, bodies[joined.first], bodies[joined.second], g)
     return [terms for terms in map(_over_integers, found) if terms]
 
 
@@ -63,38 +66,43 @@ def _words(joined: Joined) -> int:
     return max(limbs(max(x.numerator.bit_length(), x.denominator.bit_length())) for x in numbers) ** 2
 
 
-def _placed(unknowns: Unknowns, gens: dict[str, fmpq_mpoly], zero: fmpq_mpoly, one: fmpq_mpoly) -> _Body:
+def _placed(
+    unknowns: Unknowns, gens: dict[str, fmpq_mpoly], constants: tuple[fmpq_mpoly, fmpq_mpoly], g: Metric
+) -> _Body:
+    zero, one = constants
     origin = [zero if name is None else gens[name] for name in unknowns.position]
     turned = [[one if i == j else zero for j in _AXES] for i in _AXES]
     if unknowns.turn:
         c, s = (gens[name] for name in unknowns.turn)
-        turned[0][:2], turned[1][:2] = [c, -s], [s, c]
+        turned[0][:2], turned[1][:2] = [c, -g[1] * s], [g[0] * s, c]
     if unknowns.rotation:
         turned = [[gens[name] for name in row] for row in unknowns.rotation]
     return _Body(origin, turned)
 
 
-def _of_rotation(r: list[list[Entry]], *, spare: bool) -> Iterator[fmpq_mpoly]:
+def _of_rotation(r: list[list[Entry]], g: Metric, *, spare: bool) -> Iterator[fmpq_mpoly]:
     pairs = [(i, j) for i in _AXES for j in _AXES if i <= j]
     for i, j in pairs:
-        yield sum(r[k][i] * r[k][j] for k in _AXES) - int(i == j)
+        yield sum(g[k] * r[k][i] * r[k][j] for k in _AXES) - g[i] * int(i == j)
     if not spare:
         return
     for i, j in pairs:
-        yield sum(r[i][k] * r[j][k] for k in _AXES) - int(i == j)
+        yield sum(fmpq(1, g[k]) * r[i][k] * r[j][k] for k in _AXES) - fmpq(int(i == j), g[i])
     for i in _AXES:
         for j in _AXES:
             (a, b), (c, d) = (((i + 1) % 3, (i + 2) % 3), ((j + 1) % 3, (j + 2) % 3))
-            yield r[a][c] * r[b][d] - r[a][d] * r[b][c] - r[i][j]
+            yield g[j] * (r[a][c] * r[b][d] - r[a][d] * r[b][c]) - g[i] * r[i][j]
 
 
-def _of_constraint(joined: Joined, a: _Body, b: _Body) -> Iterator[fmpq_mpoly]:
+def _of_constraint(joined: Joined, a: _Body, b: _Body, g: Metric) -> Iterator[fmpq_mpoly]:
     if joined.is_point:
-        yield from _joined_points(joined, a, b)
+        yield from _joined_points(joined, a, b, g)
         return
     d = [b.origin[i] - a.origin[i] for i in _AXES]
-    between = [sum(a.turned[k][i] * b.turned[k][j] for k in _AXES) for i in _AXES for j in _AXES]
-    motion = [sum(x * x for x in d), *b.components(d), *a.components(d), *between]
+    columns = [[b.turned[k][j] for k in _AXES] for j in _AXES]
+    seen = [a.components(column, g) for column in columns]
+    between = [seen[j][i] for i in _AXES for j in _AXES]
+    motion = [sum(g[i] * d[i] * d[i] for i in _AXES), *b.components(d, g), *a.components(d, g), *between]
     constraint = joined.constraint
     for form in constraint.linear:
         yield _value(form, motion)
@@ -103,11 +111,11 @@ def _of_constraint(joined: Joined, a: _Body, b: _Body) -> Iterator[fmpq_mpoly]:
         yield _value(quadric.whole, motion) - _value(quadric.root, motion) ** 2 / _number(quadric.factor)
 
 
-def _joined_points(joined: Joined, a: _Body, b: _Body) -> Iterator[fmpq_mpoly]:
-    """The forms of type at-point are C_i + R_i1 B_1 + R_i2 B_2 + R_i3 B_3 - X_i in the metric 1."""
+def _joined_points(joined: Joined, a: _Body, b: _Body, g: Metric) -> Iterator[fmpq_mpoly]:
+    """The forms of type at-point are g_i (C_i + R_i1 B_1 + R_i2 B_2 + R_i3 B_3 - X_i)."""
     forms = joined.constraint.linear
-    on_b = [forms[0][7 + j] for j in _AXES]
-    on_a = [-form[16] for form in forms]
+    on_b = [forms[0][7 + j] / g[0] for j in _AXES]
+    on_a = [-form[16] / weight for form, weight in zip(forms, g, strict=True)]
     for x, y in zip(b.point(on_b), a.point(on_a), strict=True):
         yield x - y
 
