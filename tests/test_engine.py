@@ -341,3 +341,16 @@ def test_an_unknown_formulation_is_refused_even_where_none_is_needed() -> None:
     problem = ForwardProblem(tuple(Distance(origin, origin, Fraction(1)) for _ in range(6)))
     with pytest.raises(InputError, match="is unknown"):
         solve(problem, formulation="AFD9")
+
+
+@pytest.mark.parametrize("name", ["3-rpr-merlet-p", "mssm"])
+def test_a_representation_is_verified_for_all_its_legs_and_no_others(name: str) -> None:
+    representation, problem = solved(name).representation, shipped(name)
+    assert representation is not None
+    assert representation.is_verified(problem)
+    for changed in range(len(problem.constraints)):
+        legs = [
+            replace(leg, length_squared=leg.length_squared + (place == changed))
+            for place, leg in enumerate(problem.distances)
+        ]
+        assert not representation.is_verified(ForwardProblem(tuple(legs), problem.metric, problem.motion))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
 from flint import fmpz, fmpz_poly
 
@@ -13,6 +13,7 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, motion_quadrics, pose_quadrics, pose_quartics, support
 from pkm_exact.poses.study_equations import Chart, dependent_coordinate, free_coordinates
 
+SQUARE = (4, 4)
 _LONG = 64
 """Bits from which it is worth the while to take a content out."""
 
@@ -73,29 +74,54 @@ class PoseRepresentation:
             return False
         if any(numerator for k, numerator in enumerate(x) if k not in support(problem)):
             return False
-        quadrics, quartics = pose_quadrics(problem), pose_quartics(problem)
+        quadrics, quartics = _with_square_in_one(pose_quadrics(problem)), pose_quartics(problem)
         parts = [part for quartic in quartics for part in (quartic.linear, quartic.root)]
-        *values, norm = _values([*quadrics, *parts, motion_quadrics(problem.metric)[-1]], x)
+        *values, norm = _values([*quadrics, *parts, motion_quadrics(problem.metric)[-1]], x, len(quadrics))
         pairs = zip(values[len(quadrics) :: 2], values[len(quadrics) + 1 :: 2], strict=True)
         values = values[: len(quadrics)]
         values += [quartic.value(*pair, norm) for quartic, pair in zip(quartics, pairs, strict=True)]
         return are_coprime(self.univariate.primitive_polynomial, norm) and all(map(self.univariate.vanishes, values))
 
 
-def _values(quadrics: Sequence[Quadric], x: Sequence[fmpz_poly]) -> list[fmpz_poly]:
-    """The quadratic forms at x; each product is formed once, of polynomials freed of contents that are long."""
+def _with_square_in_one(quadrics: Sequence[Quadric]) -> list[Quadric]:
+    """Combinations that vanish where the forms do: f_k^2, the longest numbers of all, is in one of them, if it can be.
+
+    Examples
+    --------
+    >>> _with_square_in_one([{(4, 4): 2, (0, 4): 1}, {(4, 4): 3}, {(0, 0): 1}])
+    [{(4, 4): 2, (0, 4): 1}, {(0, 4): -3}, {(0, 0): 1}]
+    """
+    first = next((form for form in quadrics if form.get(SQUARE)), None)
+    if first is None:
+        return list(quadrics)
+    own = first[SQUARE]
+    found = []
+    for form in quadrics:
+        other = form.get(SQUARE, 0)
+        keys = [*form, *(key for key in first if key not in form)] if other and form is not first else []
+        combined = {key: own * form.get(key, 0) - other * first.get(key, 0) for key in keys}
+        found.append({key: value for key, value in combined.items() if value} if keys else form)
+    return [form for form in found if form]
+
+
+def _values(quadrics: Sequence[Quadric], x: Sequence[fmpz_poly], scaled: int) -> list[fmpz_poly]:
+    """The quadratic forms at x, but for a factor of the first, of which so many are only to be 0 or not.
+
+    Each product is formed once, of polynomials freed of contents that are long.
+    """
     contents = [content if content.bit_length() > _LONG else fmpz(1) for content in (value.content() for value in x)]
     shorter = [value if content == 1 else _divided(value, content) for value, content in zip(x, contents, strict=True)]
     products = {(k, m): shorter[k] * shorter[m] for k, m in sorted({pair for form in quadrics for pair in form})}
     values = []
-    for quadric in quadrics:
+    for number, quadric in enumerate(quadrics):
         parts: dict[fmpz, fmpz_poly] = {}
         for (k, m), coefficient in quadric.items():
             content = contents[k] * contents[m]
             parts[content] = parts.get(content, fmpz_poly()) + products[k, m] * coefficient
+        common = reduce(fmpz.gcd, parts) if number < scaled else fmpz(1)
         total = fmpz_poly()
         for content, part in parts.items():
-            total += part * content
+            total += part * (content // common)
         values.append(total)
     return values
 
