@@ -14,7 +14,7 @@ from pkm_exact.certify.build import canonical_bytes, certificate
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric import seeds as module
 from pkm_exact.numeric.poses import certified_solutions
-from pkm_exact.numeric.seeds import has_seeds, seeds, study_points
+from pkm_exact.numeric.seeds import _fitting, has_seeds, seeds, study_points
 from pkm_exact.numeric.study_system import motion_forms, numeric_section
 from pkm_exact.numeric.template import motion_seeds
 from pkm_exact.numeric_engine import solve_krawczyk
@@ -46,6 +46,15 @@ def test_guesses_are_on_the_forms_and_on_the_variety() -> None:
     points = study_points(values)
     again = np.einsum("kij,pi,pj->pk", motion_forms()[:17], points, points)
     assert np.abs(again - values).max() < 1e-6
+
+
+def test_a_singular_fit_does_not_spoil_the_others() -> None:
+    random = np.random.default_rng(6)
+    matrices, values = random.standard_normal((3, 7, 4)) + 0j, random.standard_normal((3, 4, 1)) + 0j
+    matrices[1] = 0
+    found = _fitting(matrices, matrices @ values)
+    assert np.abs(found[[0, 2]] - values[[0, 2]]).max() < 1e-12
+    assert not found[1].any()
 
 
 def test_study_coordinates_are_those_of_the_quantities() -> None:

@@ -168,7 +168,8 @@ def _limit(system: ChartSystem, start: _Start, exponent: int) -> _Start | None:
 
 def _without_conjugates(points: Complex) -> Complex:
     """The points without those that are clearly complex and the conjugate of an earlier one: a box stands for both."""
-    distances = np.abs(points[:, None] - points[None].conj()).max(axis=2)
+    apart = points[:, None] - points[None].conj()
+    distances = np.sqrt((apart.real**2 + apart.imag**2).max(axis=2))
     sizes = np.abs(points).max(axis=1, initial=0)
     complex_ones = np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes
     paired = np.triu(distances <= SAME * sizes, 1).any(axis=0)

@@ -57,8 +57,18 @@ def study_points(values: Complex) -> Complex:
     size = np.linalg.norm(e, axis=1)[:, None]
     matrices = np.einsum("pi,kij->pkj", e / size, mixed)
     right = np.concatenate([values[:, 1:7], np.zeros((len(values), 1))], axis=1)
-    f = (np.linalg.pinv(matrices, rcond=SMALL) @ right[:, :, None])[:, :, 0] / size
+    f = _fitting(matrices, right[:, :, None])[:, :, 0] / size
     return np.concatenate([e, f], axis=1)
+
+
+def _fitting(matrices: Complex, right: Complex) -> Complex:
+    """Least squares; where a matrix is singular to the bit, as one at infinity may be, the shortest for all."""
+    rotation, triangle = np.linalg.qr(matrices)
+    try:
+        found: Complex = np.linalg.solve(triangle, rotation.conj().transpose(0, 2, 1) @ right)
+    except np.linalg.LinAlgError:
+        found = np.linalg.pinv(matrices, rcond=SMALL) @ right
+    return found
 
 
 @cache
