@@ -65,10 +65,10 @@ def _fitting(matrices: Complex, right: Complex) -> Complex:
     """Least squares; where a matrix is singular to the bit, as one at infinity may be, the shortest for all."""
     rotation, triangle = np.linalg.qr(matrices)
     try:
-        found: Complex = np.linalg.solve(triangle, rotation.conj().transpose(0, 2, 1) @ right)
+        found = np.linalg.solve(triangle, rotation.conj().transpose(0, 2, 1) @ right)
     except np.linalg.LinAlgError:
         found = np.linalg.pinv(matrices, rcond=SMALL) @ right
-    return found
+    return np.asarray(found, dtype=np.complex128)
 
 
 @cache
