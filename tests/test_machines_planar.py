@@ -1,7 +1,11 @@
 """Planar machines and points in the plane, against the numbers of their sources."""
 
+import json
+import re
 from fractions import Fraction
+from itertools import product
 from math import atan2, cos, degrees, hypot, radians, sin, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,12 +13,16 @@ from flint import fmpq_mpoly_ctx
 from samples import model
 
 from pkm_exact.claim import Claim
+from pkm_exact.cli.main import main
 from pkm_exact.engine import solve
+from pkm_exact.errors import InputError
 from pkm_exact.geometry.drive_modes import joint_values
 from pkm_exact.geometry.inverse import rotation_of
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.reader import robot_from_toml
+from pkm_exact.geometry.working_modes import CrankMode
 from pkm_exact.solution import Solution
+from pkm_exact.statics.placement import held_at
 
 UNTURNED = rotation_of((Fraction(1), Fraction(0), Fraction(0), Fraction(0)))
 HEAD = 'schema = 1\nname = "r"\nunit = "m"\nsource = "a test"\n'
@@ -94,20 +102,80 @@ IN_BRANCH = {
 }
 
 
-@pytest.mark.parametrize("chain", IN_BRANCH)
-def test_two_driven_joints_in_a_leg_hold_a_point(chain: str) -> None:
+def in_branch(chain: str, joints: str | None = None) -> Mechanism:
     """Legs of lengths 5, 10, 5 in the directions (3/5, 4/5), (4/5, 3/5), (3/5, -4/5), to the corners of a triangle."""
-    driven, joints, extra = IN_BRANCH[chain]
+    driven, own, extra = IN_BRANCH[chain]
     shift = 0 if chain == "RPR" else 2
     ends = [(3, 4), (8, 6), (3, -4)]
     corners = [(0, 0), (4, 0), (1, 3)]
     base = [[x - dx - shift, y - dy] for (x, y), (dx, dy) in zip(corners, ends, strict=True)]
     text = f'{HEAD}kind = "3-{chain}"\n[base]\njoints = {base}\n[platform]\njoints = {[list(c) for c in corners]}\n'
     text += f'[actuators]\ndriven = "{driven}"\n{extra}[[configurations]]\nname = "home"\n'
-    solution = found(robot_from_toml(text + joints))  # type: ignore[arg-type]
+    robot = robot_from_toml(text + (joints or own))
+    assert isinstance(robot, Mechanism)
+    return robot
+
+
+@pytest.mark.parametrize("chain", IN_BRANCH)
+def test_both_driven_joints_of_a_leg_have_working_modes_together(chain: str) -> None:
+    """Two in each leg, eight in all; from every one of them the pose, and at irrational ones the leg's end, exactly."""
+    robot = in_branch(chain)
+    joints = joint_values(robot, (Fraction(0),) * 3, UNTURNED)
+    assert [len(joint.modes) for joint in joints] == [2, 2, 2]
+    assert sorted(", ".join(joint.name for joint in joints).split(", ")) == sorted(robot.actuated)
+    for modes in product(*(joint.modes for joint in joints)):
+        values = dict(value for mode in modes for value in mode.values)  # type: ignore[union-attr]
+        rational = [
+            (mode.cos.p, mode.sin.p) if isinstance(mode, CrankMode) else mode.position.p  # type: ignore[union-attr]
+            for mode in (values[name] for name in robot.actuated)
+        ]
+        assert plane_poses(solve(robot.problem(rational))) == {(0, 0, 1, 0)}  # type: ignore[arg-type]
+    aside = (Fraction(1, 3), Fraction(1, 7), Fraction(0))
+    for signs in product("-+", repeat=3):
+        held = held_at(robot, aside, UNTURNED, modes="".join(signs))
+        assert len(held.actuators) == 6
+    with pytest.raises(InputError, match="is not a sign"):
+        held_at(robot, aside, UNTURNED, modes="++++++")
+    far = joint_values(robot, (Fraction(90), Fraction(0), Fraction(0)), UNTURNED)
+    assert [bool(joint.modes) for joint in far] == [chain != "RRR"] * 3
+    assert all(joint.discriminant is not None and (joint.discriminant >= 0) == bool(joint.modes) for joint in far)
+
+
+def test_a_stretched_leg_has_one_pair() -> None:
+    robot = in_branch("RRR")
+    joint = joint_values(robot, (Fraction(2), Fraction(0), Fraction(0)), UNTURNED)[0]
+    assert len(joint.modes) == 2
+    corner = (Fraction(7 - 5), Fraction(0) - 4, Fraction(0))  # foot (-5, -4), arms 2 and 5 along x
+    joint = joint_values(robot, corner, UNTURNED)[0]
+    assert (len(joint.modes), joint.discriminant) == (1, 0)
+    (pair,) = joint.modes
+    assert [(value.cos.p, value.sin.p) for _, value in pair.values] == [(1, 0), (1, 0)]  # type: ignore[union-attr]
+
+
+def test_legs_prints_pairs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "pairs.toml"
+    path.write_text(
+        f'{HEAD}kind = "3-RRR"\n[base]\njoints = [[-5, -4], [-6, -6], [-4, 7]]\n'
+        "[platform]\njoints = [[0, 0], [4, 0], [1, 3]]\n"
+        f'[actuators]\ndriven = "RR"\n{IN_BRANCH["RRR"][2]}'
+    )
+    words = ["legs", str(path), "--position", "0,0", "--half-tangent", "0"]
+    assert main(words) == 0
+    out = capsys.readouterr().out
+    assert "8 working modes\nactuator" in out
+    assert len(re.findall(r"^ *(crank|link) \d +", out, re.M)) == 12
+    assert main([*words, "--format", "json"]) == 0
+    actuators = json.loads(capsys.readouterr().out)["actuators"]
+    assert [actuator["name"] for actuator in actuators] == [f"crank {k}, link {k}" for k in (1, 2, 3)]
+    assert list(actuators[0]["modes"][0]["joints"]) == ["crank 1", "link 1"]
+
+
+@pytest.mark.parametrize("chain", IN_BRANCH)
+def test_two_driven_joints_in_a_leg_hold_a_point(chain: str) -> None:
+    solution = found(in_branch(chain))
     assert (solution.claim, solution.complex_solutions) == (Claim.COMPLETE, 1)
     assert plane_poses(solution) == {(0, 0, 1, 0)}
-    other = found(robot_from_toml(text + joints.replace("10", "9").replace('"1/3"', '"1/4"')))  # type: ignore[arg-type]
+    other = found(in_branch(chain, IN_BRANCH[chain][1].replace("10", "9").replace('"1/3"', '"1/4"')))
     assert other.claim is Claim.INCONSISTENT
 
 

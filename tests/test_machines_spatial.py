@@ -1,30 +1,37 @@
 """Spatial machines, against the numbers of their sources."""
 
+import json
 from fractions import Fraction
 from math import atan, cos, pi, sqrt, tan
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from certificate_tools import golden
 from samples import model, solved
+from test_machine_kinds import contains
 
 from pkm_exact.claim import Claim
 from pkm_exact.cli.legs_report import joint_modes
+from pkm_exact.cli.main import main
 from pkm_exact.constraints.angle import Angle
 from pkm_exact.engine import solve
 from pkm_exact.geometry.drive_modes import joint_values
-from pkm_exact.geometry.inverse import rotation_of
+from pkm_exact.geometry.inverse import distance_squared, rotation_of
 from pkm_exact.geometry.machines.carriage import carriage_branches
 from pkm_exact.geometry.machines.machine_kinds import MACHINES
-from pkm_exact.geometry.mechanism import Mechanism
+from pkm_exact.geometry.mechanism import LockedValues, Mechanism
 from pkm_exact.geometry.reader import robot_from_toml
+from pkm_exact.geometry.redundant_drives import standing
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.pose import Pose
 from pkm_exact.solution import Solution
 from pkm_exact.templates.machine_text import given_dimensions, machine_text
 
 ZERO, ONE = Fraction(0), Fraction(1)
+UNTURNED = rotation_of((ONE, ZERO, ZERO, ZERO))
+MODELS = Path(__file__).parent.parent / "models"
 
 
 def found(robot: Any, name: str | None = None) -> Solution:
@@ -370,6 +377,43 @@ def test_the_carriage_takes_its_hexapod_along() -> None:
     assert {(round(-y, 4) + 0.0, round(x, 4) + 0.0, round(z, 4)) for x, y, z in places(solution, 6)} == {
         (round(x, 4) + 0.0, round(y, 4) + 0.0, round(z, 4)) for x, y, z in places(other, 6)
     }
+
+
+def test_the_legs_of_a_carriage_are_those_of_its_configuration(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["legs", str(MODELS / "carriage-hexapod.toml"), "--position", "1,6,9", "--quaternion", "1,0,0,0"]
+    assert main([*words, "--format", "json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    robot = model("carriage-hexapod")
+    home = robot.configuration()
+    legs = robot.locked(home.values, "home")
+    place = (Fraction(1), Fraction(6), Fraction(9))
+    squares = [
+        str(distance_squared(leg.base, leg.platform, place, UNTURNED, (1, 1, 1)))  # type: ignore[attr-defined]
+        for leg in legs
+    ]
+    assert [entry["value_squared"] for entry in answer["constraints"]] == squares
+    assert answer["standing"] == {"configuration": "home", "values": {"X": "1", "Y": "2", "tilt": ["4/5", "3/5"]}}
+    for name in ("home", None):
+        assert main([*words, *(["--configuration", name] if name else [])]) == 0
+        assert "X 1, Y 2, tilt (cosine 4/5, sine 3/5), as in configuration home" in capsys.readouterr().out
+    assert main([*words, "--configuration", "away"]) == 2
+    words[1] = str(MODELS / "delta.toml")
+    assert main([*words[:4], "--configuration", "home"]) == 2
+    assert "the pose says what all joint values are" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("branch", [0, 1])
+def test_forward_kinematics_of_both_branches_of_the_carriage_contains_the_pose(branch: int) -> None:
+    robot = drawn("carriage-hexapod")
+    x, y, cosine, sine = carriage_branches((ONE, Fraction(2), Fraction(3)), Fraction(2), Fraction(5), "0")[branch]
+    place, rotation = (Fraction(2), Fraction(3), Fraction(11)), rotation_of(tuple(map(Fraction, (9, 1, -1, 2))))  # type: ignore[arg-type]
+    axes = (x.p, y.p, (cosine.p, sine))
+    still = standing(robot, LockedValues("here", (*[ONE] * 6, *axes))).mechanism
+    squares = still.values_at(place, rotation)
+    solution = solve(robot.problem([*(squares[f"leg {k}"] for k in range(1, 7)), *axes]))
+    assert solution.complex_solutions == 40
+    assert contains(solution, place, rotation)
 
 
 @pytest.mark.parametrize("heading", ["0", "90", "180", "-90"])

@@ -16,27 +16,35 @@ from pkm_exact.cli.legs_report import (
     surd_decimal,
 )
 from pkm_exact.constraints.form import Vector
+from pkm_exact.geometry.chains import JointValue
 from pkm_exact.geometry.drive_modes import JointModes, joint_values
 from pkm_exact.geometry.inverse import Matrix
 from pkm_exact.geometry.mechanism import Mechanism, is_square
+from pkm_exact.geometry.redundant_drives import Standing
 from pkm_exact.geometry.surds import Surd
-from pkm_exact.geometry.working_modes import CrankMode, EnclosedCrank, FreeCrank, Mode, SlideMode
+from pkm_exact.geometry.working_modes import CrankMode, EnclosedCrank, FreeCrank, Mode, PairedMode, SlideMode
 
 
 def as_object(
-    mechanism: Mechanism, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None
+    still: Standing, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None
 ) -> dict[str, Any]:
     """The answer as a JSON object: for each constraint its value at the pose, and whether the constraint holds there.
 
     A value is exact and has bounds; of lengths and radii the squares are given too. Constraints without a value have
     None. ``holds`` is None for actuated constraints: they are given what they need.
     """
+    mechanism = still.mechanism
     answer = pose_object(mechanism, position, rotation, nearest) | {
         "constraints": [
             {"name": name, "type": type_, "actuated": holds is None, "holds": holds, **_spelled(value, squared, width)}
             for name, type_, value, squared, holds in _rows(mechanism, position, rotation)
         ]
     }
+    if still.configuration is not None:
+        values = {
+            name: list(map(str, value)) if isinstance(value, tuple) else str(value) for name, value in still.values
+        }
+        answer["standing"] = {"configuration": still.configuration, "values": values}
     if not mechanism.drives:
         return answer
     joints = joint_values(mechanism, position, rotation)
@@ -84,11 +92,17 @@ def _rows(
 
 
 def as_text(
-    mechanism: Mechanism, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None
+    still: Standing, position: Vector, rotation: Matrix, width: Fraction, nearest: Fraction | None = None
 ) -> str:
     """The answer as a headline, lines for a configuration, and a table."""
+    mechanism = still.mechanism
     rows = _rows(mechanism, position, rotation)
     lines = pose_lines(mechanism, position, rotation, nearest)
+    if still.configuration is not None:
+        free = ", ".join(f"{name} {_spelled_value(value)}" for name, value in still.values)
+        lines.append(
+            f"{free}, as in configuration {still.configuration}: redundant, the pose is reached with others too"
+        )
     actuated = [
         (name, value, squared) for name, _, value, squared, holds in rows if holds is None and value is not None
     ]
@@ -107,6 +121,11 @@ def as_text(
     return "".join(f"{line}\n" for line in lines)
 
 
+def _spelled_value(value: JointValue) -> str:
+    """A position, or cosine and sine of a crank."""
+    return f"(cosine {value[0]}, sine {value[1]})" if isinstance(value, tuple) else str(value)
+
+
 def _joint_lines(joints: tuple[JointModes, ...], width: Fraction) -> list[str]:
     """Working modes: how many, and every value of every actuator with the discriminant that vanishes where two meet."""
     count = _count(joints)
@@ -120,7 +139,9 @@ def _joint_lines(joints: tuple[JointModes, ...], width: Fraction) -> list[str]:
     table: list[tuple[str, ...]] = [("actuator", "value", "exact", "discriminant")]
     for joint in joints:
         discriminant = "" if joint.discriminant is None else short(str(joint.discriminant))
-        table += [(joint.name, *_shown(mode, width), discriminant) for mode in joint.modes]
+        for mode in joint.modes:
+            parts = mode.values if isinstance(mode, PairedMode) else ((joint.name, mode),)
+            table += [(name, *_shown(value, width), discriminant) for name, value in parts]
     return ["", headline, *(aligned(table) if len(table) > 1 else [])]
 
 
@@ -129,6 +150,8 @@ def _shown(mode: Mode, width: Fraction) -> tuple[str, str]:
         return surd_decimal(mode.position, width), short(str(mode.position))
     if isinstance(mode, FreeCrank):
         return "any angle", ""
+    if isinstance(mode, PairedMode):
+        raise TypeError("values of two drives are shown one by one")
     if isinstance(mode, EnclosedCrank):
         exact = mode.half_tangent.radicals
         text = f"half tangent {exact}" if exact is not None else "root of a polynomial: see --format json"

@@ -23,6 +23,7 @@ from pkm_exact.geometry.working_modes import (
     EnclosedCrank,
     FreeCrank,
     Mode,
+    PairedMode,
     SlideMode,
     platform_point,
     working_modes,
@@ -84,6 +85,8 @@ def as_object(
 
 def mode_object(mode: Mode, width: Fraction) -> dict[str, Any]:
     """A working mode: exact numbers with bounds."""
+    if isinstance(mode, PairedMode):
+        return {"joints": {name: mode_object(value, width) for name, value in mode.values}}
     if isinstance(mode, SlideMode):
         return {"position": exact_and_bounds(mode.position, width)}
     if isinstance(mode, FreeCrank):

@@ -22,6 +22,7 @@ from pkm_exact.geometry.curved_cranks import curved_modes
 from pkm_exact.geometry.drives import Drive
 from pkm_exact.geometry.inverse import Matrix
 from pkm_exact.geometry.mechanism import Mechanism, is_square
+from pkm_exact.geometry.paired_drives import paired_modes, partner_of
 from pkm_exact.geometry.surds import Surd, quadratic_roots
 from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, Mode, SlideMode, half_tangent
 from pkm_exact.wording import shown
@@ -34,6 +35,7 @@ class JointModes:
     Attributes
     ----------
     name : str
+        Of the actuator; of two drives that hold a leg together both names, with a comma.
     modes : tuple
         Slides in increasing position, cranks the minus sign first, or in increasing half tangent where there may be
         four; empty if the pose is out of reach.
@@ -49,15 +51,24 @@ class JointModes:
 def joint_values(mechanism: Mechanism, position: Vector, rotation: Matrix) -> tuple[JointModes, ...]:
     """The working modes of every actuator at a pose, in the order of ``mechanism.actuated``.
 
+    Two drives of one leg have modes together (``geometry.paired_drives``), at the place of the first.
+
     Raises
     ------
     InputError
-        If two drives move one constraint, so that neither has values of its own.
+        If more drives move one constraint, so that none has values of its own.
     """
     own = mechanism.values_at(position, rotation)
-    found = []
+    found: list[JointModes] = []
+    paired: set[str] = set()
     for name in mechanism.actuated:
         drive = mechanism.drive(name)
+        partner = None if drive is None else partner_of(mechanism, drive)
+        if drive is not None and partner is not None:
+            if name not in paired:
+                found.append(_pair(mechanism, (drive, partner), position, rotation))
+                paired |= {name, partner.name}
+            continue
         if drive is not None:
             found.append(_drive_modes(mechanism, drive, position, rotation))
             continue
@@ -74,6 +85,16 @@ def residual(mechanism: Mechanism, drive: Drive, value: JointValue, position: Ve
     name = drive.parts[0].constraint
     constraints = {found.name: found for found in mechanism.constraints}
     return mechanism.equation_at(drive.moved(constraints, value, drive.name)[name], position, rotation)
+
+
+def _pair(mechanism: Mechanism, drives: tuple[Drive, Drive], position: Vector, rotation: Matrix) -> JointModes:
+    def ask(leg: Mechanism, drive: Drive) -> tuple[tuple[Mode, ...], Fraction | None]:
+        own = leg.drive(drive.name) or drive
+        found = _drive_modes(leg, own, position, rotation)
+        return found.modes, found.discriminant
+
+    modes, discriminant = paired_modes(mechanism, drives, position, rotation, ask)
+    return JointModes(", ".join(drive.name for drive in drives), modes, discriminant)
 
 
 def _drive_modes(mechanism: Mechanism, drive: Drive, position: Vector, rotation: Matrix) -> JointModes:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeAlias
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.geometry.chains import Chain, Crank, Slide
@@ -55,7 +56,14 @@ class EnclosedCrank:
     sin: ValueAtRoot
 
 
-Mode = SlideMode | CrankMode | FreeCrank | EnclosedCrank
+@dataclass(frozen=True)
+class PairedMode:
+    """Values of two drives that hold a leg together, by their names."""
+
+    values: tuple[tuple[str, Mode], ...]
+
+
+Mode: TypeAlias = "SlideMode | CrankMode | FreeCrank | EnclosedCrank | PairedMode"
 
 
 def platform_point(joint: Vector, position: Vector, rotation: Matrix) -> Vector:
