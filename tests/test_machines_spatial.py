@@ -397,9 +397,10 @@ def test_the_legs_of_a_carriage_are_those_of_its_configuration(capsys: pytest.Ca
         assert main([*words, *(["--configuration", name] if name else [])]) == 0
         assert "X 1, Y 2, tilt (cosine 4/5, sine 3/5), as in configuration home" in capsys.readouterr().out
     assert main([*words, "--configuration", "away"]) == 2
-    words[1] = str(MODELS / "delta.toml")
-    assert main([*words[:4], "--configuration", "home"]) == 2
-    assert "the pose says what all joint values are" in capsys.readouterr().err
+    capsys.readouterr()
+    for name, pose in (("biglide", ["--position", "0,7,0"]), ("rolland-6-6", words[2:])):
+        assert main(["legs", str(MODELS / f"{name}.toml"), *pose, "--configuration", "home"]) == 2
+        assert "the pose says what all joint values are" in capsys.readouterr().err
 
 
 @pytest.mark.slow

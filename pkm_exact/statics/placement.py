@@ -21,14 +21,15 @@ from pkm_exact.geometry.drives import Drive
 from pkm_exact.geometry.inverse import Matrix, distance_squared
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.mechanism import LockedValues, Mechanism
+from pkm_exact.geometry.paired_drives import partner_of
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.geometry.surds import Surd
 from pkm_exact.geometry.working_modes import (
     CrankMode,
-    EnclosedCrank,
     FreeCrank,
     Mode,
+    PairedMode,
     SlideMode,
     platform_point,
     working_modes,
@@ -226,16 +227,19 @@ def _values(robot: Mechanism, place: _Place) -> dict[str, Any]:
     modes = [
         (found.name, found.modes)
         for found in joint_values(robot, place.position, place.rotation)
-        if robot.drive(found.name) is not None
+        if found.name not in values
     ]
-    chosen = _chosen(modes, place.modes)
-    return values | {name: value for (name, _), value in zip(modes, chosen, strict=True)}
+    for (name, _), value in zip(modes, _chosen(modes, place.modes), strict=True):
+        values |= value if isinstance(value, dict) else {name: value}
+    return values
 
 
 def _require_own_values(robot: Mechanism) -> None:
     """Refuse drives that move a constraint together: the pose does not say where they are."""
     movers: dict[str, list[str]] = {}
     for drive in robot.drives:
+        if partner_of(robot, drive) is not None:
+            continue  # they have working modes together
         for name in dict.fromkeys(part.constraint for part in drive.parts):
             movers.setdefault(name, []).append(drive.name)
     for name, found in movers.items():
@@ -282,15 +286,16 @@ def _chosen(choices: Sequence[tuple[str, tuple[Mode, ...]]], modes: str | None) 
         chosen = places[modes[place]] if modes else 0
         if chosen >= len(found):
             raise InputError(f"modes: {name} has {len(found)} joint values at the pose, no {chosen + 1}; name another")
-        mode = found[chosen]
-        if isinstance(mode, FreeCrank):
-            raise InputError(f"pose: {name} may have any value there; give another")
-        values.append(_value(name, mode))
+        values.append(_value(name, found[chosen]))
     return values
 
 
-def _value(name: str, mode: SlideMode | CrankMode | EnclosedCrank) -> Any:
-    """A position, or cosine and sine."""
+def _value(name: str, mode: Mode) -> Any:
+    """A position, or cosine and sine; of two drives both by their names."""
+    if isinstance(mode, PairedMode):
+        return {own: _value(own, value) for own, value in mode.values}
+    if isinstance(mode, FreeCrank):
+        raise InputError(f"pose: {name} may have any value there; give another")
     if isinstance(mode, SlideMode):
         return _sum(mode.position)
     if isinstance(mode, CrankMode):
