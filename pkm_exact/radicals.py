@@ -21,6 +21,10 @@ MOST_TERMS: Final = 256
 """Roots in one number; beyond that exact products are out of reach."""
 
 
+class OutOfReachError(InputError):
+    """So many different square roots that exact arithmetic with them would take too long."""
+
+
 @dataclass(frozen=True)
 class RootSum:
     """A sum of rational multiples of square roots.
@@ -86,7 +90,9 @@ class RootSum:
         if not isinstance(other, RootSum):
             return RootSum(tuple((n, c * other) for n, c in self.terms)) if other else _ZERO
         if len(self.terms) * len(other.terms) > MOST_TERMS * 16:
-            raise InputError("exact products of so many different square roots are out of reach; take simpler numbers")
+            raise OutOfReachError(
+                "exact products of so many different square roots are out of reach; take simpler numbers"
+            )
         products = []
         for n, c in self.terms:
             for m, d in other.terms:
@@ -103,18 +109,33 @@ class RootSum:
         return self.inverse() * dividend
 
     def inverse(self) -> RootSum:
-        """The reciprocal of a number with two terms at most, by its conjugate.
+        """The reciprocal, by its conjugates: each step makes one root the opposite, and leaves it out of the product.
 
         >>> print((RootSum.root(Fraction(2)) + 1).inverse())
         -1 + sqrt(2)
+        >>> print((RootSum.root(Fraction(2)) + RootSum.root(Fraction(3)) + 1).inverse())
+        1/2 + 1/4*sqrt(2) - 1/4*sqrt(6)
         """
         if len(self.terms) == 1:
             n, c = self.terms[0]
             return RootSum(((n, 1 / (c * n)),))
         if len(self.terms) != 2:
-            raise InputError("exact quotients by so many square roots are out of reach; take simpler numbers")
+            return self._by_conjugates()
         (n, c), (m, d) = self.terms
         return RootSum(((n, c), (m, -d))) * (1 / (c * c * n - d * d * m))
+
+    def _by_conjugates(self) -> RootSum:
+        """The same of any number of terms.
+
+        Roots of pairwise coprime integers that are no squares are independent, so that the sign of each one can be
+        changed alone.
+        """
+        found, rest = RootSum.of(1), self
+        while rest.rational is None:
+            odd = next(b for b in coprime_base(n for n, _ in rest.terms) if any(_is_odd(n, b) for n, _ in rest.terms))
+            conjugate = RootSum(tuple((n, -c if _is_odd(n, odd) else c) for n, c in rest.terms))
+            found, rest = found * conjugate, rest * conjugate
+        return found * (1 / rest.rational)
 
     def __abs__(self) -> RootSum:
         return -self if self.sign() < 0 else self
@@ -186,6 +207,52 @@ def _reduced(n: int) -> tuple[int, int]:
     return (1, factor * root) if root * root == n else (n, factor)
 
 
+def coprime_base(numbers: Iterable[int]) -> list[int]:
+    """Pairwise coprime integers above 1, of whose powers all numbers are products.
+
+    >>> coprime_base([6, 10])
+    [5, 3, 2]
+    """
+    found: list[int] = []
+    left = [n for n in numbers if n > 1]
+    while left:
+        n = left.pop()
+        shared = next((b for b in found if gcd(n, b) > 1), None)
+        if shared is None:
+            found.append(n)
+            continue
+        found.remove(shared)
+        common = gcd(n, shared)
+        left += [k for k in (common, n // common, shared // common) if k > 1]
+    return found
+
+
+def independent_roots(numbers: Iterable[int]) -> int:
+    """How many square roots of integers generate those of all: classes modulo squares, as vectors over two elements.
+
+    >>> independent_roots([2, 3, 6, 12, 25])
+    2
+    """
+    chosen = [n for n in numbers if n > 1]
+    base = coprime_base(chosen)
+    leading: dict[int, int] = {}
+    for n in chosen:
+        vector = sum(1 << k for k, b in enumerate(base) if _is_odd(n, b))
+        while vector and vector.bit_length() in leading:
+            vector ^= leading[vector.bit_length()]
+        if vector:
+            leading[vector.bit_length()] = vector
+    return len(leading)
+
+
+def _is_odd(n: int, base: int) -> bool:
+    """Whether an odd power of an element of a coprime base that is no square divides a number."""
+    count = 0
+    while n % base == 0:
+        n, count = n // base, count + 1
+    return count % 2 == 1 and isqrt(base) ** 2 != base
+
+
 def _collected(terms: Iterable[tuple[int, Fraction]]) -> RootSum:
     """The sum of terms, with roots of one class put together."""
     found: dict[int, Fraction] = {}
@@ -204,5 +271,5 @@ def _collected(terms: Iterable[tuple[int, Fraction]]) -> RootSum:
                     break
         found[place] = found.get(place, Fraction(0)) + value
     if len(found) > MOST_TERMS:
-        raise InputError("exact sums of so many different square roots are out of reach; take simpler numbers")
+        raise OutOfReachError("exact sums of so many different square roots are out of reach; take simpler numbers")
     return RootSum(tuple(sorted((n, c) for n, c in found.items() if c)))

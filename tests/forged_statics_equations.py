@@ -204,11 +204,13 @@ FORMAT: dict[str, Row] = {
     "a long unit": _with("x" * 10001, "unit", status="too-large"),
     "another format": _with("pkm_exact statics", "format", line="format"),
     "from a certificate": _with({"digest": "sha256:", "pose": 1}, "solution", status="accepted", line="indices"),
+    "from pose true": _with({"digest": "sha256:", "pose": True}, "solution"),
     "from pose 0": _with({"digest": "sha256:", "pose": 0}, "solution"),
     "a long digest of a solution": _with({"digest": "x" * 10001, "pose": 1}, "solution", status="too-large"),
     "a metric that is not positive": _with(["1", "0", "1"], "metric"),
     "freedoms twice": _with([0, 0], "freedoms"),
     "no freedoms": _with([], "freedoms"),
+    "freedoms beyond six": _with([0, 6], "freedoms"),
     "free ones that are none": _with([0, 2], "free"),
     "no free ones": _with([], "free"),
     "too few free ones": _with([0], "free", line="equations"),
@@ -216,6 +218,8 @@ FORMAT: dict[str, Row] = {
     "a rotation of two rows": _with([[["0", "0"]] * 3] * 2, "rotation"),
     "a rotation of short rows": _with([[["0", "0"]] * 2] * 3, "rotation"),
     "ends that are not in order": _with(["1", "0"], "position", 0),
+    "actuators that are none": _with(7, "actuators"),
+    "equations that are none": _with(7, "equations"),
     "an actuator of 0": _with("0", "actuators", 0),
     "an actuator below 0": _with("-1", "actuators", 1),
     "an actuator that is no number": _with(1, "actuators", 0),
@@ -230,6 +234,9 @@ FORMAT: dict[str, Row] = {
     "a square without factor": _with({"form": FORM}, "equations", 0, "square"),
     "a factor of 0": _with({"factor": "0", "form": FORM}, "equations", 0, "square"),
     "a square of 16": _with({"factor": "1", "form": FORM[:-1]}, "equations", 0, "square"),
+    "less a square of nothing": _with(
+        {"factor": "-1", "form": form({})}, "equations", 0, "square", status="accepted", line="indices"
+    ),
     "a square of nothing": _with(
         {"factor": "1", "form": form({})}, "equations", 0, "square", status="accepted", line="indices"
     ),
@@ -240,6 +247,8 @@ FORMAT: dict[str, Row] = {
     "rates in another order": _with(CROSSED["equations"][0]["rates"][::-1], "equations", 0, "rates"),
     "a rate twice": _with([RATE, RATE], "equations", 0, "rates"),
     "rates of more than all": _with([RATE] * 3, "equations", 0, "rates"),
+    "a rate twice, and another": _with([RATE, RATE, [2, RATE[1]]], "equations", 0, "rates"),
+    "a rate by names": _with({"a": 1, "b": RATE[1]}, "equations", 0, "rates", 0),
     "a rate of three": _with([*RATE, "1"], "equations", 0, "rates", 0),
     "a rate without form": _with(RATE[:1], "equations", 0, "rates", 0),
     "a rate that is no list": _with({"1": RATE[1]}, "equations", 0, "rates", 0),
@@ -247,7 +256,9 @@ FORMAT: dict[str, Row] = {
     "speeds of three": _with(["1"] * 3, "speeds"),
     "a speed of 0": _with(["1", "0"], "speeds"),
     "forces of one": _with([["0", "1"]], "forces"),
+    "forces without range, the first": _with([["1", "1"], ["0", "1"]], "forces"),
     "forces without range": _with([["0", "1"], ["1", "1"]], "forces"),
+    "a length that nothing needs": _with("1/2", "length", status="accepted", line="indices"),
     "a length of 0": _with("0", "length"),
     "a load of three": _with(["1"] * 3, "load"),
     "regular by a number": _with(1, "regular"),
@@ -261,6 +272,11 @@ FORMAT: dict[str, Row] = {
     "no forces for the load": _with(None, "actuator_forces"),
     "forces without load": _with(None, "load", line="actuator_forces"),
     "a polytope without speeds": _with(None, "speeds", line="velocity_polytope"),
+    "a polytope alone without speeds": (
+        _without(CROSSED, speeds=None, velocity_polytope=SWAPPED[0]),
+        "malformed",
+        "velocity_polytope",
+    ),
     "an ellipsoid without speeds": (
         _without(CROSSED, speeds=None, ellipsoid=CROSSED["ellipsoid"]),
         "malformed",
@@ -310,6 +326,14 @@ def _twelve(freedoms: int, **entries: Any) -> Content:
     return content | entries
 
 
+_LINED = machine(
+    range(6),
+    [0],
+    [equation({k: 1}) for k in (5, 6, 12, 13, 8)] + [equation({4: 13 - a}, {a + 1: {16: 1}}) for a in range(12)],
+    actuators=["1"] * 12,
+    length="1",
+)
+"""Twelve actuators, and a rail that leaves one freedom: few choices."""
 NO_BOUNDS, NO_SUMS = (
     {"facets": [], "vertices": [], "volume": None},
     {"facets": [], "vertices": [], "volume": ["0", "1"]},
@@ -318,7 +342,22 @@ SIZES: dict[str, Row] = {
     "twelve in six: bounds": (_twelve(6, wrench_polytope=NO_BOUNDS), "too-large", "wrench_polytope: too many choices"),
     "twelve in six: sums": (_twelve(6, velocity_polytope=NO_SUMS), "too-large", "velocity_polytope: too many choices"),
     "twelve in five: sums": (_twelve(5, velocity_polytope=NO_SUMS), "rejected", "velocity_polytope: not all facets"),
+    "twelve in five: bounds": (_twelve(5, wrench_polytope=NO_BOUNDS), "too-large", "wrench_polytope: too many choices"),
+    "twelve along a line in six": (claims(_LINED), "accepted", "indices"),
     "twelve in six: nothing": (_twelve(6), "accepted", "singularities"),
+}
+
+
+def _scaled(factor: Fraction, **entries: Any) -> Content:
+    found = CROSSED["ellipsoid"]
+    matrix = [[str(Fraction(x) * factor) for x in row] for row in found["matrix"]]
+    return put(CROSSED, found | {"matrix": matrix} | entries, "ellipsoid")
+
+
+ELLIPSOIDS: dict[str, Row] = {
+    "an ellipsoid that leaves the polytope": (_scaled(1 + Fraction(1, 10**4)), "rejected", "ellipsoid: may leave"),
+    "an ellipsoid that is too small": (_scaled(Fraction(1, 2)), "rejected", "ellipsoid: not proved"),
+    "weights of more than 1": (_scaled(Fraction(1), weights=["1", "1/2"]), "rejected", "ellipsoid: weights"),
 }
 LISTS = {
     f"{name}, {key}": row
@@ -327,4 +366,4 @@ LISTS = {
     for key, row in _lists(HONEST[name], where)
 }
 SLOW = frozenset(name for name in dict(_numbers()) if name.endswith(("1", "2", "4", "5", "7", "8")))
-ROWS = merged(REGULAR, dict(_bounds()), dict(_numbers()), LISTS, FORMAT, SIZES)
+ROWS = merged(REGULAR, dict(_bounds()), dict(_numbers()), LISTS, ELLIPSOIDS, FORMAT, SIZES)

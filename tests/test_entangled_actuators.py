@@ -4,6 +4,7 @@ import json
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from pkm_exact.polytopes.enclosures import interval_of
 from pkm_exact.radicals import RootSum
 from pkm_exact.statics.at_pose import AtPose, at_box
 from pkm_exact.statics.freedom import Freedom
+from pkm_exact.statics.matrix_ranks import matrix_ranks
 
 Capture = pytest.CaptureFixture[str]
 MODEL = Path(__file__).parent.parent / "models" / "carriage-hexapod.toml"
@@ -204,3 +206,24 @@ def test_a_pose_does_not_say_where_a_carriage_stands(capsys: Capture) -> None:
     words = ["statics", str(MODEL), "--position", "3/2,7,9", "--quaternion", "1,0,0,0"]
     assert main(words) == 2
     assert "a pose does not say where they are; name a configuration" in capsys.readouterr().err
+
+
+def test_ranks_of_matrices_that_are_not_square(capsys: Capture) -> None:
+    words = ["statics", str(MODEL), "--position", "3/2,7,9", "--quaternion", "1,0,0,0", "--configuration", "home"]
+    assert main([*words, "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["ranks"] == {"wrenches": 6, "J_x": 6, "J_q": 6}
+    upright = Distance(vector(3, 2), vector(5, 0), Fraction(25), "second")
+    at = table([LEG, upright, THIRD], {"A": (BOTH, 2), "B": ({"third": E2}, 1)}, "leg")
+    assert matrix_ranks(at) == {"wrenches": 3, "J_x": 3, "J_q": 2}
+
+
+@pytest.mark.parametrize(("name", "pose", "modes"), [("delta", {"position": [0, "1/10", "-1/2"]}, "+++")])
+def test_forces_are_exact_where_joint_values_are_square_roots(name: str, pose: dict[str, Any], modes: str) -> None:
+    """Three independent roots: J^T s is the load, in numbers with eight terms each."""
+    at = read_robot(MODEL.with_name(f"{name}.toml")).at(pose, modes=modes)
+    found = at.forces([0, 0, 1])
+    assert found.exact is not None
+    assert (found.signs[1], found.signs[2]) == (found.signs[1],) * 2
+    rows = at.jacobian.to_numpy()
+    assert rows.T @ [float(x) for x in found.values] == pytest.approx([0, 0, -1])
+    assert at.forces([0, 0, 0]).exact == ("0", "0", "0")

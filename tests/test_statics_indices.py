@@ -537,3 +537,20 @@ def test_a_load_away_from_the_origin_has_a_moment(capsys: Capture) -> None:
     there = json.loads(capsys.readouterr().out)["forces"]
     assert main([*words, "--load", "0,0,-5,-10,0,0"]) == 0  # the point stands at (0, 2, 0): r x f = (-10, 0, 0)
     assert json.loads(capsys.readouterr().out)["forces"] == there
+
+
+def test_a_pose_of_a_solution_has_a_largest_ellipsoid_though_its_box_is_wide() -> None:
+    """In the polytope at the middle of the box; its weights prove that no other one has a volume much larger."""
+    at = machine_at(model("mssm"), solved("mssm").poses[0])
+    found = at.ellipsoid(1, 1)
+    rows = at.jacobian.to_numpy()
+    matrix = found.matrix.to_numpy()
+    reach = np.einsum("ij,jk,ik->i", rows, matrix, rows)
+    assert reach.max() <= 1 + 1e-9
+    assert found.gap.hi < Fraction(1, 100)
+    weights = np.array([float(x) for x in found.weights])
+    dual = 6 * (rows.T * weights) @ rows
+    assert 1 - 0.07 < np.linalg.det(matrix) * np.linalg.det(dual) <= 1 + 1e-6
+    axes = np.sqrt(np.linalg.eigvalsh(matrix))
+    for enclosed, axis in zip(found.half_axes, axes, strict=True):
+        assert float(enclosed.lo) * 0.99 <= axis <= float(enclosed.hi) * 1.01

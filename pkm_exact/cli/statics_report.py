@@ -9,6 +9,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.statics.asked_answers import StaticsAnswers
 from pkm_exact.statics.at_pose import AtPose
 from pkm_exact.statics.enclosed_matrix import EnclosedMatrix
+from pkm_exact.statics.matrix_ranks import matrix_ranks
 
 
 def as_object(at: AtPose, nearest: Fraction | None, extra: StaticsAnswers) -> dict[str, Any]:
@@ -33,6 +34,7 @@ def as_object(at: AtPose, nearest: Fraction | None, extra: StaticsAnswers) -> di
         "forward_exact": None if forward is None else forward.exact,
         "wrenches": at.wrenches.as_object(),
         "rank": at.rank,
+        "ranks": matrix_ranks(at),
         "structural_rank": at.kinds.structural_rank,
         "singular": list(at.singular),
         "singularities": [{"name": found.name, "constraints": list(found.constraints)} for found in at.singularities],
@@ -65,6 +67,8 @@ def as_text(at: AtPose, nearest: Fraction | None, extra: StaticsAnswers) -> str:
         lines.append(f"the pose is off by at most {nearest} from the one given, which the metric does not have exactly")
     rank = "not decided" if at.rank is None else str(at.rank)
     lines.append(f"{len(at.equations)} constraints of rank {rank}, {at.motion.dimension} freedoms")
+    own = [f"{name} {value}" for name, value in matrix_ranks(at).items() if name != "wrenches" and value is not None]
+    lines += [f"ranks: {', '.join(own)}"] if own else []
     lines += [f"singular: {found}" for found in at.singularities]
     if not at.singularities and not at.kinds.undecided:
         lines.append("not singular")

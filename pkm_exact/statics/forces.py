@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, Final
 
 from flint import arb, arb_mat
 
@@ -24,15 +24,18 @@ from pkm_exact.polytopes.enclosures import ball_of, interval_of
 from pkm_exact.polytopes.rationals import rational_matrix
 from pkm_exact.polytopes.slabs import Slabs
 from pkm_exact.precision import working_precision
-from pkm_exact.radicals import RootSum
+from pkm_exact.radicals import OutOfReachError, RootSum, independent_roots
 from pkm_exact.roots.interval import Interval
 from pkm_exact.statics.ball_rows import BITS
+from pkm_exact.statics.entangled_rows import solved
 from pkm_exact.statics.exact_rows import column_squares
 from pkm_exact.statics.freedom import Freedom
 from pkm_exact.statics.linear_program import greatest
 from pkm_exact.statics.pose_rows import PoseRows
 from pkm_exact.statics.ranks import left_kernel
 
+MOST_ROOTS: Final = 4
+"""Independent square roots with which forces are exact: numbers have up to 2^4 terms."""
 NOT_EXACT = "forces: internal loads are computed at exact poses of machines all of whose constraints are actuated"
 
 
@@ -97,8 +100,44 @@ def forces(at: PoseRows, load: Sequence[Any]) -> Forces:
     freedom = Freedom(at)
     if freedom.directions is not None and not any(isinstance(x, arb) for x in load):
         return _exactly(at, freedom, load)
+    exact = None if any(isinstance(x, arb) for x in load) else _by_elimination(at, load)
+    if exact is not None:
+        return exact
     with working_precision(BITS):
         return _in_balls(at, freedom, load)
+
+
+def _by_elimination(at: PoseRows, load: Sequence[Any]) -> Forces | None:
+    """Of as many constraints as freedoms at an exact pose, over sums of square roots; None if these are too many."""
+    rows = at.exact_apart
+    if rows is None or len(rows) != len(load):
+        return None
+    roots = [RootSum.root(1 / k) for k in column_squares(at.metric, at.motion.twist)]
+    wanted = [RootSum.of(-1 * x) * root for x, root in zip(load, roots, strict=True)]
+    numbers = [*wanted, *(RootSum.of(x) for row in rows for x in (*row.wrench, *row.rates.values()))]
+    if independent_roots({n for number in numbers for n, _ in number.terms}) > MOST_ROOTS:
+        return None
+    lines, sizes = [], []
+    for k, actuator in enumerate(at.held.actuators):
+        inverse = rows[actuator.equation].rates[k].inverse()
+        lines.append([inverse * x for x in rows[actuator.equation].wrench])
+        sizes.append(RootSum.of(1))
+    for index in at.held.structural:
+        line = list(rows[index].wrench)
+        for k, rate in rows[index].rates.items():
+            line = [x - rate * y for x, y in zip(line, lines[k], strict=True)]
+        lines.append(line)
+        sizes.append(RootSum.root(rows[index].size_squared))
+    try:
+        found = solved([[RootSum.of(line[j]) for line in lines] for j in range(len(load))], [[x] for x in wanted])
+        if found is None:
+            raise InputError("load: the pose is singular, so that not every load can be borne; give another pose")
+        values = [size * x[0] for size, x in zip(sizes, found, strict=True)]
+    except OutOfReachError:
+        return None
+    names = (*at.actuated, *(at.equations[index].name for index in at.held.structural))
+    signs = tuple(value.sign() for value in values)
+    return Forces(names, tuple(map(interval_of, values)), signs, tuple(map(str, values)), is_unique=True)
 
 
 def _exactly(at: PoseRows, freedom: Freedom, load: Sequence[Any]) -> Forces:

@@ -10,6 +10,10 @@ So M^-1 is optimal if d = 0, and else nearly: the eigenvalues x of M^1/2 S* M^1/
 and product at least (1 + d)^-n, so that each x - 1 - log x <= g = n log(1 + d) and 1 - sqrt(2 g) <= x <= 1 + g +
 sqrt(g^2 + 2 g). The eigenvalues of S* are those of M^-1 times factors between these (Ostrowski). The weights may come
 from anywhere: they are proposed in floating point, refined by Newton's method on the sides that touch, and proved.
+
+In a box that is too wide for M^-1, X near M^-1/2 serves: with e the norm of X^T M X - 1, eigenvalues of M^-1 are those
+of X X^T times numbers between 1 / (1 + e) and 1 / (1 - e), a_i M^-1 a_i^T is at most |a_i X|^2 / (1 - e), and
+X X^T / max |a_i X|^2 lies in the polytope.
 """
 
 from __future__ import annotations
@@ -28,12 +32,13 @@ from pkm_exact.polytopes.enclosures import ball_of, interval_of
 from pkm_exact.precision import working_precision
 from pkm_exact.roots.interval import Interval
 from pkm_exact.statics.ball_rows import BITS
-from pkm_exact.statics.eigenvalues import eigenvalues
+from pkm_exact.statics.eigenvalues import eigenvalues, inverse_root, norm
 from pkm_exact.statics.enclosed_matrix import EnclosedMatrix
 
 _STEPS = 2000
 _GRID = 1 << 150
 _SMALL_DENOMINATOR = 720
+_WIDE = "ellipsoid: the pose is not enclosed narrowly enough"
 
 
 @dataclass(frozen=True)
@@ -92,7 +97,10 @@ def largest_ellipsoid(rows: arb_mat, names: Sequence[str], shown: arb_mat | None
     """
     with working_precision(BITS):
         weights = proposed_weights(rows)
-        found = _proved(rows, weights, names, shown)
+        try:
+            found = _proved(rows, weights, names, shown)
+        except InputError:
+            return _proved_nearby(rows, weights, names, shown)
         simple = _simple(weights)
         if simple is None:
             return found
@@ -117,20 +125,61 @@ def _proved(
     gap = (largest - 1).max(arb(0))
     values = eigenvalues((inverse + inverse.transpose()) / 2)
     if values is None or not values[0] > 0 or not gap < 1:
-        raise InputError("ellipsoid: the pose is not enclosed narrowly enough")
+        raise InputError(_WIDE)
+    factor = _between(n, gap)
+    return _found(weights, gap, [value * factor for value in values], inverse / (1 + gap), names, shown)
+
+
+def _between(n: int, gap: arb) -> arb:
+    """By which factors eigenvalues of the largest one may differ from those of M^-1."""
     bound = (n * (1 + gap.abs_upper()).log()).abs_upper()
     below, above = 1 - (2 * bound).sqrt(), 1 + bound + (bound * bound + 2 * bound).sqrt()
-    factor = below.max(arb(0)).union(above)
-    shrunk = inverse / (1 + gap)
-    if shown is not None:
-        shrunk = shown * shrunk * shown.transpose()
+    return below.max(arb(0)).union(above)
+
+
+def _found(
+    weights: Sequence[Fraction],
+    gap: arb,
+    squares: list[arb],
+    inner: arb_mat,
+    names: Sequence[str],
+    shown: arb_mat | None,
+) -> LargestEllipsoid:
+    """The answer: an ellipsoid in the polytope, and the squares of the half axes of the largest one."""
+    matrix = inner if shown is None else shown * inner * shown.transpose()
     return LargestEllipsoid(
         tuple(weights),
         interval_of(gap),
-        tuple(interval_of((value * factor).nonnegative_part().sqrt()) for value in values),
-        EnclosedMatrix.of(names, names, [[shrunk[i, j] for j in range(n)] for i in range(n)]),
+        tuple(interval_of(value.nonnegative_part().sqrt()) for value in squares),
+        EnclosedMatrix.of(names, names, matrix.tolist()),
         tuple(index for index, weight in enumerate(weights) if weight),
     )
+
+
+def _proved_nearby(
+    rows: arb_mat, weights: Sequence[Fraction], names: Sequence[str], shown: arb_mat | None
+) -> LargestEllipsoid:
+    """The same by X near M^-1/2, where the box is too wide for M^-1."""
+    count, n = rows.nrows(), rows.ncols()
+    weighted = arb_mat([[n * ball_of(weights[i]) * rows[i, j] for j in range(n)] for i in range(count)])
+    x = inverse_root(rows.transpose() * weighted)
+    if x is None:
+        raise InputError(_WIDE)
+    reach = rows * x
+    near = x.transpose() * (rows.transpose() * weighted) * x
+    defect = norm([near[i, j] - int(i == j) for i in range(n) for j in range(n)])
+    most = arb(0)
+    for i in range(count):
+        most = most.max(sum((reach[i, j] * reach[i, j] for j in range(n)), arb(0)).abs_upper())
+    gap = (most / (1 - defect) - 1).abs_upper()
+    if not defect < 1 or not gap < 1:
+        raise InputError(_WIDE)
+    inner = x * x.transpose() / most
+    values = eigenvalues(x * x.transpose())
+    if values is None or not values[0] > 0:
+        raise InputError(_WIDE)
+    factor = _between(n, gap) / (1 + arb(0, defect))
+    return _found(weights, gap, [value * factor for value in values], inner, names, shown)
 
 
 def proposed_weights(rows: arb_mat) -> list[Fraction]:

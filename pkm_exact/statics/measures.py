@@ -20,7 +20,7 @@ from pkm_exact.polytopes.polytope import Polytope
 from pkm_exact.precision import working_precision
 from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.capability import velocity_polytope
-from pkm_exact.statics.eigenvalues import eigenvalues
+from pkm_exact.statics.eigenvalues import gram_eigenvalues
 from pkm_exact.statics.freedom import Freedom
 from pkm_exact.statics.limits_of_actuators import ActuatorLimits
 
@@ -81,7 +81,7 @@ class Measures:
         if matrix.nrows() < matrix.ncols():
             raise RefusedError("has no meaning with fewer actuators than freedoms")
         with working_precision(BITS):
-            found = eigenvalues(matrix.transpose() * matrix)
+            found = gram_eigenvalues(matrix)
             if found is None or not found[0] > 0:
                 raise RefusedError("is not decided: J is singular, or the pose is not enclosed narrowly enough")
             return [value.sqrt() for value in found]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Final
 
-from pkm_exact.certify.checker.spelling import choice, entries, integer, items, positive, rational, text
+from pkm_exact.certify.checker.spelling import entries, integer, items, positive, rational, text
 from pkm_exact.certify.checker.statics_box_document import (
     FORM,
     BoxEllipsoid,
@@ -25,7 +25,7 @@ from pkm_exact.certify.checker.statics_box_document import (
     velocity_of,
     wrench_of,
 )
-from pkm_exact.certify.checker.statics_document import FORMAT, MAX_LEGS, vector_of, whole
+from pkm_exact.certify.checker.statics_document import MAX_LEGS, vector_of, whole
 from pkm_exact.certify.checker.verdict import malformed, too_large
 
 KEYS: Final = (
@@ -106,7 +106,6 @@ class EquationStatics:
 def read_equation_statics(body: dict[str, Any]) -> EquationStatics:
     """The content of a certificate; a refusal if it is not one."""
     values = dict(zip(KEYS, entries(body, "certificate", KEYS), strict=True))
-    choice(values["format"], "format", (FORMAT,))
     text(values["name"], "name")
     text(values["unit"], "unit")
     if values["solution"] is not None:
@@ -191,8 +190,6 @@ def _equation(value: Any, where: str, actuators: int) -> DrivenEquation:
         found = rational(factor, f"{where}.square.factor"), read(root, f"{where}.square.form")
         if found[0] == 0:
             raise malformed(f"{where}.square.factor: is 0")
-    if isinstance(rates, list) and len(rates) > actuators:
-        raise malformed(f"{where}.rates: more than actuators")
     pairs = items(rates, f"{where}.rates", None, _rate)
     names = [actuator for actuator, _ in pairs]
     if names != sorted(set(names)) or not set(names) <= set(range(actuators)):
