@@ -83,9 +83,9 @@ def inverse_root(matrix: arb_mat) -> arb_mat | None:
     """
     n = matrix.nrows()
     middle = np.array([[float(matrix[i, j].mid()) for j in range(n)] for i in range(n)])
-    scales = 1 / np.sqrt(np.abs(np.diag(middle)))
-    if not np.isfinite(scales).all():
+    if not np.isfinite(middle).all() or not (np.diag(middle) > 0).all():
         return None
+    scales = 1 / np.sqrt(np.diag(middle))
     values, vectors = np.linalg.eigh(middle * np.outer(scales, scales))
     if not values[0] > 0:
         return None
