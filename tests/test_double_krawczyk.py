@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -14,6 +15,8 @@ from budgets import budget
 from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
+from mpmath import mp
+from numpy.typing import NDArray
 from samples import shipped
 from test_numeric_krawczyk import random_robot
 
@@ -21,6 +24,7 @@ from pkm_exact.numeric import certification, double_boxes
 from pkm_exact.numeric.certified_boxes import certified
 from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX
 from pkm_exact.numeric.double_forms import DoubleForms
+from pkm_exact.numeric.double_jacobians import _extremes
 from pkm_exact.numeric.double_krawczyk import DoubleEquations, Proofs, double_proofs
 from pkm_exact.numeric.double_poses import double_cells, double_coordinates
 from pkm_exact.numeric.double_rounding import LARGE, two_product, twofold_sums
@@ -269,3 +273,35 @@ def test_numbers_beyond_doubles_are_left_to_ball_arithmetic(monkeypatch: Patch) 
     monkeypatch.setattr(DoubleForms, "of", too_large)
     again = solve_krawczyk(shipped("3-rrr"))
     assert (again.method, again.isolated, again.poses) == ("krawczyk", expected.isolated, expected.poses)
+
+
+def _sizes(diagonal: NDArray[Any], part: NDArray[Any]) -> list[Fraction]:
+    """The smallest and the largest singular value of the sum, far more exactly than doubles."""
+    with mp.workdps(60):
+        values = mp.svd_r(mp.diag(diagonal.tolist()) + mp.matrix(part.tolist()), compute_uv=False)
+        return [Fraction(str(value)) for value in (min(values), max(values))]
+
+
+def test_bounds_of_extreme_singular_values_hold_whatever_the_gaps() -> None:
+    """Also between corners of what is lacking, and where the bounds are all that is there."""
+    random = np.random.default_rng(3)
+    narrow = 0
+    for size, spread, noise in itertools.product((1, 2, 3, 6), (0.0, 1e-9, 1e-3, 0.5), (1e-12, 1e-6, 1e-2)):
+        diagonal = 1 + spread * random.standard_normal(size)
+        lacking = noise * random.random((size, size))
+        bounds = list(_extremes(diagonal[None], lacking[None]))
+        narrow += sum(bool(radius[0] < np.linalg.norm(lacking)) for _, radius in bounds)
+        for _ in range(3):
+            signs = random.choice((-1.0, 1.0), (size, size))
+            found = _sizes(diagonal, signs * lacking)
+            for value, (middle, radius) in zip(found, bounds, strict=True):
+                assert abs(value - Fraction(float(middle[0]))) <= Fraction(float(radius[0]))
+    assert narrow > 20
+
+
+def test_a_singular_value_moves_by_its_own_entry_and_the_square_of_the_others() -> None:
+    lacking = np.full((1, 3, 3), 1e-5)
+    lacking[0, range(3), range(3)] = 1e-12
+    for middle, radius in _extremes(np.array([[1.0, 2.0, 4.0]]), lacking):
+        assert float(middle[0]) in (1.0, 4.0)
+        assert 1e-10 < float(radius[0]) < 1.3e-9

@@ -2,15 +2,20 @@
 
 They are those of ``poses.jacobian``. With A computed to within E entry by entry, and singular vectors U, V of it that
 are guesses, U^T A V is nearly diagonal: its singular values are within the Frobenius norm of all that is not (its other
-entries, |U|^T E |V|, and roundings) of the diagonal (Weyl). Those of A are these times factors between the extreme
-singular values of U^-1 and V^-1, which |U^T U - 1| bounds. The sign of the determinant is that of the factorisation
-P A = L R with partial pivoting: L R is off by gamma(n) |L| |R| entry by entry (Higham, Accuracy and Stability of
-Numerical Algorithms, theorem 9.3), where |l| <= 1 and |r| <= 2^(n-1) max |a|. If that and E together are smaller than
-the smallest singular value, all matrices on the way from L R to A are regular, and their determinants have one sign.
+entries, |U|^T E |V|, and roundings) of the diagonal (Weyl). The smallest and the largest are known better if a gap is
+between them and the others: without the other entries of its row and its column, of norm x, such a one is the diagonal
+entry, and with them it moves by x^2 / gap at most (Li and Li, "A note on eigenvalues of perturbed Hermitian matrices",
+Linear Algebra Appl. 395 (2005), theorem 2, for the matrix with blocks 0, B, B^T, 0, whose eigenvalues are the singular
+values of B and their negatives). Those of A are these times factors between the extreme singular values of U^-1 and
+V^-1, which |U^T U - 1| bounds. The sign of the determinant is that of the factorisation P A = L R with partial
+pivoting: L R is off by gamma(n) |L| |R| entry by entry (Higham, Accuracy and Stability of Numerical Algorithms, theorem
+9.3), where |l| <= 1 and |r| <= 2^(n-1) max |a|. If that and E together are smaller than the smallest singular value,
+all matrices on the way from L R to A are regular, and their determinants have one sign.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from math import sqrt
 from typing import Final
@@ -110,14 +115,14 @@ def _decided(matrices: Real, off: Real, length: Fraction) -> list[LegJacobian | 
     around = np.abs(left.transpose(0, 2, 1)) @ (np.abs(matrices) * 2 * gamma(size + 1) + off)
     rest = around @ np.abs(right.transpose(0, 2, 1)) * (1 + gamma(4 * size))
     diagonal = np.einsum("pii->pi", products)
-    shift = _norm(np.abs(products * (1 - np.eye(size))) + rest)
+    lacking = np.abs(products * (1 - np.eye(size))) + rest
     unit = [_norm(np.abs(v.transpose(0, 2, 1) @ v - np.eye(size)) + gamma(2 * size)) for v in (left, right)]
     is_unit = (unit[0] < 1 / 4) & (unit[1] < 1 / 4)
     stretch = np.sqrt((1 + unit[0]) * (1 + unit[1])) * OUTWARD
     shrink = np.sqrt((1 - unit[0]) * (1 - unit[1])) / OUTWARD
-    sizes = np.abs(diagonal)
-    low, high = (sizes - shift[:, None]) / stretch[:, None], (sizes + shift[:, None]) / shrink[:, None]
-    least, largest = (low.min(axis=1), high.min(axis=1)), (low.max(axis=1), high.max(axis=1))
+    least, largest = (
+        ((middle - radius) / stretch, (middle + radius) / shrink) for middle, radius in _extremes(diagonal, lacking)
+    )
     growth = gamma(size) * size**2 * 2.0 ** (size - 1) * np.abs(matrices).max(axis=(1, 2))
     is_regular = is_unit & (least[0] > (growth + _norm(off)) * OUTWARD + SMALL)
     signs = np.linalg.slogdet(matrices)[0]
@@ -127,6 +132,30 @@ def _decided(matrices: Real, off: Real, length: Fraction) -> list[LegJacobian | 
         LegJacobian(int(sign), size, sigma, condition, length) if sigma and condition and sign else None
         for sign, sigma, condition in zip(signs.tolist(), smallest, conditions, strict=True)
     ]
+
+
+def _extremes(diagonal: Real, lacking: Real) -> Iterator[tuple[Real, Real]]:
+    """The smallest and the largest singular value of nearly diagonal matrices, and how far they are off at most.
+
+    Parameters
+    ----------
+    diagonal : (p, n) array
+        Of the matrices.
+    lacking : (p, n, n) array
+        How much there is beside it, at most.
+    """
+    count, size = diagonal.shape
+    sizes, shift, rows = np.abs(diagonal), _norm(lacking), np.arange(count)
+    order = np.argsort(sizes, axis=1)
+    beside = lacking * (1 - np.eye(size))
+    crosses = (beside * beside).sum(axis=1) + (beside * beside).sum(axis=2)
+    for place, neighbour in ((0, min(1, size - 1)), (-1, max(-2, -size))):
+        chosen = order[:, place]
+        middle = sizes[rows, chosen]
+        # Half of what is surely between it and the others: roundings cannot matter.
+        gap = np.abs(sizes[rows, order[:, neighbour]] - middle) / 2 - shift
+        radius = (lacking[rows, chosen, chosen] + crosses[rows, chosen] / np.where(gap > 0, gap, 1)) * OUTWARD + SMALL
+        yield middle, np.where(gap > 0, np.minimum(radius, shift), shift)
 
 
 def _norm(matrices: Real) -> Real:
