@@ -48,7 +48,17 @@ def test_the_cells_have_the_mixed_volume(text: str, volume: int) -> None:
     assert subdivision_for(system, volume + 1, Policy()) is None
 
 
-def test_solutions_at_infinity_are_no_obstacle() -> None:
-    found = solve_system(["x = 2 + 3*x*y*z^2", "y = 5 - x^2*z*y", "z = 1 + 7*x*y*z"])
+CURVE_AT_INFINITY = ["x = 2 + 3*x*y*z^2", "y = 5 - x^2*z*y", "z = 1 + 7*x*y*z"]
+
+
+def test_cells_are_counted_where_an_elimination_is_costly(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert solve_system(CURVE_AT_INFINITY).completeness_route == "exact-elimination"
+    monkeypatch.setattr("pkm_exact.systems.no_more_solutions._COSTLY", 0)
+    found = solve_system(CURVE_AT_INFINITY)
     assert found.completeness_route == "mixed-volume"
     assert both(found.certificate().data).status == "accepted"
+
+
+def test_an_elimination_goes_on_where_cells_are_too_many(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pkm_exact.systems.no_more_solutions._COSTLY", 0)
+    assert solve_system(["x*y + x = 2", "x^2*y + x^2 = 2"]).completeness_route == "exact-elimination"

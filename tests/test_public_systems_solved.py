@@ -41,7 +41,6 @@ LONG = (
     "cyclic-7",
     "filter9",
     "fourbar",
-    "ipp",
 )
 """Out of reach."""
 

@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Final
 
 from pkm_exact.algebra.elimination_trace import Trace
-from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
+from pkm_exact.algebra.exact_basis import CostlyMatrixError, ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
 from pkm_exact.algebra.groebner import GroebnerBasis, OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.modular_elimination import Elimination
@@ -34,6 +35,8 @@ from pkm_exact.systems.system_claims import SystemRoute
 from pkm_exact.systems.system_solution import ListProof, Steps
 from pkm_exact.systems.top_forms import elements_of, is_empty_in_space, number_of, room_for
 
+_COSTLY: Final = 10**8
+"""Mixed volumes are tried before a matrix over Q with more rows, squared, times bits."""
 MOST_WORK: Final = 10**10
 """Half of what checkers allow for any file (``docs/certificates.md``, "Work")."""
 
@@ -124,12 +127,31 @@ def prove_by_search(
     weights = found.filling(room)
     if room is not None and weights is not None:
         return ListProof(SystemRoute.COUNTING_AT_INFINITY, room, weights, infinity=points)
-    number = found.representation.degree
-    subdivision = subdivision_for(system, number, policy) if found.is_regular else None
-    if subdivision is not None:
+    cells = _Cells(found, system, policy)
+    proofs = (_by_elimination(basis, found, cells, watch) for basis in _eliminations(system, policy))
+    try:
+        return next((proof for proof in proofs if proof is not None), None) or cells.proof
+    except BeyondCheckersError:
+        if cells.proof is None:
+            raise
+        return cells.proof
+
+
+@dataclass(frozen=True)
+class _Cells:
+    """The proof by mixed volumes, looked for once: where an elimination is costly or comes to nothing."""
+
+    found: ListedSolutions
+    system: PolynomialSystem
+    policy: Policy
+
+    @cached_property
+    def proof(self) -> ListProof | None:
+        number = self.found.representation.degree
+        subdivision = subdivision_for(self.system, number, self.policy) if self.found.is_regular else None
+        if subdivision is None:
+            return None
         return ListProof(SystemRoute.MIXED_VOLUME, number, subdivision=subdivision)
-    proofs = (_by_elimination(basis, found, system, policy, watch) for basis in _eliminations(system, policy))
-    return next((proof for proof in proofs if proof is not None), None)
 
 
 def prove_inconsistent(system: PolynomialSystem, policy: Policy, watch: Watch | None = None) -> ListProof | None:
@@ -160,11 +182,18 @@ def _eliminations(system: PolynomialSystem, policy: Policy) -> Iterator[Groebner
 
 
 def _by_elimination(
-    modular: GroebnerBasis, found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None
+    modular: GroebnerBasis, found: ListedSolutions, cells: _Cells, watch: Watch | None
 ) -> ListProof | None:
     """The proof by polynomials over Q that follow: where degrees fall, or else by the whole algebra."""
+    system, policy = cells.system, cells.policy
     try:
-        basis = exact_basis(system, with_falls_only(modular), watch)
+        trace = with_falls_only(modular)
+        try:
+            basis = exact_basis(system, trace, watch, _COSTLY)
+        except CostlyMatrixError:
+            if cells.proof is not None:
+                return cells.proof
+            basis = exact_basis(system, trace, watch)
         room = number_of(len(system.unknowns), elements_of(basis), policy.dimension_limit, policy, system.digest)
         enough = room is None or room >= found.weight
         require(enough, "there is room for fewer solutions than were verified", room=room or 0)
