@@ -5,6 +5,7 @@ from fractions import Fraction
 import pytest
 from certificate_tools import both_resealed, last_line
 from forged_at_infinity import AT_INFINITY
+from forged_clusters import CLUSTERS
 from forged_cylinder_boxes import WIDE, in_a_wide_box
 from forged_grids import GRIDS
 from forged_margins import MARGINS, huge
@@ -16,9 +17,9 @@ from pkm_exact.certify import pure
 from pkm_exact.certify.build import canonical_bytes, sealed
 
 
-@pytest.mark.parametrize("name", [*MARGINS, *SECTIONS, *TIGHT, *AT_INFINITY, *GRIDS, *RANKS, *WIDE])
+@pytest.mark.parametrize("name", [*MARGINS, *SECTIONS, *TIGHT, *AT_INFINITY, *GRIDS, *RANKS, *WIDE, *CLUSTERS])
 def test_a_margin(name: str) -> None:
-    make, status = (MARGINS | SECTIONS | TIGHT | AT_INFINITY | GRIDS | RANKS | WIDE)[name]
+    make, status = (MARGINS | SECTIONS | TIGHT | AT_INFINITY | GRIDS | RANKS | WIDE | CLUSTERS)[name]
     answer = both_resealed(make())
     assert answer.status == status, last_line(answer)
 

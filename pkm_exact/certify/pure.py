@@ -1483,11 +1483,8 @@ def has_dependent_lines(a: Polynomial, representation: Representation, legs: Seq
     this, they are 0.
     """
     bound = determinant(leg_lines(legs, sized_motion(representation, g)))
-    n = next(prime_exponents((bound.size * size(a) ** bound.degree).bit_length() + 1))
-    try:
-        placed = motion_modulo(representation, g, a, (1 << n) - 1)
-    except ValueError:  # the leading coefficient has no inverse
-        return False
+    n = exponent_above(bound.size * size(a) ** bound.degree, a[-1])
+    placed = motion_modulo(representation, g, a, (1 << n) - 1)
     return not determinant(leg_lines(legs, placed)).polynomial()
 
 
@@ -1783,6 +1780,11 @@ def prime_exponents(least: int) -> Iterator[int]:
             spend(10**7)
             if all(pow(2, n, 2 * k * n + 1) != 1 for k in range(1, 1000)):
                 yield n
+
+
+def exponent_above(bound: int, lead: int) -> int:
+    """An n for which 2^n - 1 is above a bound, and modulo which a number has an inverse."""
+    return next(n for n in prime_exponents(bound.bit_length() + 1) if gcd(lead, (1 << n) - 1) == 1)
 
 
 def pivots_modulo(matrix: Sequence[Mapping[int, int]], n: int) -> tuple[set[int], list[Mapping[int, int]]]:
@@ -2595,8 +2597,6 @@ def has_one_solution(system: System, box: Box, p: int) -> bool:
     """
     slopes = system.slopes(box.centre)
     y = near_inverse(slopes, p)
-    if y is None:
-        return False
     spend(16 * len(y) ** 3 * fraction_cost(max(map(bits_of, y)), max(map(bits_of, slopes)) + bits_of(box.centre)))
     reach = [(1 if box.real else 2) * r for r in box.radius]
     bends = system.bends(box.centre, reach)
@@ -2624,16 +2624,15 @@ def norm_is_not_zero(system: System, box: Box) -> bool:
     return value.largest() > change
 
 
-def near_inverse(matrix: Sequence[Sequence[Gaussian]], p: int) -> list[list[Gaussian]] | None:
-    """A matrix near the inverse, by elimination in units of 2^-p, rounded; None if a pivot vanishes.
+def near_inverse(matrix: Sequence[Sequence[Gaussian]], p: int) -> list[list[Gaussian]]:
+    """A matrix near the inverse, by elimination in units of 2^-p, rounded; zeros, which prove nothing, without one.
 
     Rows are first brought to about the size of 1, whatever numbers the equations have: scales are powers of 2.
     """
+    nothing = [[NULL] * len(matrix) for _ in matrix]
     n, rows, scales = len(matrix), [], []
     for i, row in enumerate(matrix):
         largest = max(entry.size() for entry in row)
-        if not largest:
-            return None
         scales.append(Fraction(2) ** (largest.denominator.bit_length() - largest.numerator.bit_length()))
         scale = scales[-1] * (1 << p)
         unit = [(int(i == j) << p, 0) for j in range(n)]
@@ -2646,7 +2645,7 @@ def near_inverse(matrix: Sequence[Sequence[Gaussian]], p: int) -> list[list[Gaus
         c, d = rows[column][column]
         norm = c * c + d * d
         if not norm:
-            return None
+            return nothing
         rows[column] = [((a * c + b * d << p) // norm, (b * c - a * d << p) // norm) for a, b in rows[column]]
         for i in range(n):
             c, d = rows[i][column]
@@ -2667,8 +2666,6 @@ def narrowed(system: System, box: Box, p: int) -> Box | None:
     for precision in precisions:
         slopes = system.slopes(x)
         y = near_inverse(slopes, precision)
-        if y is None:
-            return None
         values = system.values(x, slopes)
         spend(10 * len(y) ** 2 * fraction_cost(max(map(bits_of, y)), bits_of(values)))
         steps = [total(a * b for a, b in zip(row, values, strict=True)) for row in y]
@@ -2996,7 +2993,7 @@ class Rectangle:
     def largest(self) -> int:
         """At least the largest absolute value, times 2^p."""
         re, im = self.re.largest(), self.im.largest()
-        return isqrt(re * re + im * im) + 1 if im else re
+        return isqrt(re * re + im * im) + 1
 
     def conjugate(self) -> Rectangle:
         """The conjugate numbers."""
@@ -3141,7 +3138,7 @@ class Neighbourhood:
     ``slope`` is Y F'(m) of the nominal robot; ``curvature[a][b]`` are the derivatives of the entry (a, b) of Y F'.
     """
 
-    def __init__(self, family: Family, place: Place, exponent: int, name: str) -> None:
+    def __init__(self, family: Family, place: Place, exponent: int) -> None:
         self.family = family
         self.exponent = exponent
         self.real = place.is_real()
@@ -3152,8 +3149,7 @@ class Neighbourhood:
         self.centre = [family.rectangle(pair, exponent) for pair in place.centre]
         forms, jacobian = family.forms(), self.jacobian()
         inverse = near_inverse([[midpoint(entry) for entry in row] for row in jacobian], family.p)
-        require(inverse is not None, f"{name}: the Jacobian at its centre seems singular")
-        self.inverse = [[exact_rectangle(entry, family.p) for entry in row] for row in inverse or ()]
+        self.inverse = [[exact_rectangle(entry, family.p) for entry in row] for row in inverse]
         quantities = family.quantities(self.centre, self.nothing)
         self.residual = [self.form_value(row, quantities) for row in forms]
         self.residual.append(self.chart_value() - one)
@@ -3253,8 +3249,7 @@ class Neighbourhood:
         for _ in range(SHRINKINGS):
             if self.is_regular(widths):
                 return True
-            unit = self.family.p - self.exponent
-            sizes = [(max(v.re.largest(), v.im.largest()) >> unit) + 1 for v in self.image(widths, uncertain=True)]
+            sizes = self.reached(self.image(widths, uncertain=True))
             narrower = [min(pair) for pair in zip(sizes, widths, strict=True)]
             if narrower == list(widths):
                 return False
@@ -3266,21 +3261,18 @@ class Neighbourhood:
         return not self.family.quantities(self.around(widths), self.nothing)[0].contains_zero()
 
     def is_regular(self, widths: Sequence[int]) -> bool:
-        """Whether F' is regular, and N(e) not 0, all over the box, for all robots; then Y is regular too.
+        """Whether F' is regular all over the box, for all robots; then Y is regular too.
 
         By v > 0 with |1 - Y F'| v < v: the spectral radius is below 1.
         """
         p, size = self.family.p, len(widths)
         bounds = [[entry.largest() for entry in row] for row in self.defect(widths, uncertain=True)]
         sums = near_inverse(less_than_one(bounds, p), p)
-        if sums is None:
-            return False
         vector = [int(sum((entry.re for entry in row), Fraction(0)) * (1 << p)) for row in sums]
         bits = max(map(most_bits, (*bounds, vector)))
         spend(size**2 * (200 + product_cost(bits, bits)))
         images = [sum(b * v for b, v in zip(row, vector, strict=True)) for row in bounds]
-        shrinks = all(v > 0 and image < v << p for v, image in zip(vector, images, strict=True))
-        return shrinks and self.has_poses(widths)
+        return all(v > 0 and image < v << p for v, image in zip(vector, images, strict=True))
 
     def is_nearest(self, widths: Sequence[int]) -> bool:
         """Whether the nominal solution, which is in the box, is within 1/2 + 2^-20 units of the grid of the centre.
@@ -3298,10 +3290,13 @@ class Neighbourhood:
                 parts = [part for value in found for part in (value.re, value.im)]
                 if all(part.largest() < limit for part in parts):
                     return True
-                if any(part.low > limit or part.high < -limit for part in parts):
-                    return False
-            widths = [(max(v.re.largest(), v.im.largest()) >> unit) + 1 for v in found]
+            widths = self.reached(found)
         return False
+
+    def reached(self, values: Sequence[Rectangle]) -> list[int]:
+        """Half widths of a box around 0 with these values, in units of the grid."""
+        unit = self.family.p - self.exponent
+        return [(max(v.re.largest(), v.im.largest()) >> unit) + 1 for v in values]
 
     def motion_in(self, widths: Sequence[int]) -> list[Rectangle]:
         """Rotation and position on a box, in the new frames."""
@@ -3347,7 +3342,7 @@ def check_tolerances(certificate: ToleranceCertificate) -> Iterator[str]:
     cores = []
     for box in certificate.boxes:
         name = f"box of pose {box.pose}"
-        at = Neighbourhood(family, box.place, certificate.exponent, name)
+        at = Neighbourhood(family, box.place, certificate.exponent)
         require(at.real, f"{name}: not real")
         check_place(at, box.place, core, name)
         check_pose_box(at, box, name)
@@ -3392,10 +3387,9 @@ def check_pose_box(at: Neighbourhood, box: PoseBox, name: str) -> None:
     require(inside, f"{name}: the inner box is not contained in the outer one")
     holds = at.contracts(box.inner, uncertain=True)
     require(holds, f"{name}: the inner box is not proved to hold a solution of every robot within tolerance")
-    inverses = inverse_jacobians(at, box.inner)
-    require(inverses is not None, f"{name}: the Jacobian is not proved regular in it")
+    inverses = inverse_jacobians(at, box.inner, name)
     effect = [
-        [inner_product(row, column) for column in zip(*inverses or (), strict=True)]
+        [inner_product(row, column) for column in zip(*inverses, strict=True)]
         for row in components(family, [side.re for side in at.around(box.inner)])[1]
     ]
     legs = range(0 if family.planar else 1, len(family.places) - 1)
@@ -3415,12 +3409,12 @@ def check_pose_box(at: Neighbourhood, box: PoseBox, name: str) -> None:
         require(is_proved, f"{name}: its {what} error is not proved")
 
 
-def inverse_jacobians(at: Neighbourhood, widths: Sequence[int]) -> list[list[Interval]] | None:
+def inverse_jacobians(at: Neighbourhood, widths: Sequence[int], name: str) -> list[list[Interval]]:
     """Enclosures of the inverses of all matrices in F', real, on the box of half the size.
 
     They are regular on the whole box. With M = 1 - Y F' they are V = Y + M Y + M^2 Y + .., and |V - Y| is at most the
     least S that is not negative and not less than |M| (|Y| + S). One near it is computed and tried, a little larger
-    each time. None if none is found.
+    each time.
     """
     p, size = at.family.p, len(widths)
     m = [[entry.re.largest() for entry in row] for row in at.defect(widths, uncertain=True, half=True)]
@@ -3434,8 +3428,6 @@ def inverse_jacobians(at: Neighbourhood, widths: Sequence[int]) -> list[list[Int
         columns = list(zip(*other, strict=True))
         return [[-(-sum(a * b for a, b in zip(row, c, strict=True)) >> p) for c in columns] for row in matrix]
 
-    if powers is None:
-        return None
     sizes = [[entry.largest() for entry in row] for row in y]
     sums = [[max(0, int(entry.re * (1 << p))) for entry in row] for row in powers]
     reach = applied(sums, applied(m, sizes))
@@ -3446,7 +3438,7 @@ def inverse_jacobians(at: Neighbourhood, widths: Sequence[int]) -> list[list[Int
             return [
                 [v + Interval(-r, r, p) for v, r in zip(row, by, strict=True)] for row, by in zip(y, reach, strict=True)
             ]
-    return None
+    raise Refusal("rejected", f"{name}: the Jacobian is not proved regular in it")
 
 
 def components(family: Family, x: Sequence[Interval]) -> tuple[list[Interval], list[list[Interval]]]:
@@ -3540,7 +3532,7 @@ def check_all_solutions(
     require(keys == sorted(keys), "pairs: not listed in their order")
     for number, place in enumerate(certificate.pairs, 1):
         name = f"pair {number}"
-        at = Neighbourhood(family, place, certificate.exponent, name)
+        at = Neighbourhood(family, place, certificate.exponent)
         check_place(at, place, core, name)
         holds = at.contracts(place.outer, uncertain=True)
         require(holds, f"{name}: not proved to hold a solution of every robot within tolerance")

@@ -414,12 +414,10 @@ def holds_one(polynomials: Sequence[pure.Terms], box: Box) -> bool:
     values = [scaled_value(terms, middle, k, degree + 1).low for terms in polynomials]
     matrix = [[pure.Gaussian(Fraction(value, 1 << k * degree), Fraction(0)) for value in row] for row in at_m]
     for p in precisions(k):
-        near = pure.near_inverse(matrix, p)
-        if near is not None:
-            y = [[round(entry.re * (1 << p)) for entry in row] for row in near]
-            pure.spend(3 * n**3 * pure.product_cost(bits, p + pure.most_bits(v for row in y for v in row)))
-            if is_contracted(y, in_x, values, box.radius, p + k * degree):
-                return True
+        y = [[round(entry.re * (1 << p)) for entry in row] for row in pure.near_inverse(matrix, p)]
+        pure.spend(3 * n**3 * pure.product_cost(bits, p + pure.most_bits(v for row in y for v in row)))
+        if is_contracted(y, in_x, values, box.radius, p + k * degree):
+            return True
     return False
 
 

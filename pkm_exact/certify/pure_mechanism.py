@@ -727,12 +727,9 @@ def large_determinants(
     pure.spend(slopes.number * m << m)
     bounds = determinants(slopes, pure.sized_motion(representation, slopes.robot.metric), rank)
     bound = max(each.size * pure.size(a) ** each.degree for each in bounds)
-    for n in pure.prime_exponents(bound.bit_length() + 1):
-        modulus = (1 << n) - 1
-        if gcd(a[-1], modulus) == 1:
-            break
+    n = pure.exponent_above(bound, a[-1])
     spend_on_determinants(m, len(a), n)
-    placed = pure.motion_modulo(representation, slopes.robot.metric, a, modulus)
+    placed = pure.motion_modulo(representation, slopes.robot.metric, a, (1 << n) - 1)
     for each in determinants(slopes, placed, rank):
         spend_on_determinants(m, len(a), n)
         yield each.polynomial()
