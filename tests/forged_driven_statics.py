@@ -106,6 +106,6 @@ DRIVEN: dict[str, Row] = merged(
         "driven: a direction of numbers": (
             put(SLIDES, [1, 0, 0], "legs", 0, "direction"), "malformed", "legs[1].direction"
         ),
-        "driven: version 4": (put(SLIDES, 4, "version"), "malformed", "format: not a"),
+        "driven: version 5": (put(SLIDES, 5, "version"), "malformed", "format: not a"),
     },
 )  # fmt: skip

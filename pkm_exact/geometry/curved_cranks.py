@@ -99,7 +99,7 @@ def _equation(
 
 def _meant(drive: Drive, value: Fraction | None) -> Fraction:
     if value is None:
-        raise InputError(f"{shown(drive.name)}: the direction that it turns is 0 at an angle; give another geometry")
+        raise InputError(f"{shown(drive.name)}: a direction turned by it is 0 at an angle; give another geometry")
     return value
 
 
