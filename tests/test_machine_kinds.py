@@ -33,7 +33,7 @@ from pkm_exact.geometry.working_modes import CrankMode, FreeCrank, Mode
 from pkm_exact.interactive.answer_notes import answer_notes
 from pkm_exact.motions.motion_groups import MOTIONS
 from pkm_exact.solution import Solution
-from pkm_exact.templates.machine_text import machine_text
+from pkm_exact.templates.machine_text import given_dimensions, machine_text
 
 Capture = pytest.CaptureFixture[str]
 TURN = (Fraction(3), Fraction(1), Fraction(-1), Fraction(2))
@@ -282,6 +282,33 @@ def test_new_writes_every_kind(name: str, tmp_path: Path, capsys: Capture) -> No
     assert err == ""
     assert out.startswith(f"{path}: {name}, home: ")
     assert read_robot(path) == replace(drawn(name), name="mine", source=tomllib.loads(path.read_text())["source"])
+
+
+VARIANTS = [(name, word) for name, kind in MACHINES.items() for word in kind.homes]
+
+
+def _is_quick(word: tuple[str, str]) -> bool:
+    return word[0] == "driven"
+
+
+@pytest.mark.parametrize(
+    ("name", "word"),
+    [pytest.param(*one, marks=[] if _is_quick(one[1]) else pytest.mark.slow) for one in VARIANTS if one[1][1] != "6"],
+)
+def test_new_writes_kinds_with_other_joints(name: str, word: tuple[str, str], tmp_path: Path) -> None:
+    """Those with six freedoms are solved by others: a joint on a cylinder makes 320 poses."""
+    path = tmp_path / "mine.toml"
+    assert main(["new", "--kind", name, "--dimension", "=".join(word), "-o", str(path)]) == 0
+    robot = read_robot(path)
+    assert isinstance(robot, Mechanism)
+    assert len(robot.actuated) == (3 if word[0] == "driven" else int(word[1]))
+
+
+@pytest.mark.parametrize(("name", "word"), VARIANTS)
+def test_examples_with_other_joints_have_values_for_all_of_them(name: str, word: tuple[str, str]) -> None:
+    kind = MACHINES[name]
+    robot = robot_from_toml(machine_text(kind, "r", "mm", given_dimensions(kind, ("=".join(word),))))
+    assert len(robot.configuration().values) == len(robot.actuated)  # type: ignore[union-attr]
 
 
 NO_MACHINE = [

@@ -13,6 +13,7 @@ from pkm_exact.wording import shown
 
 _COLUMN: Final = 42
 _LONGEST: Final = 2000
+_WORD: Final = re.compile(r"-?[0-9A-Za-z]+", re.ASCII)
 _FRACTION: Final = re.compile(r"-?[0-9]+/[0-9]+", re.ASCII)
 
 
@@ -24,6 +25,8 @@ def given_dimensions(kind: MachineKind, words: Sequence[str]) -> dict[str, str]:
     >>> from pkm_exact.geometry.machines.machine_kinds import MACHINES
     >>> given_dimensions(MACHINES["delta"], ["arm=1/3"])
     {'arm': '"1/3"'}
+    >>> given_dimensions(MACHINES["P-FUS"], ["freedoms=4"])
+    {'freedoms': '"4"'}
     """
     known = [key for dimension in kind.dimensions for key in (dimension.key, *dimension.also)]
     found: dict[str, str] = {}
@@ -33,8 +36,14 @@ def given_dimensions(kind: MachineKind, words: Sequence[str]) -> dict[str, str]:
             raise InputError(f"--dimension: {shown(word)} is none of a {kind.name}; give one of: {', '.join(known)}")
         if not value.isprintable() or len(value) > _LONGEST:
             raise InputError(f"--dimension {key}: {shown(value)} is no value; give a number, or a list of numbers")
-        found[key] = f'"{value}"' if _FRACTION.fullmatch(value) else value
+        found[key] = f'"{value}"' if _FRACTION.fullmatch(value) or _is_bare(kind, key, value) else value
     return found
+
+
+def _is_bare(kind: MachineKind, key: str, value: str) -> bool:
+    """Whether it is a word without its quotes, as it is written on a command line."""
+    is_word = any(found.key == key and found.is_optional and found.example.startswith('"') for found in kind.dimensions)
+    return is_word and _WORD.fullmatch(value) is not None
 
 
 def machine_text(kind: MachineKind, name: str, unit: str, given: Mapping[str, str] | None = None) -> str:
@@ -65,7 +74,7 @@ def machine_text(kind: MachineKind, name: str, unit: str, given: Mapping[str, st
         "# Locked actuators, under a name; as many of these tables as you like. The first is what `solve` takes.",
         "[[configurations]]",
         'name = "home"',
-        *(f"{key} = {value}" for key, value in kind.home.items()),
+        *(f"{key} = {value}" for key, value in kind.home_with(chosen).items()),
     ]
     return "\n".join(lines) + "\n"
 

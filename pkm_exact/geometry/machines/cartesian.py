@@ -61,4 +61,5 @@ CARTESIAN: Final = MachineKind(
     assemble,
     {"half_tangents": '[0, 1, "1/4"]'},
     ((0, 1, 0), (1, 0, 0, 0)),
+    homes={("driven", "P"): {"offsets": '["1/2", "2/5", "3/5"]'}},
 )

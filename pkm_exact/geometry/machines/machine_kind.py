@@ -140,6 +140,8 @@ class MachineKind:
         Whether the number that its name begins with may be another one (``machine_kinds.machine_kind``).
     own_metric : bool
         Whether a model file may give another one: no recipe with triangles lets it.
+    homes : mapping of (str, str) to mapping
+        Configurations of the example where a dimension has a word that asks for other joint values.
     """
 
     name: str
@@ -153,6 +155,12 @@ class MachineKind:
     has_modes: bool = True
     any_count: bool = False
     own_metric: bool = False
+    homes: Mapping[tuple[str, str], Mapping[str, str]] = field(default_factory=lambda: MappingProxyType({}))
+
+    def home_with(self, chosen: Mapping[str, str]) -> Mapping[str, str]:
+        """A configuration for dimensions that are given as a model file has them."""
+        words = ((key, value.strip('"')) for key, value in chosen.items())
+        return next((self.homes[word] for word in words if word in self.homes), self.home)
 
     @property
     def tables(self) -> tuple[str, ...]:

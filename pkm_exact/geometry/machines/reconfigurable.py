@@ -74,4 +74,9 @@ P_FUS: Final = MachineKind(
     {"slides": "[30, 35, 27]"},
     ((0, 0, 60), (1, 0, 0, 0)),
     METRIC,
+    homes={
+        ("freedoms", "4"): {"slides": "[30, 35, 27]", "half_tangents": '["5/3"]'},
+        ("freedoms", "5"): {"slides": "[30, 35, 27]", "half_tangents": '["6/5", "3/2"]'},
+        ("freedoms", "6"): {"slides": "[30, 35, 27]", "half_tangents": '[1, "1/2", 1]'},
+    },
 )

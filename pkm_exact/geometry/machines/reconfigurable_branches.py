@@ -37,6 +37,18 @@ from pkm_exact.motions.motion_groups import SPATIAL
 _ZERO: Final = Fraction(0)
 _ONE: Final = Fraction(1)
 _MODE: Final = "of the mode: as many legs as that are attached"
+_DETACHED: Final = '"4/7"', '"5/8"', '"5/9"'
+"""Half tangents of the detachable cranks of examples."""
+
+
+def _homes(fixed: Callable[[int], dict[str, tuple[str, ...]]]) -> dict[tuple[str, str], dict[str, str]]:
+    """Examples with more freedoms: the values of the fixed legs, then those of detachable cranks."""
+    found = {}
+    for free in (1, 2, 3):
+        values = fixed(free)
+        values["half_tangents"] = (*values.get("half_tangents", ()), *_DETACHED[:free])
+        found["freedoms", str(3 + free)] = {key: f"[{', '.join(row)}]" for key, row in values.items() if row}
+    return found
 
 
 class _Legs:
@@ -141,6 +153,7 @@ R_TUS: Final = MachineKind(
     {"half_tangents": '["1/2", "2/3", "3/5"]'},
     ((0, 0, 150), (1, 0, 0, 0)),
     METRIC,
+    homes=_homes(lambda _: {"half_tangents": ('"1/2"', '"2/3"', '"3/5"')}),
 )
 UP_VS: Final = MachineKind(
     "UP-VS",
@@ -151,6 +164,7 @@ UP_VS: Final = MachineKind(
     {"lengths": "[150, 160, 145]"},
     ((0, 0, 120), (1, 0, 0, 0)),
     METRIC,
+    homes=_homes(lambda _: {"lengths": ("150", "160", "145")}),
 )
 CP_VS: Final = MachineKind(
     "CP-VS",
@@ -161,6 +175,7 @@ CP_VS: Final = MachineKind(
     {"slides": "[50, 50, 50]"},
     ((0, 0, 150), (1, 0, 0, 0)),
     METRIC,
+    homes=_homes(lambda free: {"slides": ("50", "53", "47")[: 3 - free], "lengths": ("70", "75", "66")[:free]}),
 )
 R_TCS: Final = MachineKind(
     "R-TCS",
@@ -171,4 +186,5 @@ R_TCS: Final = MachineKind(
     {"half_tangents": '["1/3", "1/3", "1/3"]'},
     ((0, 0, 150), (1, 0, 0, 0)),
     METRIC,
+    homes=_homes(lambda _: {"half_tangents": ('"1/3"', '"2/5"', '"3/8"')}),
 )
