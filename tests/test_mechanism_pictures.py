@@ -207,10 +207,21 @@ def test_slides_and_arm_of_a_carriage_end_amid_the_feet() -> None:
     assert not [shape for shape in scene_of(golden("carriage-hexapod"), None).shapes if shape.kind == "arm"]
 
 
+def test_the_platform_has_the_joints_of_all_that_holds_it() -> None:
+    """Of the R-TCS one leg is a rod on a crank; three joints are in planes and on a collar."""
+    for robot in (model("r-tcs"), None):
+        scene = scene_of(golden("r-tcs"), robot)
+        assert len(set(scene.platform)) == len(scene.platform) == 4
+        assert {round(hypot(*joint), 9) for joint in scene.platform} == {50}
+        joint = scene.platform[scene.legs[0][1]]
+        assert joint[:2] == pytest.approx((25, 25 * sqrt(3)))
+        assert len(scene.poses[0].platform) == 4
+
+
 def test_a_crank_with_a_free_collar_reaches_its_rod() -> None:
     kind = MACHINES["R-TCS"]
     text = machine_text(kind, "r", "mm", given_dimensions(kind, ('freedoms="4"',)))
-    robot = robot_from_toml(text.replace('"1/3", "1/3", "1/3"', '"1/3", "1/3", "3/4", 1'))
+    robot = robot_from_toml(text.replace('"1/3", "2/5", "3/8", "4/7"', '"1/3", "1/3", "3/4", 1'))
     assert isinstance(robot, Mechanism)
     (arm,) = drive_shapes(robot, robot.problem(robot.configuration()), (1.0, sqrt(3), 1.0))
     assert arm.name == "crank 3"

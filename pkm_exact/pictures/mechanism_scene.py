@@ -51,7 +51,8 @@ def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem, mach
         aside = bars or [_ORIGIN] * len(legs)
         knees = tuple(_beside(leg.base, axes, bar) for leg, bar in zip(legs, aside, strict=True))
         base = tuple(_beside(foot, axes, bar) for foot, bar in zip(feet, aside, strict=True))
-        platform = tuple(_ordinary(leg.platform, axes) for leg in legs)
+        held = [_ordinary(leg.platform, axes) for leg in legs]
+        platform = (*held, *(point for point in platform if point not in held and point != _ORIGIN))
         pairs = tuple((k, k) for k in range(len(legs)))
     on_sphere = not legs and mechanism.motion.name == SPHERICAL.name
     if on_sphere:
