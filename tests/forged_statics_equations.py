@@ -210,7 +210,7 @@ FORMAT: dict[str, Row] = {
     "a metric that is not positive": _with(["1", "0", "1"], "metric"),
     "freedoms twice": _with([0, 0], "freedoms"),
     "no freedoms": _with([], "freedoms"),
-    "freedoms beyond six": _with([0, 6], "freedoms"),
+    "freedoms beyond six": (CROSSED | {"freedoms": [0, 6], "free": [0, 6]}, "malformed", "freedoms"),
     "free ones that are none": _with([0, 2], "free"),
     "no free ones": _with([], "free"),
     "too few free ones": _with([0], "free", line="equations"),
@@ -348,6 +348,37 @@ SIZES: dict[str, Row] = {
 }
 
 
+def _sharp(third: list[str], vertices: list[tuple[int, int, int, int]]) -> Content:
+    """A square of wrenches that a third actuator touches in a corner: without width, so that it is met exactly."""
+    both = equation({4: 1}, {1: {16: 1}, 3: {16: 1}}), equation({5: 1}, {2: {16: 1}, 3: {16: 1}})
+    content = machine([0, 1], None, list(both), actuators=["1"] * 3, forces=[["-1", "1"], ["-1", "1"], third])
+    sides = [[[leg, side], [other, way]] for leg, side, other, way in vertices]
+    return content | {
+        "expansion": [[[x, x] for x in row] for row in (("1", "0", "1"), ("0", "1", "1"))],
+        "wrench_polytope": {
+            "facets": [list(side) for side in sorted({tuple(side) for pair in sides for side in pair})],
+            "vertices": [{"sides": pair, "at": [["-9", "9"]] * 2} for pair in sides],
+            "volume": None,
+        },
+    }
+
+
+CORNERS = [(1, a, 2, b) for a in (-1, 1) for b in (-1, 1)]
+TOUCHED: dict[str, Row] = {
+    f"a corner that is met at the {name}, {what}": (
+        _sharp(third, corners),
+        "rejected",
+        "wrench_polytope: whether there is",
+    )
+    for name, third, side in (("greatest", ["-5", "2"], 1), ("least", ["-2", "5"], -1))
+    for what, corners in (
+        ("as it were inside", [*CORNERS, (1, side, 3, side), (2, side, 3, side)]),
+        ("as it were outside", [corner for corner in CORNERS if corner != (1, side, 2, side)]),
+    )
+}
+TOUCHED["a corner that is not met"] = (_sharp(["-5", "3"], CORNERS), "accepted", "wrench polytope: 4 vertices")
+
+
 def _scaled(factor: Fraction, **entries: Any) -> Content:
     found = CROSSED["ellipsoid"]
     matrix = [[str(Fraction(x) * factor) for x in row] for row in found["matrix"]]
@@ -366,4 +397,4 @@ LISTS = {
     for key, row in _lists(HONEST[name], where)
 }
 SLOW = frozenset(name for name in dict(_numbers()) if name.endswith(("1", "2", "4", "5", "7", "8")))
-ROWS = merged(REGULAR, dict(_bounds()), dict(_numbers()), LISTS, ELLIPSOIDS, FORMAT, SIZES)
+ROWS = merged(REGULAR, dict(_bounds()), dict(_numbers()), LISTS, TOUCHED, ELLIPSOIDS, FORMAT, SIZES)

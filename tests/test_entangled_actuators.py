@@ -1,6 +1,7 @@
 """Equations with several actuators, actuators with several equations, and more actuators than equations for them."""
 
 import json
+from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from pathlib import Path
@@ -156,6 +157,24 @@ def test_forces_do_the_work_of_the_load(carriage: AtPose) -> None:
         assert float(found.values[k]) == pytest.approx(-work)
 
 
+def test_velocities_of_two_slides_and_two_lengths_are_an_image_of_a_box() -> None:
+    """The plane with four actuators: each vertex of twists is at ends of the speeds."""
+    slides = {"A": ({"second": E1}, 2), "B": ({"second": E2}, 0)}
+    second, third = Distance(vector(6, 3), vector(5, 0), Fraction(25), "second"), replace(THIRD, base=vector(2, 3))
+    at = table([LEG, second, third], slides, "leg", "third")
+    found, forward = at.velocity_polytope(2), at.forward.to_numpy()
+    corners = 2 * np.array(list(product((-1, 1), repeat=4))) @ forward.T
+    for vertex in found.vertices:
+        assert min(abs(corners - np.array(list(map(float, vertex)))).max(axis=1)) < 1e-9
+    assert (len(found.vertices), len(found.facets)) == (8, 6)  # both slides move the platform alike
+    wrenches = at.wrench_polytope(3)
+    reach = abs(np.array([list(map(float, vertex)) for vertex in wrenches.vertices]) @ forward)
+    assert reach.max() == pytest.approx(3)
+    assert (np.isclose(reach, 3).sum(axis=1) >= 3).all()
+    assert len(wrenches.facets) == 6
+
+
+@pytest.mark.slow
 def test_velocities_are_an_image_and_wrenches_its_dual(carriage: AtPose) -> None:
     """Each corner of the speeds stays inside; at each vertex of the wrenches six actuators are at a limit."""
     velocities = carriage.velocity_polytope(2)
