@@ -16,7 +16,10 @@ from pkm_exact.polytopes.rationals import rational_matrix
 from pkm_exact.polytopes.signs import UndecidedError, sign
 
 MOST_CHOICES: Final = 20_000
-_WIDE: Final = "the box is not narrow enough to tell which faces there are"
+_WIDE: Final = (
+    "the box does not tell which faces there are: it is too wide, or more of them meet than usual, which no box proves "
+    "(an exact pose may)"
+)
 _LEAST: Final = Fraction(1, 1 << 44)
 
 

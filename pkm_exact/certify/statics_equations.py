@@ -24,7 +24,7 @@ MOST_ACTUATORS: Final = 12
 MOST_EQUATIONS: Final = 18
 _RATIONAL: Final = (
     "certificate: coefficients of constraints, and how actuators move them, must be rational but for one square root "
-    "each actuator"
+    "each actuator; a pose of a solution (--pose) has the joint values of its configuration"
 )
 _MANY: Final = "certificate: is for 1 to 12 actuators and up to 18 constraints"
 _DEPENDENT: Final = "certificate: there must be as many independent constraints as freedoms and actuators leave"

@@ -28,7 +28,10 @@ def answers(
     if load_at is not None and load is None:
         raise click.UsageError("--load-at: belongs to --load, give that as well.")
     if at.jacobian is None and not at.held.is_redundant and (given or load is not None or stiffness is not None):
-        raise InputError("--limits, --load, --stiffness: there is no J at this pose; give --model, or another pose")
+        why = "there is no J at this pose; give another"
+        if not at.actuated:
+            why = "no constraint is actuated; set actuated = true in the model, of a certificate give --model"
+        raise InputError(f"--limits, --load, --stiffness: {why}")
     if at.jacobian is None and not at.held.is_redundant:
         return asked_answers(at, {})
     return asked_answers(
