@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from flint import arb
 
 from pkm_exact import Mechanism, read_robot
 from pkm_exact.cli.main import main
@@ -20,6 +21,7 @@ from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.polytopes.enclosures import interval_of
 from pkm_exact.radicals import RootSum
 from pkm_exact.statics.at_pose import AtPose, at_box
+from pkm_exact.statics.ball_zonotope import ball_zonotope
 from pkm_exact.statics.freedom import Freedom
 from pkm_exact.statics.matrix_ranks import matrix_ranks
 
@@ -105,6 +107,26 @@ def test_slides_that_can_move_alone_together_are_type_1() -> None:
     at = table([LEG, upright, THIRD], {"A": (BOTH, 2), "B": ({"third": E2}, 1)}, "leg")
     assert at.jacobian is None
     assert [(x.name, x.constraints) for x in at.singularities] == [("type-1", ("A", "B"))]
+
+
+def test_a_load_has_forces_where_a_slide_can_move_alone() -> None:
+    """Type 1: no J, but the twist follows from the actuators. The load does no work with a slide that moves nothing."""
+    upright = Distance(vector(3, 2), vector(5, 0), Fraction(25), "second")
+    alone = replace(THIRD, base=vector(2, 3))
+    at = table([LEG, upright, alone], {"A": ({"second": E1}, 2)}, "leg", "third")
+    assert (at.jacobian, at.singular) == (None, ("type-1",))
+    found = at.forces([1, -2, 3])
+    assert (found.exact[2], found.signs[2]) == ("0", 0)
+    for k, column in enumerate(zip(*at.forward.entries, strict=True)):
+        work = sum(float(x) * f for x, f in zip(column, (1, -2, 3), strict=True))
+        assert float(found.values[k]) == pytest.approx(-work)
+    with pytest.raises(InputError, match="has no interior"):
+        at.velocity_polytope(1)
+
+
+def test_two_velocities_fill_no_volume_in_a_box() -> None:
+    with pytest.raises(InputError, match="do not span the space"):
+        ball_zonotope([[arb(1), arb(0), arb(0)], [arb(0), arb(1), arb(0)]], [Fraction(-1)] * 2, [Fraction(1)] * 2)
 
 
 def test_a_rod_that_feels_the_slide_gives_its_speed() -> None:

@@ -43,6 +43,8 @@ def any_statics_certificate(
     """
     at: AtPose = measures.freedom.at  # type: ignore[assignment]
     left_out = dict[str, str]()
+    if at.is_forward:
+        return statics_equation_certificate(measures, load, solution)
     if machine is not None and is_for_legs_alone(machine, at):
         content = statics_certificate(machine, measures)
     elif load is None and driven_legs(at) is not None:

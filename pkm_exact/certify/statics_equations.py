@@ -100,7 +100,7 @@ def equation_machine(at: AtPose) -> EquationMachine:
     rows = _Rows(at.metric, *place)
     w = [[row[k] for k in freedoms] for row in map(rows.row, equations)]
     r = [rows.rates(equation, actuators) for equation in equations]
-    free = None if at.held.is_redundant else Freedom(boxed).free.places
+    free = None if at.is_forward else Freedom(boxed).free.places
     solved = _solved(w, r, free, len(freedoms))
     listed = free or ()
     whole = solved[: len(freedoms)]

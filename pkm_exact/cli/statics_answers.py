@@ -27,12 +27,10 @@ def answers(
     given = given_limits(limits)
     if load_at is not None and load is None:
         raise click.UsageError("--load-at: belongs to --load, give that as well.")
-    if at.jacobian is None and not at.held.is_redundant and (given or load is not None or stiffness is not None):
-        why = "there is no J at this pose; give another"
-        if not at.actuated:
-            why = "no constraint is actuated; set actuated = true in the model, of a certificate give --model"
+    if not at.actuated and (given or load is not None or stiffness is not None):
+        why = "no constraint is actuated; set actuated = true in the model, of a certificate give --model"
         raise InputError(f"--limits, --load, --stiffness: {why}")
-    if at.jacobian is None and not at.held.is_redundant:
+    if not at.actuated:
         return asked_answers(at, {})
     return asked_answers(
         at,

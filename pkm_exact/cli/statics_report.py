@@ -87,6 +87,9 @@ def as_text(at: AtPose, nearest: Fraction | None, extra: StaticsAnswers) -> str:
             lines += ["", "T: the twist of the platform by the speeds of the actuators, t = T q'", str(forward)]
     elif at.actuated:
         lines += ["", f"J is not defined here: {_why_not(at)}; J_q:", str(at.J_q)]
+        forward = _forward(at)
+        if forward is not None:
+            lines += ["", "T: the twist of the platform by the speeds of the actuators, t = T q'", str(forward)]
     else:
         lines += ["", "no constraint is known to be actuated: there is no J (of a certificate, --model says which are)"]
     lines += extra.lines()

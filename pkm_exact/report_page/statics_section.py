@@ -89,6 +89,7 @@ def _pose(number: int, at: AtPose, answers: StaticsAnswers, common: Mapping[str,
         parts.append(_matrix("J: speeds of the actuators by the twist of the platform", at.jacobian))
     else:
         parts.append(element("p", _no_jacobian(at), cls="small"))
+        parts += _forward(at)
     if answers.indices:
         parts.append(_indices(answers))
     parts += _polytopes(answers)
@@ -115,7 +116,20 @@ def _singularities(at: AtPose) -> str:
     return "; ".join([*words, *(f"not decided: {name}" for name in at.kinds.undecided)])
 
 
+def _forward(at: AtPose) -> list[Markup]:
+    """T where there is no J, if the twist follows from the actuators."""
+    try:
+        found = at.forward
+    except PkmExactError:
+        return []
+    return [] if found is None else [_matrix("T: twist of the platform by the speeds of the actuators", found)]
+
+
 def _no_jacobian(at: AtPose) -> str:
+    if at.held.is_redundant:
+        return (
+            "There is no J: with more actuators than constraints for them, their speeds do not follow from the twist."
+        )
     if at.actuated:
         return "There is no J here: an actuator does not move the platform, or that is not decided."
     return "There is no J: no constraint is known to be actuated. With its model the page knows which are."

@@ -164,12 +164,12 @@ def asked_answers(
     >>> sorted(found.polytopes), found.refused["wrench_polytope"]
     (['velocity_polytope'], 'needs limits: forces')
     """
-    if at.jacobian is None and not at.held.is_redundant:
+    if not at.held.actuators:
         return StaticsAnswers(None, {}, {}, {})
     try:
         measures = measures_of(at, ActuatorLimits.of(limits, len(at.actuated)))
     except InputError as error:
-        if not at.held.is_redundant or limits or load is not None or stiffness is not None:
+        if not at.is_forward or limits or load is not None or stiffness is not None:
             raise
         return StaticsAnswers(None, {}, {"forward": str(error)}, {})
     indices, refused = enclosed_indices(measures)

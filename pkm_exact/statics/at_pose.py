@@ -72,8 +72,8 @@ class AtPose(PoseRows):
 
     @cached_property
     def forward(self) -> EnclosedMatrix | None:
-        """T in t = T q', with more actuators than equations for them (``statics.forward_map``); else None."""
-        return ForwardMap(self).matrix if self.held.is_redundant else None
+        """T in t = T q', where there is no J (``statics.forward_map``); None where there is."""
+        return ForwardMap(self).matrix if self.is_forward else None
 
     def measures(self, **limits: Any) -> Measures:
         """What indices are computed from."""
@@ -100,7 +100,7 @@ class AtPose(PoseRows):
         measures.require_norms()
         freedom, size = measures.freedom, measures.limits.length
         rows = freedom.scaled(size, measures.known("speeds"))
-        if not self.held.structural:
+        if self.is_forward or not self.held.structural:
             return largest_ellipsoid(rows, self.twist)
         basis = freedom.basis(size).tolist()
         free = arb_mat([basis[place] for place in freedom.free.places])
@@ -112,7 +112,7 @@ class AtPose(PoseRows):
 
     def borne(self, load: Sequence[Any]) -> Forces:
         """The same of a load that has been read, or that is enclosed."""
-        return ForwardMap(self).forces(load) if self.held.is_redundant else forces(self, load)
+        return ForwardMap(self).forces(load) if self.is_forward else forces(self, load)
 
     def __repr__(self) -> str:
         return f"<AtPose: {self}>"

@@ -8,6 +8,7 @@ from itertools import combinations, product
 
 from flint import arb, arb_mat
 
+from pkm_exact.errors import InputError
 from pkm_exact.polytopes.enclosures import ball_of
 from pkm_exact.polytopes.polytope import Facet, Polytope
 from pkm_exact.polytopes.signs import UndecidedError, sign
@@ -17,6 +18,7 @@ from pkm_exact.polytopes.slabs import Slabs
 def ball_zonotope(rows: list[list[arb]], low: Sequence[Fraction], high: Sequence[Fraction]) -> Polytope:
     """A zonotope of balls in general position, which is proved: n - 1 generators and no more in each facet."""
     n, count = len(rows[0]), len(rows)
+    _require_enough(count, n)
     vertices: dict[tuple[int, ...], tuple[arb, ...]] = {}
     planes = []
     for chosen in combinations(range(count), n - 1):
@@ -53,6 +55,12 @@ def ball_zonotope(rows: list[list[arb]], low: Sequence[Fraction], high: Sequence
             )
             facets.append(Facet(tuple(side * x for x in normal), offset, on))
     return Polytope(tuple(points), tuple(facets), (Fraction(1),) * n)
+
+
+def _require_enough(count: int, n: int) -> None:
+    """Refuse fewer generators than dimensions: nothing else would be noticed."""
+    if count < n:
+        raise InputError("polytope: the generators do not span the space, so that it has no interior")
 
 
 def section_by_facets(zonotope: Polytope, kept: Sequence[int]) -> Polytope:

@@ -1,9 +1,9 @@
 """Machines with more actuators than equations for them: twists follow from the actuators, t = T q', not they from them.
 
-With W t = R q' for all equations, as many as freedoms, and W regular, T = W^-1 R. Actuators whose forces bear a load f
-do no work with it: s = -T^T f, so that a load has one answer, however many actuators there are. Twists of limited
-speeds are a zonotope, the image of a box; wrenches of limited forces, those f' with |T^T f'| within limits, a section
-of a box.
+So it is where J_q is singular, too. With W t = R q' for all equations, as many as freedoms, and W regular, T = W^-1 R.
+Actuators whose forces bear a load f do no work with it: s = -T^T f, so that a load has one answer, however many
+actuators there are. Twists of limited speeds are a zonotope, the image of a box; wrenches of limited forces, those f'
+with |T^T f'| within limits, a section of a box.
 
 Reference: Gosselin and Schreiber, Kinematically redundant spatial parallel mechanisms for singularity avoidance and
 large orientational workspace, IEEE Trans. Robotics 32 (2016), 286-300, for J_x t = J_q q' with J_q not square.
@@ -34,7 +34,7 @@ from pkm_exact.statics.exact_rows import column_squares
 from pkm_exact.statics.forces import Forces
 from pkm_exact.statics.freedom import Directions, directions_of
 from pkm_exact.statics.pose_rows import WRENCH, PoseRows
-from pkm_exact.statics.ranks import rationalised
+from pkm_exact.statics.ranks import rationalised, root_sum_rank
 
 _DEPENDENT: Final = (
     "statics: the wrenches are or may be dependent here, so that no twist follows from the actuators; give another pose"
@@ -62,7 +62,7 @@ class ForwardMap:
 
     def __post_init__(self) -> None:
         at = self.at
-        if not at.held.is_redundant:
+        if not at.is_forward:
             raise InputError("statics: speeds of the actuators follow from the twist here; see the attribute jacobian")
         if len(at.equations) != len(at.twist):
             raise InputError(
@@ -142,6 +142,8 @@ class ForwardMap:
 
     def velocity_polytope(self, speeds: Sequence[Fraction]) -> Polytope:
         """The twists of all speeds within limits: a zonotope."""
+        if self.exact is not None and root_sum_rank(self.exact) < len(self.exact):
+            raise InputError("polytope: the actuators do not move the platform in all ways; it has no interior")
         with working_precision(BITS):
             if self.directions is None:
                 return ball_zonotope(self.balls.transpose().tolist(), [-x for x in speeds], speeds)

@@ -165,6 +165,11 @@ class PoseRows:
                 found.append([entry / row.rates[k] for entry in row.wrench])
         return EnclosedMatrix.of(self.actuated, self.twist, found)
 
+    @property
+    def is_forward(self) -> bool:
+        """Whether there are actuators and no J: at most the twist follows from them, not they from it."""
+        return bool(self.held.actuators) and self.jacobian is None
+
     @cached_property
     def exact_jacobian(self) -> tuple[tuple[RootSum, ...], ...] | None:
         """J as sums of square roots; None where there is no J or it is enclosed."""

@@ -109,6 +109,6 @@ def measures_of(at: Any, limits: Any) -> Measures:
     InputError
         If there is neither J nor T.
     """
-    if at.held.is_redundant:
+    if at.is_forward:
         return RedundantMeasures(RedundantFreedom(at), limits)
     return Measures(Freedom(at), limits)
