@@ -45,7 +45,12 @@ def determinant_rows() -> Iterator[tuple[str, Row]]:
 
 def pushed(sizes: Sequence[Any], **entries: Any) -> Content:
     """Three rods, in the directions of the axes at (0, 0, 0) and so long: a move changes all of them alike."""
-    rods = [leg([-Fraction(size) * (k == j) for j in range(3)], (0, 0, 0)) for k, size in enumerate(sizes)]
+    return aimed([[Fraction(size) * (k == j) for j in range(3)] for k, size in enumerate(sizes)], **entries)
+
+
+def aimed(vectors: Sequence[Sequence[Any]], *others: Any, **entries: Any) -> Content:
+    """Three legs: rods that are these vectors at (0, 0, 0), and others."""
+    rods = [*(leg([-x for x in vector], (0, 0, 0)) for vector in vectors), *others]
     place = {"variables": ["x", "y"], "place": ["x", "y", 0], "axes": [0, 1]}
     return regular(region(rods, **{**PUSHED, **place, **entries}))
 
@@ -125,6 +130,7 @@ CASES: dict[str, Row] = {
     "not the last": (_named("regular", "no_type_1"), "malformed", "conditions[1]"),
     "no name": (_named(), "malformed", ORDER),
     "another name": (_named("regulars"), "malformed", UNKNOWN),
+    "a number in place of names": (_NEAR | {"conditions": 5}, "malformed", "conditions"),
     "a name in place of names": (_NEAR | {"conditions": "regular"}, "malformed", "conditions"),
     "beside a path": (
         regular(
@@ -163,6 +169,24 @@ CASES: dict[str, Row] = {
     ),
     "two signs": (_shown(pushed((1, 1, 1), box=_about(2, 1)), ["-1", "-1"], ["1", "1"]), "accepted", TWO_SIGNS),
     "one sign": (_shown(pushed((1, 1, 1), box=_about(2, 1)), ["1", "0"], ["1", "1"]), "rejected", ONE_SIGN),
+    "one sign, a third row is the first with an entry": (
+        _shown(aimed([(1, 0, 1), (1, 1, 0), (2, 0, 0)], box=_about(2, 1)), ["-1", "0"], ["1", "0"]),
+        "rejected",
+        ONE_SIGN,
+    ),
+    "no rod, beside a slide, shown": (
+        _shown(
+            aimed(
+                [(1, 0, 0), (0, 1, 0)],
+                leg((0, 0, -1), (0, 0, 0), direction=(0, 0, 1), rod=25),
+                modes=[0, 0, 1],
+                box=_about(2, 1),
+            ),
+            ["-1", "0"],
+        ),
+        "accepted",
+        BROKEN,
+    ),
     "a sign and 0": (_shown(pushed((1, 1, 1), box=_about(2, 1)), ["-1", "0"], ["1", "1"]), "rejected", ONE_SIGN),
     "two signs beside joint values": (
         _shown(pushed((1, 1, 1), box=_about(2, 1)), ["-1", "-1"], ["1", "1"]) | {"joints": [["0", "9"]] * 3},

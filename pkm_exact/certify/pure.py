@@ -2649,7 +2649,7 @@ def near_inverse(matrix: Sequence[Sequence[Gaussian]], p: int) -> list[list[Gaus
         rows[column] = [((a * c + b * d << p) // norm, (b * c - a * d << p) // norm) for a, b in rows[column]]
         for i in range(n):
             c, d = rows[i][column]
-            if i != column and (c or d):
+            if i != column:
                 pairs = zip(rows[i], rows[column], strict=True)
                 rows[i] = [(a - (c * x - d * y >> p), b - (c * y + d * x >> p)) for (a, b), (x, y) in pairs]
     return [
