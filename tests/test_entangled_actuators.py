@@ -9,9 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from certificate_tools import golden
 from flint import arb
+from samples import model
 
 from pkm_exact import Mechanism, read_robot
+from pkm_exact.certify.statics_of_poses import at_certified_poses
 from pkm_exact.cli.main import main
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.errors import InputError
@@ -122,6 +125,18 @@ def test_a_load_has_forces_where_a_slide_can_move_alone() -> None:
         assert float(found.values[k]) == pytest.approx(-work)
     with pytest.raises(InputError, match="has no interior"):
         at.velocity_polytope(1)
+
+
+def test_what_needs_j_says_so_where_there_is_none(tmp_path: Path, capsys: Capture) -> None:
+    """Two slides that stand upright to their rods: type 1."""
+    words = ["certs/v-shape.json", "--pose", "2", "--model", "models/v-shape.toml", "--limits", "speeds=1"]
+    assert main(["plot", *words, "-o", str(tmp_path / "pose.svg")]) == 2
+    assert "there is no J at this pose, by which velocities" in capsys.readouterr().err
+    assert main(["statics", *words, "--load", "0,1,0", "--stiffness", "1", "-o", str(tmp_path / "statics.json")]) == 2
+    assert "stiffness: T has or may have dependent rows here" in capsys.readouterr().err
+    at = at_certified_poses(golden("v-shape"), model("v-shape"), [1])[0]
+    assert (at.kinds.undecided, at.forward.shape) == (("type-1",), (3, 2))
+    assert at.indices(speeds=1, forces=1, length=1, resolutions=1) == {}
 
 
 def test_two_velocities_fill_no_volume_in_a_box() -> None:

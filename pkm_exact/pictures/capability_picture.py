@@ -81,6 +81,11 @@ def capabilities(measures: Measures, ellipsoid: LargestEllipsoid | None, size: f
         If there are no limits, or the platform does not translate freely in two or three directions.
     """
     limits, freedom = measures.limits, measures.freedom
+    if freedom.forward is not None:
+        raise InputError(
+            "picture: there is no J at this pose, by which velocities and forces are drawn; `statics --plot` draws the "
+            "polytopes that there are"
+        )
     twist = freedom.at.motion.twist
     kept = [k for k, place in enumerate(freedom.free.places) if twist[place] < 3]
     moving = sum(place < 3 for place in twist)

@@ -48,6 +48,11 @@ class RedundantFreedom(Freedom):
         unit = tuple(tuple(Fraction(int(i == k)) for i in range(count)) for k in range(count))
         return FreeComponents(tuple(range(count)), unit)
 
+    @property
+    def ball_jacobian(self) -> arb_mat:
+        """Refused."""
+        raise RefusedError(_NO_J)
+
     def scaled(self, length: Fraction | None, speeds: Sequence[Fraction] | None = None) -> arb_mat:
         """Rows a with |a x| <= 1 in the velocity polytope, turns times the length: one for two facets."""
         if speeds is None:

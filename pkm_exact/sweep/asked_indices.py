@@ -75,7 +75,7 @@ class AskedIndices:
 
         try:
             at = machine_at_solution(robot, problem, pose)
-            if at.jacobian is None:
+            if at.jacobian is None and not at.held.is_redundant:
                 return {}, dict.fromkeys(self.names, "there is no J, or that there is one is not decided")
             given: dict[str, Any] = {key: list(texts) for key, texts in self.limits}
             found, refused = enclosed_indices(at.measures(**given), self.names)
