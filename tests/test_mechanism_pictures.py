@@ -4,7 +4,7 @@ import json
 import re
 from fractions import Fraction
 from itertools import pairwise
-from math import dist, hypot, isclose, sqrt
+from math import cos, dist, hypot, isclose, pi, sin, sqrt
 from pathlib import Path
 
 import pytest
@@ -216,6 +216,28 @@ def test_the_platform_has_the_joints_of_all_that_holds_it() -> None:
         joint = scene.platform[scene.legs[0][1]]
         assert joint[:2] == pytest.approx((25, 25 * sqrt(3)))
         assert len(scene.poses[0].platform) == 4
+
+
+@pytest.mark.parametrize(("name", "lengths"), [("r-tcs", [150, 150]), ("cp-vs", [50 * sqrt(2), 53 * sqrt(2)])])
+def test_struts_on_rails_and_cranks_stand_upright(name: str, lengths: list[float]) -> None:
+    """Rods of 150 on cranks; struts of sqrt(2) times the positions on guides. Without the model they are planes."""
+    robot, document = model(name), golden(name)
+    scene = scene_of(document, robot)
+    struts = [shape for shape in scene.shapes if shape.kind == "strut"]
+    for pose in scene.poses:
+        for k, (strut, length) in enumerate(zip(struts, lengths, strict=True)):
+            (start, foot), (again, joint) = strut.lines(pose.position, pose.rotation, scene.size)
+            assert foot == again
+            assert dist(foot, joint) == pytest.approx(length)
+            assert dist(start, (0, 0, 0)) == pytest.approx(100)
+            rail, rod = ([b - a for a, b in zip(*pair, strict=True)] for pair in ((start, foot), (foot, joint)))
+            assert sum(a * b for a, b in zip(rail, rod, strict=True)) == pytest.approx(0, abs=1e-4)
+            assert min(dist(joint, other) for other in pose.platform) < 1e-6
+            turn = 2 * pi * k / 3  # in the vertical plane of its leg
+            assert foot[0] * sin(turn) - foot[1] * cos(turn) == pytest.approx(0, abs=1e-4)
+    kinds = [shape.kind for shape in scene_of(document, None).shapes]
+    assert "strut" not in kinds
+    assert kinds.count("plane") == len([shape for shape in scene.shapes if shape.kind == "plane"]) + 2
 
 
 def test_a_crank_with_a_free_collar_reaches_its_rod() -> None:

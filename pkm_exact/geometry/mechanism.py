@@ -88,6 +88,8 @@ class Mechanism(Machine):
         Whether its legs are cables, which only pull.
     bars : tuple of Vector
         For each leg, if there are any: a bar that does not turn, from the platform's joint to the leg's real end.
+    feet : tuple of (str, Vector)
+        Of planes that stand for a strut, upright on a rail or a crank: the plane's name, and where that begins.
 
     Examples
     --------
@@ -119,6 +121,7 @@ class Mechanism(Machine):
     stand_ins: tuple[StandIn, ...] = ()
     cables: bool = False
     bars: tuple[Vector, ...] = ()
+    feet: tuple[tuple[str, Vector], ...] = ()
 
     def __post_init__(self) -> None:
         if not 1 <= len(self.constraints) <= MOST_CONSTRAINTS:

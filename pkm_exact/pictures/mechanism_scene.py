@@ -13,6 +13,7 @@ from pkm_exact.constraints.angle import Angle
 from pkm_exact.constraints.constraint import Constraint, Role
 from pkm_exact.constraints.distance import Distance
 from pkm_exact.constraints.form import Vector
+from pkm_exact.constraints.point_in_plane import InPlane
 from pkm_exact.geometry.drives import Part, coefficients
 from pkm_exact.geometry.kind_names import CONSTRAINTS_KIND
 from pkm_exact.geometry.machine import Machine
@@ -22,7 +23,7 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion_groups import SPHERICAL
 from pkm_exact.pictures.coordinates import listed_poses, placed_poses
 from pkm_exact.pictures.drawn_robot import Point, Scene, view_of
-from pkm_exact.pictures.shapes import ARC, ARM, AXES, AXIS, LINE, PLANE, POINT, Shape, arc, cross, unit
+from pkm_exact.pictures.shapes import ARC, ARM, AXES, AXIS, LINE, PLANE, POINT, STRUT, Shape, arc, cross, unit
 
 _ROOTS = tuple[float, float, float]
 _ORIGIN = (0.0, 0.0, 0.0)
@@ -77,18 +78,36 @@ def mechanism_scene(document: Mapping[str, Any], mechanism: ForwardProblem, mach
         chains=chains if any(chains) else ("",) * len(legs),
         poses=tuple(view_of(number, listed, place, platform, knees) for number, (listed, place) in enumerate(poses, 1)),
         shapes=(
-            *_shapes(mechanism, axes, on_sphere=on_sphere),
+            *_shapes(mechanism, axes, struts_of(machine, mechanism, axes), on_sphere=on_sphere),
             *arms,
         ),
         bars=tuple(bars),
     )
 
 
-def _shapes(mechanism: ForwardProblem, axes: _ROOTS, *, on_sphere: bool) -> Iterator[Shape]:
+def _shapes(
+    mechanism: ForwardProblem, axes: _ROOTS, struts: Mapping[str, Shape], *, on_sphere: bool
+) -> Iterator[Shape]:
     for number, constraint in enumerate(mechanism.constraints, 1):
-        shape = shape_of(number, constraint, axes, mechanism.metric)
+        shape = struts.get(constraint.name) or shape_of(number, constraint, axes, mechanism.metric)
         if shape is not None:
             yield replace(shape, kind=ARC) if on_sphere and shape.kind == AXES else shape
+
+
+def struts_of(machine: Machine | None, mechanism: ForwardProblem, axes: _ROOTS) -> dict[str, Shape]:
+    """Planes of a model that stand for a strut upright on a rail or a crank, by their names."""
+    found: dict[str, Shape] = {}
+    feet = dict(machine.feet) if isinstance(machine, Mechanism) else {}
+    for number, constraint in enumerate(mechanism.constraints, 1):
+        if constraint.name not in feet or not isinstance(constraint, InPlane):
+            continue
+        normal, foot = _ordinary(constraint.normal, axes), _ordinary(feet[constraint.name], axes)
+        square = sum(x * x for x in normal)
+        share = (float(constraint.offset) - sum(n * x for n, x in zip(normal, foot, strict=True))) / square
+        strut = share * normal[0], share * normal[1], share * normal[2]
+        held = _ordinary(constraint.platform, axes)
+        found[constraint.name] = Shape(STRUT, number, constraint.name, foot, strut, held)
+    return found
 
 
 def _on_sphere(constraints: Sequence[Constraint], axes: _ROOTS) -> tuple[tuple[Point, ...], tuple[Point, ...]]:

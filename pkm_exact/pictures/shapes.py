@@ -3,7 +3,8 @@
 A plane is drawn as a square around its joint, a line and an axis as a segment along it; those of the platform move
 with it. An angle is two axes that cross in the platform's origin, like those of a universal joint; or, on a machine
 whose axes all meet in one point, an arc of the sphere about it, from one axis to the other: that is the link. An arm is
-what drives put between base and constraint.
+what drives put between base and constraint. A strut is a plane that a rod stands upright on: the rail or crank up to
+it, and the rod.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ Point: TypeAlias = tuple[float, float, float]
 Turn: TypeAlias = tuple[Point, Point, Point]
 
 PLANE, LINE, POINT, AXIS, ARM, ARC, AXES = "plane", "line", "point", "axis", "arm", "arc", "axes"
+STRUT = "strut"
 _PIECES: Final = 12
 _FLAT: Final = 1e-9
 SIZE: Final = 0.16
@@ -29,14 +31,15 @@ class Shape:
 
     Attributes
     ----------
-    kind : {"plane", "line", "point", "axis", "arm", "arc", "axes"}
+    kind : {"plane", "line", "point", "axis", "arm", "arc", "axes", "strut"}
     number : int
         Of the constraint, from 1.
     name : str
     place : point
         A point on it, in the frame that it belongs to.
     direction : point
-        Along a line or an axis, or normal to a plane; unit length, or 0 for a point. Of an angle that of the base.
+        Along a line or an axis, or normal to a plane; unit length, or 0 for a point. Of an angle that of the base. Of a
+        strut all of it, from the rail on which it stands to its joint.
     joint : point
         The point that it holds, in the other frame; of an angle the direction of the platform.
     moves : bool
@@ -67,6 +70,9 @@ class Shape:
             shift = _dot(_minus(_moved(position, rotation, self.joint), self.path[-1]), self.direction)
             moved = (_along(point, self.direction, shift) for point in self.path[self.standing :])
             return ((*self.path[: self.standing], *moved),)
+        if self.kind == STRUT:
+            foot = _along(held, direction, -1)
+            return (place, foot), (foot, held)
         if self.kind in (ARC, AXES):
             return self._of_angle(position, _turned(rotation, self.joint), size)
         if self.kind == POINT:

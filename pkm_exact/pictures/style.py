@@ -21,6 +21,7 @@ SHAPE_DASHES: Final[dict[str, Any]] = {
     "axis": "-.",
     "point": ":",
     "arm": "-",
+    "strut": "-",
     "arc": "-",
     "axes": "-.",
 }

@@ -72,12 +72,16 @@ class Assembly:
     bars : tuple of Vector
         For each leg, where the machine has them: from the platform's joint along a bar that does not turn to the leg's
         end. The leg's constraint has both ends without it. For pictures.
+    feet : tuple of (str, Vector)
+        Of planes that stand for a strut, upright on a rail or a crank: the plane's name, and where that begins. For
+        pictures.
     """
 
     constraints: tuple[Constraint, ...]
     groups: tuple[Group, ...]
     drives: tuple[Drive, ...] = ()
     bars: tuple[Vector, ...] = ()
+    feet: tuple[tuple[str, Vector], ...] = ()
 
 
 @dataclass(frozen=True)

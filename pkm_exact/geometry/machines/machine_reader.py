@@ -72,6 +72,7 @@ def assembled(
         kind=kind.name,
         drives=assembly.drives,
         bars=assembly.bars,
+        feet=assembly.feet,
     )
 
 

@@ -59,6 +59,7 @@ class _Legs:
         self.constraints: list[Constraint] = []
         self.drives: list[Drive] = []
         self.names: dict[Joint, list[str]] = {}
+        self.feet: list[tuple[str, Vector]] = []
 
     def joints(self, radial: Vector) -> tuple[Vector, Vector]:
         """Base joint and platform joint of a leg."""
@@ -92,6 +93,7 @@ def _strut_on_guide(legs: _Legs, k: int, radial: Vector, *, locked: bool) -> Non
     base, joint = legs.joints(radial)
     if locked:
         offset = legs.given["base_radius"]
+        legs.feet.append((f"strut {k}", base))
         legs.constraints.append(InPlane(along((1, radial), (1, UP)), offset, joint, f"strut {k}"))
         part = Part(f"strut {k}", "offset", (Fraction(2),))
         legs.driven(Joint.SLIDE, Drive(f"slide {k}", (part,)))
@@ -104,6 +106,7 @@ def _rod_on_crank(legs: _Legs, k: int, radial: Vector, *, locked: bool) -> None:
     base, joint = legs.joints(radial)
     rod = legs.given["rod"]
     if locked:
+        legs.feet.append((f"rod {k}", base))
         legs.constraints.append(InPlane(ORIGIN, rod, joint, f"rod {k}"))
         normal = Part(f"rod {k}", "normal", (UP, along((-1, radial))))
         parts: tuple[Part, ...] = normal, Part(f"rod {k}", "offset", (_ZERO, -legs.given["base_radius"]))
@@ -128,7 +131,7 @@ def _assembled(leg: Callable[..., None]) -> Callable[[Dimensions, Metric], Assem
         for crank in cranks:
             legs.driven(Joint.CRANK, crank)
         groups = tuple(Group(joint, tuple(names)) for joint, names in legs.names.items())
-        return Assembly((*legs.constraints, *rods), groups, tuple(legs.drives))
+        return Assembly((*legs.constraints, *rods), groups, tuple(legs.drives), feet=tuple(legs.feet))
 
     return build
 
