@@ -31,6 +31,7 @@ FILES = (
     "test_forg*.py",
     "test_krawczyk_certificate.py",
     "test_limit_cases.py",
+    "test_mixed_volumes.py",
     "test_multiplicities.py",
     "test_mutations.py",
     "test_plain_*.py",

@@ -252,6 +252,8 @@ FORMAT: dict[str, Row] = {
     "a rate of three": _with([*RATE, "1"], "equations", 0, "rates", 0),
     "a rate without form": _with(RATE[:1], "equations", 0, "rates", 0),
     "a rate that is no list": _with({"1": RATE[1]}, "equations", 0, "rates", 0),
+    "a rate that is a number": _with(5, "equations", 0, "rates", 0),
+    "forward: a rate twice, and another": _with([RATE, RATE, [2, RATE[1]]], "equations", 0, "rates", content=FORWARD),
     "a rate of 16": _with([1, RATE[1][:-1]], "equations", 0, "rates", 0),
     "speeds of three": _with(["1"] * 3, "speeds"),
     "a speed of 0": _with(["1", "0"], "speeds"),
@@ -296,6 +298,14 @@ FORMAT: dict[str, Row] = {
     "forward: an equation too many": _with(
         [*FORWARD["equations"], FORWARD["equations"][0]], "equations", content=FORWARD
     ),
+    "freedoms of 6": (_without(CROSSED, freedoms=[0, 6], free=[0, 6]), "malformed", "freedoms"),
+    "actuators that are no list": _with(5, "actuators"),
+    "equations that are no list": _with(5, "equations"),
+    "a polytope of twists alone, without speeds": (
+        _without(CROSSED, speeds=None, velocity_polytope=CROSSED["velocity_polytope"]),
+        "malformed",
+        "velocity_polytope",
+    ),
     "forward: no limits": (_without(FORWARD, speeds=None, forces=None), "accepted", "forces: those that bear the load"),
 }
 FEW = machine([0, 1], None, [equation({4: 1}, {1: {16: 1}}), equation({5: 1})], actuators=["1"], regular=False)
@@ -338,7 +348,21 @@ NO_BOUNDS, NO_SUMS = (
     {"facets": [], "vertices": [], "volume": None},
     {"facets": [], "vertices": [], "volume": ["0", "1"]},
 )
+MANY = machine(
+    range(6),
+    [0, 1],
+    [equation({k: 1}) for k in (6, 8, 9, 12)] + [equation({4: 1, 5: a}, {a: {16: 1}}) for a in range(1, 13)],
+    actuators=["1"] * 12,
+)
+"""A body of two freedoms, of which twelve actuators make one each."""
 SIZES: dict[str, Row] = {
+    "twelve of two that are free: bounds": (
+        MANY | {"velocity_polytope": NO_BOUNDS},
+        "rejected",
+        "velocity_polytope: whether",
+    ),
+    "twelve in five: bounds": (_twelve(5, wrench_polytope=NO_BOUNDS), "too-large", "wrench_polytope: too many choices"),
+    "a larger ellipsoid": (_moved(CROSSED, "ellipsoid", "matrix", 0, 0), "rejected", "ellipsoid"),
     "twelve in six: bounds": (_twelve(6, wrench_polytope=NO_BOUNDS), "too-large", "wrench_polytope: too many choices"),
     "twelve in six: sums": (_twelve(6, velocity_polytope=NO_SUMS), "too-large", "velocity_polytope: too many choices"),
     "twelve in five: sums": (_twelve(5, velocity_polytope=NO_SUMS), "rejected", "velocity_polytope: not all facets"),

@@ -716,6 +716,14 @@ def _line(constants: Any, forms: Any = FORM) -> Content:
 CLAIMS: dict[str, Row] = {
     "none, a constant": (none(("5",), "exact-elimination", elimination=[]), "accepted"),
     "none, a constant alone": (none(("5",), "exact-elimination", "x", elimination=[]), "accepted"),
+    "none, where a row must be reduced by a multiple of an element": (
+        none(
+            ("y^2+x-2", "2*x^2*y+x*y+1", "x*y^2+x^2"),
+            "exact-elimination",
+            elimination=[["0 1", "1", "1 0"], ["0 0", "2", "3 1"]],
+        ),
+        "accepted",
+    ),
     "none, a constant by ranks": (none(("x", "5"), "modular-rank"), "accepted"),
     "none, a constant before, by ranks": (none(("5", "x"), "modular-rank"), "accepted"),
     "none, by another route": (none(("x", "x-1", "y"), "refined-bezout"), "rejected"),

@@ -185,7 +185,7 @@ def reduced_rows(rows: Sequence[Mapping[int, int]], known: Container[int] = ()) 
     >>> reduced_rows([{0: 2, 1: 4, 2: 6}, {0: 1, 1: 2, 2: 4}])
     {2: {}, 0: {1: 2}}
     """
-    width = 1 + max((column for row in rows for column in row), default=0)
+    width = len({column for row in rows for column in row})
     waiting: dict[int, list[Row]] = {}
     for row in rows:
         _sort_in(waiting, {column: fmpq(value) for column, value in row.items()})
@@ -195,7 +195,7 @@ def reduced_rows(rows: Sequence[Mapping[int, int]], known: Container[int] = ()) 
         pivot = min(waiting)
         first, *others = sorted(waiting[pivot], key=len)
         number = sum(map(len, waiting.values()))
-        if any(number > many and share * len(first) > width - pivot for many, share in _DENSE):
+        if _is_dense(len(first), number, width - pivot):
             break
         del waiting[pivot]
         lead = first.pop(pivot)
@@ -212,6 +212,11 @@ def reduced_rows(rows: Sequence[Mapping[int, int]], known: Container[int] = ()) 
             _subtract(tail, tail.pop(column), found[column])
         found[pivot] = tail
     return found
+
+
+def _is_dense(length: int, number: int, columns: int) -> bool:
+    """Whether a shortest row of so many entries, of so many rows with so many columns, says that these are dense."""
+    return any(number > many and share * length > columns for many, share in _DENSE)
 
 
 def _sort_in(waiting: dict[int, list[Row]], row: Row) -> None:

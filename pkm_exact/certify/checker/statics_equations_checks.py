@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from math import comb
-from typing import Final
 
 from flint import arb, arb_mat, ctx
 
@@ -29,9 +28,6 @@ from pkm_exact.certify.checker.statics_box_checks import (
 from pkm_exact.certify.checker.statics_box_document import BoxVelocity, BoxWrench, Ends, Numbers, Table
 from pkm_exact.certify.checker.statics_equations_document import DrivenMachine, EquationStatics
 from pkm_exact.certify.checker.verdict import rejected, too_large
-
-_FACTORS: Final = 400
-"""Steps of elimination in the largest systems, of 18 equations."""
 
 
 def check_equation_statics(document: EquationStatics) -> Iterator[str]:
@@ -91,14 +87,23 @@ def _check_polytope(box: ListedRows, ends: Sequence[Ends], claim: BoxVelocity | 
 def _require_affordable(document: EquationStatics) -> None:
     m = len(document.machine.actuators)
     f = len(document.machine.freedoms) if document.jacobian is None else document.machine.count
-    steps = _FACTORS + 20 * comb(m, f)
     for name, claim in (("velocity_polytope", document.velocity), ("wrench_polytope", document.wrench)):
-        if claim is None:
-            continue
-        size = f if isinstance(claim, BoxVelocity) else f - 1
-        if comb(m, size) << f > MAX_CHOICES:
+        if claim is not None and comb(m, _chosen(claim, f)) << f > MAX_CHOICES:
             raise too_large(f"{name}: too many choices of legs")
-        steps += (comb(m, size) << f + 1) + 10 * len(claim.facets)
+    charge_steps(document, m, f)
+
+
+def _chosen(claim: BoxVelocity | BoxWrench, f: int) -> int:
+    """How many rows meet in a vertex, or span a facet."""
+    return f if isinstance(claim, BoxVelocity) else f - 1
+
+
+def charge_steps(document: EquationStatics, m: int, f: int) -> None:
+    """The work for m actuators in f dimensions."""
+    steps = 400 + 20 * comb(m, f)  # 400 for elimination in the largest systems, of 18 equations
+    for claim in (document.velocity, document.wrench):
+        if claim is not None:
+            steps += (comb(m, _chosen(claim, f)) << f + 1) + 10 * len(claim.facets)
     charge(STEP * steps)
 
 
