@@ -8,11 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from itertools import islice
+from math import prod
 from typing import Any
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
 from forged_system_cases import Row, counted, one
 from handmade_systems import ENDS, Content, complete, hexadecimal, listed, multiplied, represented, trimmed
+
+from pkm_exact.certify.checker.residues import primes
 
 X, Y, Z = fmpz_mpoly_ctx.get(("x", "y", "z"), Ordering.lex).gens()
 Local = Callable[[Any, Any], tuple[fmpz_mpoly, ...]]
@@ -86,6 +90,34 @@ def powers(*factors: tuple[tuple[int, ...], int], multiplicities: list[int], exp
     return made | complete("modular-rank", len(all_) - 1)
 
 
+HIDDEN = (
+    (35441, -49236),
+    (-7513, 72181),
+    (-66652, 74827),
+    (-10256, -5756),
+    (16342, 23765),
+    (-32278, -6629),
+    (15792, 35802),
+    (23424, -106656),
+)
+"""Times any number, entries of an echelon form that the combinations of the checker's ``echelon`` do not show: 0."""
+
+
+def hidden(places: tuple[int, ...], said: int = 4) -> Content:
+    """Ten variables, of which linear equations leave two: a solution of multiplicity 4.
+
+    The entries of their echelon form are 0 modulo those of the first primes that are named, and not modulo others.
+    """
+    large = prod(list(islice(primes(), max(places)))[place - 1] for place in places)
+    names = [f"x{i}" for i in range(10)]
+    equations = [f"{names[i]}+{a * large}*x8+{b * large}*x9" for i, (a, b) in enumerate(HIDDEN)]
+    a, b = (value * large for value in HIDDEN[0])
+    texts = (*equations, "x8^2", "x9^2", f"x0*x8+{a}*x8^2+{b}*x8*x9")
+    origin = represented([(0,) * 10], (1, *[0] * 9))
+    spelled = [text.replace("+-", "-") for text in texts]
+    return listed(",".join(names), spelled, origin, multiplicities=said) | complete("modular-rank", said)
+
+
 SQUARE_ROOT_OF_3 = (-3, 0, 1)
 THREE, ONE, NOTHING = (-3, 1), (-1, 1), (0, 1)
 TOO_DEAR = 8, 1000
@@ -101,6 +133,14 @@ def dear(degree: int, digits: int) -> Content:
 
 ROWS: dict[str, Row] = {
     **CONJUGATE,
+    **{
+        f"large numbers that are 0 modulo primes {places}, multiplicity {said}": (
+            hidden(places, said),
+            "accepted" if said == 4 else "rejected",
+        )
+        for places in ((1, 2), (1, 2, 4, 5), (1, 2, 3, 4))
+        for said in (3, 4, 5)
+    },
     "too dear for functionals": (dear(*TOO_DEAR), "accepted"),
     "a double solution, and two at infinity": (
         counted(("x*y-1", "x*y+x+y-3"), represented([(1, 1)], (1, 1)), ENDS, 2, multiplicities=2),

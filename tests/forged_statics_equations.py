@@ -361,7 +361,6 @@ SIZES: dict[str, Row] = {
         "rejected",
         "velocity_polytope: whether",
     ),
-    "twelve in five: bounds": (_twelve(5, wrench_polytope=NO_BOUNDS), "too-large", "wrench_polytope: too many choices"),
     "a larger ellipsoid": (_moved(CROSSED, "ellipsoid", "matrix", 0, 0), "rejected", "ellipsoid"),
     "twelve in six: bounds": (_twelve(6, wrench_polytope=NO_BOUNDS), "too-large", "wrench_polytope: too many choices"),
     "twelve in six: sums": (_twelve(6, velocity_polytope=NO_SUMS), "too-large", "velocity_polytope: too many choices"),
