@@ -273,6 +273,20 @@ def _shrunk(more: int) -> Content:
     return with_entry(content, ("boxes", 0, "outer"), [hex(width) for width in widths])
 
 
+def _turned_about(width: Fraction) -> Content:
+    """Joints on lines through the origin, about which the platform turns by tan(angle / 2) = 20 or -20: e0 = 1/20.
+
+    The Jacobian is linear in e0 in its first column alone: it is 0 where e0 is.
+    """
+    pose = Pose((1, 0, 0, 20), (0, 0, 0, 0))
+    legs = [pose.distance([k * x for x in b], b) for k, b in ((2, (1, 2, 0)), (-1, (-3, 1, 0)), (3, (2, -5, 0)))]
+    content = around([pose], (0, 0, 0, 1), K)
+    content["robot"]["base"] = [[str(x) for x in leg.base] for leg in legs]
+    content["robot"]["platform"] = [[str(x) for x in leg.platform] for leg in legs]
+    content["configuration"] = {"name": None, "lengths_squared": [str(leg.length_squared) for leg in legs]}
+    return with_entry(content, ("boxes", 0, "outer"), [hex(int(width * (1 << K))), *[hex(CORE)] * 3])
+
+
 POSES: dict[str, Case] = {
     **{
         f"an inner box narrower than the image on side {sign} alone": (partial(_one_sided, sign), REJECTED)
@@ -280,6 +294,13 @@ POSES: dict[str, Case] = {
     },
     **{f"a chart with a weight for e1, box {place}": (partial(_weighted, place), "malformed") for place in (0, 1)},
     "six poses of six legs, called all": (_six, REJECTED),
+    **{
+        f"an outer box of a half width of {width} in e0, another solution is 1/10 away": (
+            partial(_turned_about, width),
+            status,
+        )
+        for width, status in ((Fraction(1, 20), ACCEPTED), (Fraction(21, 200), REJECTED))
+    },
     **{
         f"{coordinate} is {sign} (1/2 + {parts} 2^-20) units from the centre": (
             partial(_off_centre, coordinate, parts, sign),
