@@ -53,6 +53,17 @@ INNER = "0 0 1 0 1 -1 0 2 -1 0 3 1"
 TOGETHER = {"lifting": ["2 0 0 1", "0 0"], "obstructions": [MIDDLE[0], "0 3 -1 1 1 1"]}
 
 
+FULL = ("3*x*y-4*x-4*y+6", "2*x*y-x-y-1")
+"""Both have all four terms, so that coordinates may be 0 as far as one term alone tells."""
+BARE = ("x*y-2", "2*x^2*y-2*x-y")
+BARE_CELLS = {
+    "lifting": ["6 6", "0 4 7 6"],
+    "obstructions": ["0 0 -1 0 1 1 1 0 1 1 1 -1", "0 0 -2 0 1 2 1 0 1 1 2 1 1 3 -2"],
+}
+"""The second polynomial has no constant term."""
+EVEN_IN_Y = ("x+y^2-5", "x*y^2-8*x+4")
+
+
 def _cubic(roots: list[int], lifting: str, obstructions: list[str]) -> Content:
     cells = {"lifting": [lifting], "obstructions": obstructions}
     points = represented([(root,) for root in roots], (1,))
@@ -165,6 +176,46 @@ def rows() -> dict[str, Row]:
                 represented([(2, 1), (-2, 1), (3, -4), (-3, -4)], (1, 0)),
                 **complete("mixed-volume", 4, subdivision=EVEN_CELLS),
             ),
+            "rejected",
+            bad,
+        ),
+        "where y is 0": (
+            listed(
+                "x,y",
+                EVEN_IN_Y,
+                represented([(1, 2), (1, -2), (-4, 3), (-4, -3)], (0, 1)),
+                **complete("mixed-volume", 4, subdivision=EVEN_CELLS),
+            ),
+            "rejected",
+            bad,
+        ),
+        "all terms twice": (
+            _curves(PAIR, CROSS_CELLS["lifting"], CROSS_CELLS["obstructions"], FULL),
+            "accepted",
+            "mixed volume",
+        ),
+        "no constant term": (
+            _curves([(1, 2), (-1, -2)], BARE_CELLS["lifting"], BARE_CELLS["obstructions"], BARE),
+            "accepted",
+            "mixed volume",
+        ),
+        "weights of one polynomial do not sum to 0": (
+            listed(
+                "x,y",
+                (*CUBIC, "y-1"),
+                represented([(1, 1), (2, 1)], (1, 0)),
+                **complete("mixed-volume", 2, subdivision=TOGETHER | {"obstructions": [MIDDLE[0], "0 3 -1"]}),
+            ),
+            "rejected",
+            bad,
+        ),
+        "lowered by 1": (
+            _curves(CROSSINGS, ["1 0", "0 0 0"], honest),
+            "accepted",
+            "mixed volume",
+        ),
+        "the first point is none": (
+            _curves(CROSSINGS, CELLS["lifting"], [*honest, "0 2 -1 1 2 1"]),
             "rejected",
             bad,
         ),

@@ -112,12 +112,12 @@ def _require_regular(polynomials: Sequence[Terms], supports: Sequence[Sequence[M
         charge(sum(map(len, supports)) * (2000 + 200 * size) + 30 * size**3)
         if any(sum(not any(key[place] for place in zero) for key in terms) == 1 for terms in polynomials):
             continue
-        rows, weight = [], 1
+        rows, weight = [], 5
         for support in supports:
             row = [0] * size
             for key in support:
                 order = sum(key[place] for place in zero)
-                weight = weight * 48271 % _PRIME
+                weight = (weight * weight + 3) % _PRIME
                 for place in range(size) if not order else zero if order == 1 else ():
                     row[place] = (row[place] + weight * key[place]) % _PRIME
             rows.append(row)
