@@ -207,7 +207,8 @@ def _in_metrics() -> dict[str, Row]:
     for g in ((3, 1, 1), (1, 4, 1)):
         found[f"a turn that is none in {g}"] = (box(motions, joined, centre, metric=g), "rejected", UNPROVED)
     some = box(motions, joined, centre, metric=(1, 3, 1))
-    for what, value in (("two", ["1", "3"]), ("0", ["1", "0", "1"]), ("1/2", ["1", "1/2", "1"]), ("none", None)):
+    halves = (("1/2, 3, 1", ["1/2", "3", "1"]), ("1, 3, 1/2", ["1", "3", "1/2"]), ("1/2", ["1", "1/2", "1"]))
+    for what, value in (("two", ["1", "3"]), ("0", ["1", "0", "1"]), *halves, ("none", None)):
         found[f"a metric of {what}"] = (put(some, value, "mechanism", "metric"), "malformed", "")
     found["a metric in version 1"] = (put(some, 1, "version"), "malformed", "")
     found["no metric in version 2"] = (put(SOME_PIN, 2, "version"), "malformed", "")
