@@ -1,13 +1,16 @@
 """Completeness by mixed volumes: what checkers accept and refuse, and what the solver finds."""
 
 import re
+from math import comb
 
 import pytest
 from certificate_tools import both
 from forged_subdivisions import rows
-from handmade_systems import sealed_bytes
+from handmade_systems import complete, listed, represented, sealed_bytes
 
 from pkm_exact import solve_system
+from pkm_exact.certify import pure
+from pkm_exact.certify.check import check_counted
 from pkm_exact.policy import Policy
 from pkm_exact.systems.mixed_volume import subdivision_for
 from pkm_exact.systems.system_sources import parse_system
@@ -21,6 +24,22 @@ def test_both_checkers_say_what_is_true(name: str) -> None:
     verdict = both(sealed_bytes(content))
     assert verdict.status == status, verdict.lines
     assert re.search(reason, verdict.lines[-1]), verdict.lines[-1]
+
+
+def test_choices_are_not_kept_in_memory_before_they_are_measured() -> None:
+    """The first volumes are too many; half a million pairs of the last polynomial's points are not looked at."""
+    powers = range(1, 32)
+    texts = ("x", "y", "+".join(["z", *(f"x^{a}*z^{b}" for a in powers for b in powers)]))
+    cells = {"lifting": ["0 0", "0 0", " ".join("0" * (len(powers) ** 2 + 2))], "obstructions": []}
+    origin = represented([(0, 0, 0)], (1, 1, 1))
+    data = sealed_bytes(listed("x,y,z", texts, origin, **complete("mixed-volume", 1, subdivision=cells)))
+    verdict, budget = check_counted(data)
+    assert str(verdict.status) == "rejected"
+    assert "its cells have the volume" in verdict.lines[-1]
+    assert budget.spent < 3000 * comb(len(powers) ** 2 + 2, 2)
+    answer, work = pure.check_counted(data)
+    assert answer.status == "rejected"
+    assert work.spent < 4000 * comb(len(powers) ** 2 + 2, 2)
 
 
 def _cyclic(size: int) -> str:

@@ -7,8 +7,8 @@ the A_i at least.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import combinations
+from collections.abc import Iterator, Sequence
+from itertools import accumulate, combinations
 from typing import Final, NamedTuple
 
 from flint import fmpz_mat, nmod_mat
@@ -19,6 +19,7 @@ from pkm_exact.certify.checker.verdict import rejected, too_large
 
 MOST_VARIABLES: Final = 12
 _PRIME: Final = (1 << 61) - 1
+_Edge = tuple[int, int]
 
 
 class Subdivision(NamedTuple):
@@ -64,41 +65,44 @@ def _obstructed(
 
 
 class _Cells:
-    """Choices of two points in each support, those with the fewest points first; points are bits."""
+    """Choices of two points in each support, those with the fewest points first; points are numbered throughout."""
 
     def __init__(self, supports: Sequence[Sequence[Monomial]], obstructed: Sequence[Sequence[tuple[int, int]]]) -> None:
         self.supports = sorted(supports, key=len)
+        self.starts = list(accumulate(map(len, self.supports), initial=0))
         order = sorted(range(len(supports)), key=lambda i: len(supports[i]))
-        self.level = {i: level for level, i in enumerate(order)}
-        starts = [sum(map(len, self.supports[:level])) for level in range(len(supports))]
-        self.bits = [[1 << start + k for k in range(len(s))] for start, s in zip(starts, self.supports, strict=True)]
-        self.ending: dict[int, list[int]] = {}
+        first = {i: self.starts[level] for level, i in enumerate(order)}
+        self.ending: dict[int, list[frozenset[int]]] = {}
         """Obstructed sets of points, by the last of them."""
         for points in obstructed:
-            mask = sum(self.bits[self.level[i]][k] for i, k in points)
-            self.ending.setdefault(1 << mask.bit_length() - 1, []).append(mask)
+            low = frozenset(first[i] + k for i, k in points)
+            self.ending.setdefault(max(low), []).append(low)
 
     def volume(self, most: int) -> int:
         """The sum of the volumes, as soon as it is above ``most``."""
-        size = len(self.supports)
         total = 0
-        waiting: list[tuple[int, tuple[tuple[int, int], ...]]] = [(0, ())]
-        while waiting and total <= most:
-            points, edges = waiting.pop()
-            if len(edges) == size:
-                charge(10_000 + 30 * size**3)
-                directions = zip(edges, self.supports, strict=True)
-                rows = [[b - a for a, b in zip(s[k], s[j], strict=True)] for (k, j), s in directions]
-                total += abs(int(fmpz_mat(rows).det()))
-                continue
-            bits = self.bits[len(edges)]
-            for k, j in combinations(range(len(bits)), 2):
-                further = points | bits[k] | bits[j]
-                known = [self.ending.get(bits[k], ()), self.ending.get(bits[j], ())]
-                charge(3000 + 100 * sum(map(len, known)))
-                if not any(mask & ~further == 0 for masks in known for mask in masks):
-                    waiting.append((further, (*edges, (k, j))))
+        for edges in self._choices(frozenset(), ()):
+            charge(10_000 + 30 * len(edges) ** 3)
+            directions = zip(edges, self.supports, strict=True)
+            rows = [[b - a for a, b in zip(s[k], s[j], strict=True)] for (k, j), s in directions]
+            total += abs(int(fmpz_mat(rows).det()))
+            if total > most:
+                break
         return total
+
+    def _choices(self, points: frozenset[int], edges: tuple[_Edge, ...]) -> Iterator[tuple[_Edge, ...]]:
+        """One after another: all of them might not have room in memory."""
+        level = len(edges)
+        if level == len(self.supports):
+            yield edges
+            return
+        start = self.starts[level]
+        for k, j in combinations(range(len(self.supports[level])), 2):
+            known = self.ending.get(start + k, ()), self.ending.get(start + j, ())
+            charge(3000 + 200 * sum(map(len, known)))
+            further = points | {start + k, start + j}
+            if not any(low <= further for lows in known for low in lows):
+                yield from self._choices(further, (*edges, (k, j)))
 
 
 def _require_regular(polynomials: Sequence[Terms], supports: Sequence[Sequence[Monomial]]) -> None:
