@@ -45,6 +45,40 @@ CROSS_CELLS = {
         "0 2 1 0 3 -1 1 2 -1 1 3 1",
     ],
 }
+ALIKE = ("x*y-2*x-y+2", "x*y-5*x-3*y+15")
+OPEN = ("x*y-x", "x*y+x+y-5")
+OPEN_CELLS = (
+    ["4397 12501 63860", "25840 47284 61682 52300"],
+    [
+        "0 0 -1 0 1 1 1 0 1 1 1 -1",
+        "0 0 1 0 1 -1 1 2 -1 1 3 1",
+        "0 0 1 0 2 -1 1 0 -1 1 3 1",
+        "0 1 1 0 2 -1 1 1 -1 1 3 1",
+    ],
+)
+MEETING = ("x^2-x*y", "x*y+x+y-3")
+THROUGH = {
+    "first": (
+        ["50902 59622 33889", "64062 47551 15270 51398"],
+        [
+            "0 0 1 0 1 -1 1 1 -1 1 2 1",
+            "0 0 1 0 1 -1 1 0 -1 1 2 2 1 3 -1",
+            "0 0 1 0 1 -2 0 2 1 1 2 2 1 3 -2",
+            "0 0 1 0 2 -1 1 0 -2 1 2 2",
+            "0 0 -1 0 2 1 1 1 2 1 3 -2",
+        ],
+    ),
+    "last": (
+        ["5470 20124 59124 63209", "47126 47666 26754"],
+        [
+            "0 0 2 0 1 -2 1 0 1 1 1 -2 1 2 1",
+            "0 0 2 0 2 -2 1 0 -1 1 2 1",
+            "0 0 1 0 3 -1 1 1 -1 1 2 1",
+            "0 1 2 0 3 -2 1 0 -1 1 2 1",
+        ],
+    ),
+}
+"""The first vanishes in the origin, where general polynomials with its terms are not regular; the other does not."""
 MIDDLE = ["0 0 -1 0 1 2 0 2 -1", "0 1 -1 0 2 2 0 3 -1", "0 0 -2 0 1 3 0 3 -1"]
 """Of x^3, x^2, x and 1, if lifted convexly, only neighbours are lowest together."""
 INNER = "0 0 1 0 1 -1 0 2 -1 0 3 1"
@@ -159,6 +193,35 @@ def rows() -> dict[str, Row]:
             "rejected",
             bad,
         ),
+        "weights of one of two do not sum to 0": (
+            listed(
+                "x,y",
+                (*CUBIC, "y-1"),
+                represented([(1, 1), (2, 1)], (1, 0)),
+                **complete("mixed-volume", 2, subdivision=TOGETHER | {"obstructions": [MIDDLE[0], "0 3 -1"]}),
+            ),
+            "rejected",
+            bad,
+        ),
+        "the same terms twice": (
+            _curves([(1, 5), (3, 2)], CROSS_CELLS["lifting"], CROSS_CELLS["obstructions"], ALIKE),
+            "accepted",
+            "mixed volume",
+        ),
+        "without a constant": (
+            _curves([(0, 5), (2, 1)], OPEN_CELLS[0], OPEN_CELLS[1], OPEN),
+            "accepted",
+            "mixed volume",
+        ),
+        **{
+            f"a polynomial without terms of degree 1, {place}": (
+                _curves([(0, 3), (1, 1), (-3, -3)], *THROUGH[place], MEETING[:: 1 if place == "first" else -1]),
+                "accepted",
+                "mixed volume",
+            )
+            for place in THROUGH
+        },
+        "ten": (_curves(CROSSINGS, ["10 10", "0 4 7"], honest), "accepted", "mixed volume"),
         "more polynomials than variables": (
             _curves(PAIR, BILINEAR_CELLS["lifting"], BILINEAR_CELLS["obstructions"], (*BILINEAR, BILINEAR[0])),
             "rejected",
@@ -238,13 +301,26 @@ def rows() -> dict[str, Row]:
                 "0 1 1 0 0 -1",
                 "0 0 1 0 0 -1",
                 "1 0 1 0 0 -1",
+                "0 0 1 0 0 1 0 1 -2",
+                "0 0 1 0 1 0",
                 "0 -1 1",
                 "-1 0 1",
             )
         },
         **{
             f"lifting {text!r}": (_part("cells", "lifting", [text, "0 4 7"]), "malformed", "subdivision.lif")
-            for text in ("06 6", "6  6", "6 -0", "6 +6", "6 6 ", " 6 6", "6 1000000000000000000", "6,6", "٦ ٦")
+            for text in (
+                "06 6",
+                "6  6",
+                "6 -0",
+                "6 +6",
+                "6 6 ",
+                " 6 6",
+                "6 1000000000000000000",
+                "1000000000000000000 6",
+                "6,6",
+                "٦ ٦",
+            )
         },
         "eighteen digits": (
             _curves(CROSSINGS, ["999999999999999999 999999999999999999", "0 4 7"], honest),

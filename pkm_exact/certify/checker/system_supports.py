@@ -14,11 +14,12 @@ from typing import Final, NamedTuple
 from flint import fmpz_mat, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge
+from pkm_exact.certify.checker.residues import primes
 from pkm_exact.certify.checker.system_terms import Monomial, Terms
 from pkm_exact.certify.checker.verdict import rejected, too_large
 
 MOST_VARIABLES: Final = 12
-_PRIME: Final = (1 << 61) - 1
+_PRIME: Final = next(primes())
 _Edge = tuple[int, int]
 
 
