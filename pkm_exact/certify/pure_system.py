@@ -1053,14 +1053,10 @@ def multihomogeneous(polynomials: Sequence[pure.Terms], groups: Sequence[Sequenc
 # Check 12: mixed volumes
 # ---------------------------------------------------------------------------------------------------------------------
 
-MAX_CELL_VARIABLES: Final = 12
-MODULUS: Final = (1 << 31) - 1
-
 
 def check_cells(certificate: Certificate, cells: Cells, solutions: int) -> None:
     """The terms that occur admit no more solutions than these, which are regular."""
     number = certificate.number
-    pure.affordable(number <= MAX_CELL_VARIABLES, f"subdivision: more than {MAX_CELL_VARIABLES} variables")
     square = len(certificate.polynomials) == number
     pure.require(square, "subdivision: there are not as many polynomials as variables")
     supports = [sorted({*terms, (0,) * number}, key=pure.order, reverse=True) for terms in certificate.polynomials]
@@ -1073,7 +1069,6 @@ def check_cells(certificate: Certificate, cells: Cells, solutions: int) -> None:
         volume += abs(determinant([[b - a for a, b in zip(one, other, strict=True)] for one, other in edges]))
         pure.require(volume <= solutions, f"subdivision: there is room for more than {solutions} solutions")
     pure.require(volume == solutions, f"subdivision: {solutions} solutions, but its cells have the volume {volume}")
-    check_general(certificate.polynomials, supports)
 
 
 def lowest_nowhere(
@@ -1141,28 +1136,6 @@ def determinant(rows: Sequence[Sequence[int]]) -> int:
         left = [[(pivot[0] * b - row[0] * a) // last for a, b in zip(pivot[1:], row[1:], strict=True)] for row in left]
         last = pivot[0]
     return sign * last
-
-
-def check_general(polynomials: Sequence[pure.Terms], supports: Sequence[Sequence[pure.Monomial]]) -> None:
-    """For any coordinates that are 0 at a point: general polynomials with these terms that vanish there are regular."""
-    number, random = len(supports), Random(7)
-    for chosen in range(1 << number):
-        gone = [place for place in range(number) if chosen & 1 << place]
-        pure.spend(sum(map(len, supports)) * (3000 + 300 * number) + 300 * number**3)
-        if any(sum(not any(m[place] for place in gone) for m in terms) == 1 for terms in polynomials):
-            continue
-        rows = []
-        for points in supports:
-            row = [0] * number
-            for point in points:
-                weight, times = random.randrange(1, MODULUS), sum(point[place] for place in gone)
-                if times == 0:
-                    row = [a + weight * b for a, b in zip(row, point, strict=True)]
-                elif times == 1:
-                    row[next(place for place in gone if point[place])] += weight
-            rows.append(row)
-        regular = determinant(rows) % MODULUS
-        pure.require(regular, "subdivision: not excluded that solutions lie where some coordinates are 0")
 
 
 # ---------------------------------------------------------------------------------------------------------------------

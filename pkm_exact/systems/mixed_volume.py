@@ -8,13 +8,13 @@ why, is in ``docs/certificates-systems.md``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 from random import Random
 from typing import Final, TypeAlias
 
-from flint import fmpz_mat, nmod_mat
+from flint import fmpz_mat
 
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.policy import Policy
@@ -22,11 +22,10 @@ from pkm_exact.systems.obstructions import Edge, Obstruction, Point, obstruction
 from pkm_exact.systems.polynomial_terms import decreasing_terms
 
 MOST_VARIABLES: Final = 12
-"""All sets of variables are looked at."""
+"""Beyond which the search is not begun."""
 MOST_SEARCHES: Final = 6000
 """Obstructions that are looked for."""
 _LIFTED: Final = 1 << 16
-_PRIME: Final = (1 << 61) - 1
 
 Supports: TypeAlias = list[list[Point]]
 
@@ -67,7 +66,7 @@ def subdivision_for(system: PolynomialSystem, number: int, policy: Policy) -> Su
     random = Random(policy.seed_for(system.digest, "mixed volume"))
     lifting = [[random.randrange(_LIFTED) for _ in support] for support in supports]
     search = _Search(supports, lifting, number)
-    if search.volume() != number or not is_regular_anywhere(terms, supports, random):
+    if search.volume() != number:
         return None
     return Subdivision(tuple(map(tuple, lifting)), tuple(search.found))
 
@@ -126,33 +125,3 @@ class _Search:
 def _direction(supports: Supports, edge: Edge) -> list[int]:
     i, first, second = edge
     return [b - a for a, b in zip(supports[i][first], supports[i][second], strict=True)]
-
-
-def is_regular_anywhere(terms: Supports, supports: Supports, random: Random) -> bool:
-    """Whether general polynomials with these supports that vanish at a point are regular there, whatever the point.
-
-    For each set of coordinates that may be the ones that are 0 at a solution, it is seen at one choice of coefficients.
-    """
-    size = len(supports)
-    for number in range(1 << size):
-        zero = [place for place in range(size) if number >> place & 1]
-        if any(sum(not any(key[place] for place in zero) for key in keys) == 1 for keys in terms):
-            continue
-        rows = [_slope(support, zero, random) for support in supports]
-        if not int(nmod_mat([[value % _PRIME for value in row] for row in rows], _PRIME).det()):
-            return False
-    return True
-
-
-def _slope(support: Sequence[Point], zero: Sequence[int], random: Random) -> list[int]:
-    """The derivatives, but for factors of columns, of a general polynomial at a point with these coordinates 0."""
-    total = [0] * len(support[0])
-    for key in support:
-        order = sum(key[place] for place in zero)
-        if order > 1:
-            continue
-        weight = random.randrange(1, 1 << 30)
-        for place, exponent in enumerate(key):
-            if order == 0 or (place in zero and exponent):
-                total[place] += weight * exponent
-    return total

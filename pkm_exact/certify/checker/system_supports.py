@@ -9,17 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import accumulate, combinations
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
-from flint import fmpz_mat, nmod_mat
+from flint import fmpz_mat
 
 from pkm_exact.certify.checker.budget import charge
-from pkm_exact.certify.checker.residues import primes
 from pkm_exact.certify.checker.system_terms import Monomial, Terms
-from pkm_exact.certify.checker.verdict import rejected, too_large
+from pkm_exact.certify.checker.verdict import rejected
 
-MOST_VARIABLES: Final = 12
-_PRIME: Final = next(primes())
 _Edge = tuple[int, int]
 
 
@@ -32,8 +29,6 @@ class Subdivision(NamedTuple):
 
 def require_bound(polynomials: Sequence[Terms], size: int, subdivision: Subdivision, number: int) -> None:
     """Rejects unless so many regular solutions are proved to be all by the terms that occur."""
-    if size > MOST_VARIABLES:
-        raise too_large(f"subdivision: more than {MOST_VARIABLES} variables")
     if len(polynomials) != size:
         raise rejected("subdivision: the polynomials are not as many as the variables")
     zero = (0,) * size
@@ -44,7 +39,6 @@ def require_bound(polynomials: Sequence[Terms], size: int, subdivision: Subdivis
     volume = _Cells(supports, lowest).volume(number)
     if volume != number:
         raise rejected(f"subdivision: {number} solutions, and its cells have the volume {volume}, or more")
-    _require_regular(polynomials, supports)
 
 
 def _obstructed(
@@ -104,27 +98,3 @@ class _Cells:
             further = points | {start + k, start + j}
             if not any(low <= further for lows in known for low in lows):
                 yield from self._choices(further, (*edges, (k, j)))
-
-
-def _require_regular(polynomials: Sequence[Terms], supports: Sequence[Sequence[Monomial]]) -> None:
-    """General polynomials that vanish at a point are regular there, whichever of its coordinates are 0.
-
-    Not where one of the polynomials has a single term left: it does not vanish there.
-    """
-    size = len(supports)
-    for number in range(1 << size):
-        zero = [place for place in range(size) if number >> place & 1]
-        charge(sum(map(len, supports)) * (2000 + 200 * size) + 30 * size**3)
-        if any(sum(not any(key[place] for place in zero) for key in terms) == 1 for terms in polynomials):
-            continue
-        rows, weight = [], 5
-        for support in supports:
-            row = [0] * size
-            for key in support:
-                order = sum(key[place] for place in zero)
-                weight = (weight * weight + 3) % _PRIME
-                for place in range(size) if not order else zero if order == 1 else ():
-                    row[place] = (row[place] + weight * key[place]) % _PRIME
-            rows.append(row)
-        if not int(nmod_mat(rows, _PRIME).det()):
-            raise rejected("subdivision: not proved that no solution lies where coordinates are 0")
