@@ -140,6 +140,12 @@ def _without() -> Content:
     return {key: value for key, value in handmade()["cells"].items() if key != "subdivision"}
 
 
+def _called_double() -> Content:
+    """Two points of a line of solutions, called complete and double."""
+    content = _curves([(1, 3), (1, 5)], CROSS_CELLS["lifting"], CROSS_CELLS["obstructions"], CROSS, (0, 1))
+    return content | {"solutions": [solution | {"multiplicity": 2} for solution in content["solutions"]]}
+
+
 def rows() -> dict[str, Row]:
     """All of them, by name."""
     honest = CELLS["obstructions"]
@@ -221,6 +227,56 @@ def rows() -> dict[str, Row]:
             )
             for place in THROUGH
         },
+        "weights sum to more than 0": (
+            _cubic([1, 2], "0 -9 -16 -21", [*MIDDLE, "0 0 1 0 1 -1 0 2 -1 0 3 2"]),
+            "rejected",
+            bad,
+        ),
+        "weights and vectors both sum to 3": (
+            _cubic([1, 2], "0 -9 -16 -21", [*MIDDLE, "0 0 2 0 1 -1 0 2 -1 0 3 3"]),
+            "rejected",
+            bad,
+        ),
+        "weights and vectors both sum to -1": (
+            _cubic([1, 2], "30 21 14 9", [*MIDDLE, "0 0 1 0 1 -1 0 2 -2 0 3 1"]),
+            "rejected",
+            bad,
+        ),
+        "the first edge is along y": (
+            _curves([(2, 2)], ["0 0", "0 1 0"], ["0 0 1 0 1 -1 1 1 -1 1 2 1"], ("y-2", "x*y+y-6")),
+            "accepted",
+            "mixed volume",
+        ),
+        "a choice of no volume": (
+            _curves(
+                [(2, 2), (-3, 2)],
+                ["0 0", "0 10 0 30"],
+                ["0 0 -1 0 1 1 1 0 -1 1 1 2 1 3 -1", "1 0 1 1 1 -2 1 2 1"],
+                ("y-2", "x^2*y+x*y+y-14"),
+            ),
+            "accepted",
+            "mixed volume",
+        ),
+        "no edge but the last along x": (
+            listed(
+                "x,y,z",
+                ("y-2", "z-3", "x*y-4"),
+                represented([(2, 2, 3)], (1, 0, 0)),
+                **complete("mixed-volume", 1, subdivision={"lifting": ["0 0"] * 3, "obstructions": []}),
+            ),
+            "accepted",
+            "mixed volume",
+        ),
+        "beside the product of the degrees": (
+            listed(
+                "x",
+                CUBIC,
+                represented([(1,), (2,), (3,)], (1,)),
+                **complete("refined-bezout", 3, subdivision={"lifting": ["0 0 0 0"], "obstructions": []}),
+            ),
+            "rejected",
+            bad,
+        ),
         "ten": (_curves(CROSSINGS, ["10 10", "0 4 7"], honest), "accepted", "mixed volume"),
         "more polynomials than variables": (
             _curves(PAIR, BILINEAR_CELLS["lifting"], BILINEAR_CELLS["obstructions"], (*BILINEAR, BILINEAR[0])),
@@ -232,6 +288,7 @@ def rows() -> dict[str, Row]:
             "rejected",
             bad,
         ),
+        "not isolated, and called double": (_called_double(), "rejected", bad),
         "where x is 0": (
             listed(
                 "x,y",

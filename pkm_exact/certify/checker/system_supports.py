@@ -8,7 +8,7 @@ the A_i at least.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import accumulate, combinations
+from itertools import accumulate, chain, combinations
 from typing import NamedTuple
 
 from flint import fmpz_mat
@@ -29,15 +29,13 @@ class Subdivision(NamedTuple):
 
 def require_bound(polynomials: Sequence[Terms], size: int, subdivision: Subdivision, number: int) -> None:
     """Rejects unless so many regular solutions are proved to be all by the terms that occur."""
-    if len(polynomials) != size:
-        raise rejected("subdivision: the polynomials are not as many as the variables")
     zero = (0,) * size
     supports = [list(terms) if zero in terms else [*terms, zero] for terms in polynomials]
     if list(map(len, subdivision.lifting)) != list(map(len, supports)):
         raise rejected("subdivision: not a number for each term of the polynomials, and for 1")
     lowest = [_obstructed(entry, supports, subdivision.lifting) for entry in subdivision.obstructions]
     volume = _Cells(supports, lowest).volume(number)
-    if volume != number:
+    if volume > number:
         raise rejected(f"subdivision: {number} solutions, and its cells have the volume {volume}, or more")
 
 
@@ -96,5 +94,5 @@ class _Cells:
             known = self.ending.get(start + k, ()), self.ending.get(start + j, ())
             charge(3000 + 200 * sum(map(len, known)))
             further = points | {start + k, start + j}
-            if not any(low <= further for lows in known for low in lows):
+            if not any(map(further.issuperset, chain(*known))):
                 yield from self._choices(further, (*edges, (k, j)))
