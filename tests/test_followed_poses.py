@@ -20,9 +20,11 @@ from pkm_exact.cli.main import main
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.interactive.display import tolerance_html
 from pkm_exact.numeric.branch_bounds import branch_bounds
-from pkm_exact.numeric.branch_proof import CellProof, faces, joins, proved_cells
+from pkm_exact.numeric.branch_proof import faces, joins, outer_faces, proved_cells
+from pkm_exact.numeric.branch_regularity import CellErrors, is_definite
 from pkm_exact.numeric.branch_robot import BranchCell, BranchRobot, ProvedBranch, boxes_of
 from pkm_exact.numeric.branch_search import BranchSearch
+from pkm_exact.numeric.cell_proof import CellProof, places
 from pkm_exact.numeric.centred import centred_frames, centred_robot
 from pkm_exact.numeric.data_errors import DataErrors, data_errors
 from pkm_exact.numeric.enclosed_arrays import Enclosed, are_positive, exact, lengths, product
@@ -36,7 +38,9 @@ Capture = pytest.CaptureFixture[str]
 NAME = "3-rpr-merlet-p"
 MODEL = next(path for path in MODELS if path.stem == NAME)
 TOLERANCE = "0.03"
-"""Beyond what a box is proved for, at both poses; at the second pose it takes two cells."""
+"""Beyond what a box is proved for, at both poses."""
+TOLERANCES = (TOLERANCE, "0.045")
+"""At the second pose this takes some cells."""
 EXPONENT = 128
 
 
@@ -54,8 +58,8 @@ def _core() -> arb:
     return arb(2) ** -(EXPONENT // 2)
 
 
-def _errors(pose: int, tolerance: str = TOLERANCE) -> DataErrors:
-    return data_errors(_near(pose).robot, Tolerances.uniform(tolerance))
+def _errors(pose: int) -> DataErrors:
+    return data_errors(_near(pose).robot, Tolerances.uniform(TOLERANCES[pose]))
 
 
 @cache
@@ -63,7 +67,7 @@ def _branch(pose: int) -> tuple[BranchRobot, ProvedBranch]:
     """What was proved, as it is written down."""
     with working_precision(256):
         search = BranchSearch(_near(pose), _errors(pose), _core())
-        cells = search.proved(_errors(pose))
+        cells = search.proved(search.found(_errors(pose)))
     assert cells is not None
     assert search.branch is not None
     return cells[0].family, search.branch
@@ -102,7 +106,7 @@ def test_sampled_robots_have_their_pose_within_the_bounds() -> None:
         followed = box.followed
         assert followed is not None
         assert followed.is_whole
-        assert followed.cells == (1, 2)[box.pose - 1]
+        assert followed.cells == 1
         pose = solution.poses[box.pose - 1]
         found = poses_near(robots_with(solution.problem, tolerances, errors), pose)
         components = followed.bounds.components
@@ -140,9 +144,7 @@ def test_what_is_written_down_is_proved_again(pose: int) -> None:
     assert _is_proved(pose)
 
 
-@pytest.mark.parametrize(
-    ("key", "factor"), [("slope", 0.99), ("bend", 0.99), ("joints", 0.99), ("radius", 0.5), ("joints", 8), ("bend", 8)]
-)
+@pytest.mark.parametrize(("key", "factor"), [("slope", 0.99), ("bend", 0.99), ("radius", 0.5), ("bend", 8)])
 @pytest.mark.parametrize("place", [0, 1])
 def test_claims_that_are_untrue_or_too_weak(key: str, factor: float, place: int) -> None:
     branch = _branch(1)[1]
@@ -150,27 +152,67 @@ def test_claims_that_are_untrue_or_too_weak(key: str, factor: float, place: int)
     assert not _is_proved(1, cells=_with_cell(branch, place, **{key: value}))
 
 
-def test_cells_that_hold_other_poses_are_not_joined() -> None:
-    """Both cells are proved, but the second with a pose that is not on this branch is not joined to the first."""
+def test_metrics_that_are_not_definite() -> None:
+    """A metric that turns, weights that are too great or small, and none at all."""
+    branch = _branch(1)[1]
+    cell = branch.cells[0]
+    for metric in (tuple(tuple(-v for v in row) for row in cell.metric), cell.metric[::-1]):
+        assert not _is_proved(1, cells=_with_cell(branch, 0, metric=metric))
+    for factor in (2**12, Fraction(1, 2**12), 0, -1):
+        weights = tuple(tuple(int(v * factor) for v in row) for row in cell.weights)
+        assert not _is_proved(1, cells=_with_cell(branch, 0, weights=weights))
+
+
+def test_jacobians_of_sampled_robots_are_definite() -> None:
+    """And those of errors that are ten times as great are not all."""
     family, branch = _branch(1)
     with working_precision(256):
-        boxes = boxes_of(branch.reach, branch.splits)
+        box = boxes_of(branch.reach, branch.cuts)[0][0]
+        errors = CellErrors(CellProof(family, branch.cells[0], box))
+        assert is_definite(errors)
+        random = np.random.default_rng(4)
+        metric, cell = np.array(branch.cells[0].metric), errors.cell
+        for factor, expected in ((1.0, True), (10.0, False)):
+            found = []
+            for slopes, effects in zip(errors.slopes.mid, errors.effects.mid, strict=True):
+                for t in random.choice([-1.0, 1.0], (40, *effects.shape[:2])):
+                    rows = cell.on_legs.mid @ np.einsum("le,lep->lp", t, effects)
+                    jacobian = metric @ (np.eye(len(metric)) + factor * (slopes + rows))
+                    found.append(np.linalg.eigvalsh(jacobian + jacobian.T)[0] > 0)
+            assert all(found) == expected
+
+
+def test_cells_that_hold_other_poses_are_not_joined() -> None:
+    """All cells are proved, but one with a pose that is not on this branch is not joined to its neighbour."""
+    family, branch = _branch(1)
+    with working_precision(256):
+        boxes, _ = boxes_of(branch.reach, branch.cuts)
         cells = [CellProof(family, cell, box) for cell, box in zip(branch.cells, boxes, strict=True)]
-        ((one, two, middle),) = faces(boxes)
-        assert (one, two) == (0, 1)
-        s = exact([float(v) / 2**48 for v in middle])
-        assert joins(cells[0], cells[1], s)
-        assert cells[1].holds(cells[1].centre, cells[1].middle, 0.0)
-        assert not cells[1].holds(cells[1].centre, cells[1].middle, cells[1].radius)
-        far = replace(branch.cells[1], centre=tuple(v + 2**44 for v in branch.cells[1].centre))
-        assert not joins(cells[0], CellProof(family, far, boxes[1]), s)
+        i, j, face = next(found for found in faces(boxes, boxes) if found[0] < found[1])
+        s = places(face)[0]
+        assert joins(cells[i], cells[j], s)
+        assert cells[j].holds(cells[j].centre, cells[j].middle, 0.0)
+        assert not cells[j].holds(cells[j].centre, cells[j].middle, cells[j].radius)
+        far = replace(branch.cells[j], centre=tuple(v + 2**44 for v in branch.cells[j].centre))
+        assert not joins(cells[i], CellProof(family, far, boxes[j]), s)
 
 
-def test_the_box_of_changes_must_be_wide_enough() -> None:
-    branch = _branch(0)[1]
+def test_no_robot_may_be_at_the_ends_of_cells() -> None:
+    """Errors of legs that are at an end of the cells are not covered by what is left out."""
+    family, branch = _branch(0)
+    with working_precision(256):
+        boxes, left_out = boxes_of(branch.reach, branch.cuts)
+        (cell,) = branch.cells
+        errors = CellErrors(CellProof(family, cell, boxes[0]))
+        ends = [face for _, _, face in faces(boxes, left_out)] + [face for _, face in outer_faces(branch.reach, boxes)]
+        assert len(ends) == 6
+        for face in ends:
+            assert errors.leaves(face)
+            assert not errors.leaves(tuple((int(0.6 * low), int(0.6 * high)) for low, high in face))
     for leg in range(3):
-        reach = tuple(int(r * (0.7 if k == leg else 1)) for k, r in enumerate(branch.reach))
-        assert not _is_proved(0, reach=reach)
+        cuts = tuple((k, int(0.6 * place) if k == leg + 1 else place) for k, place in branch.cuts)
+        reach = tuple(int(r * (0.6 if k == leg else 1)) for k, r in enumerate(branch.reach))
+        assert not _is_proved(0, cuts=cuts, reach=reach)
 
 
 def test_the_nominal_pose_must_be_on_the_branch() -> None:
@@ -194,12 +236,19 @@ def test_bounds_that_are_too_wide_for_an_angle() -> None:
         assert branch_bounds(_near(0), cells, arb(4), (Fraction(0), Fraction(0))) is None
 
 
-def test_cells_are_halves_in_turn() -> None:
-    boxes = boxes_of((4, 8), (2, 0, 1, 0, 0))
-    assert boxes == [((-4, 4), (-8, 0)), ((-4, 0), (0, 8)), ((0, 4), (0, 8))]
-    assert faces(boxes) == [(0, 1, [-2, 0]), (0, 2, [2, 0]), (1, 2, [0, 4])]
+def test_boxes_are_cut_in_turn() -> None:
+    cells, left_out = boxes_of((4, 8), ((2, 0), (0, 0), (1, 1), (-1, 0), (0, 0)))
+    assert cells == [((-4, 4), (-8, 0)), ((1, 4), (0, 8))]
+    assert left_out == [((-4, 1), (0, 8))]
+    assert faces(cells, cells) == [(0, 1, ((1, 4), (0, 0))), (1, 0, ((1, 4), (0, 0)))]
+    assert faces(cells, left_out) == [(0, 0, ((-4, 1), (0, 0))), (1, 0, ((1, 1), (0, 8)))]
+    assert faces(cells, []) == []
+    assert [place for place, _ in outer_faces((4, 8), cells)] == [0, 0, 0, 1, 1]
     # Cells that have only a corner in common are no neighbours.
-    assert {pair[:2] for pair in faces(boxes_of((1, 1), (1, 2, 0, 0, 2, 0, 0)))} == {(0, 1), (0, 2), (1, 3), (2, 3)}
+    four, _ = boxes_of((1, 1), ((1, 0), (2, 0), (0, 0), (0, 0), (2, 0), (0, 0), (0, 0)))
+    assert {pair[:2] for pair in faces(four, four) if pair[0] < pair[1]} == {(0, 1), (0, 2), (1, 3), (2, 3)}
+    with pytest.raises(ValueError, match="outside"):
+        boxes_of((4, 8), ((1, 4), (0, 0), (0, 0)))
 
 
 def test_sums_of_products_are_enclosed() -> None:

@@ -10,10 +10,10 @@ import numpy as np
 from flint import acb, acb_mat, arb
 
 from pkm_exact.balls import ball
-from pkm_exact.numeric.branch_proof import CellProof, above
+from pkm_exact.numeric.cell_proof import CellProof
 from pkm_exact.numeric.centred import NORM, POSITION, origins
 from pkm_exact.numeric.deviations import POSITION_ROWS, QUATERNION_ROWS, PoseBounds
-from pkm_exact.numeric.enclosed_arrays import Enclosed, Real, enclosed, join, lengths, product
+from pkm_exact.numeric.enclosed_arrays import Enclosed, Real, above, enclosed, join, lengths, product
 from pkm_exact.numeric.linearisation import Linearisation
 from pkm_exact.numeric.pose_maps import interval, pose_map
 from pkm_exact.roots.interval import Interval
@@ -72,7 +72,7 @@ def _parts(values: Enclosed) -> tuple[list[float], list[float]]:
 
 
 def _chord_slopes(near: Linearisation, cell: CellProof) -> Enclosed:
-    """Rows v with g(m + A y) - g(m) = v y, one of them for each y in the balls of the cell, of the 19 components g.
+    """Rows v with g(m + A y) - g(m) = v y, one for each y that poses have, of the 19 components g.
 
     For a quotient r = q / N of quadrics it is (q' - r(m) N')(m + A y / 2) A / N(m + A y); and for e / sqrt(N)
     it is (A_e - e(m) N'(m + A y / 2) A / (sqrt(N(m)) (sqrt(N) + sqrt(N(m))))) / sqrt(N).
@@ -88,10 +88,10 @@ def _chord_slopes(near: Linearisation, cell: CellProof) -> Enclosed:
     rows = tangents[quotients] - product("k,p->kp", ratios, tangents[NORM])
     bent = bends[quotients] - product("k,pq->kpq", ratios, bends[NORM])
     reach = product("kpq,qi->kpi", join(bent, bends[NORM][None]), cell.shifts).most.sum(axis=2)
-    reach = (reach + lengths(join(bent, bends[NORM][None])) * cell.radius) / 2 * WIDER
+    reach = (reach + lengths(join(bent, bends[NORM][None])) * cell.distance) / 2 * WIDER
     rows = Enclosed(rows.mid, (rows.rad + reach[:-1]) * WIDER)
     norm_row = Enclosed(tangents[NORM].mid, (tangents[NORM].rad + reach[-1]) * WIDER)
-    across = product("p,pi->i", norm_row, cell.shifts).most.sum() + lengths(norm_row) * cell.radius
+    across = product("p,pi->i", norm_row, cell.shifts).most.sum() + lengths(norm_row) * cell.distance
     norm = Enclosed(values[NORM].mid, (values[NORM].rad + across) * WIDER)
     rows = product("kp,->kp", rows, _reciprocal(norm))
     return join(*_components(near, cell, rows, norm, values[NORM], norm_row))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from typing import Final
@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.numeric.branch_robot import PLACE_BITS
+from pkm_exact.numeric.branch_robot import PLACE_BITS, Box
 from pkm_exact.numeric.centred import NORM, POSITION, ROTATION, TURNED, gradient_forms
 from pkm_exact.numeric.data_errors import DataErrors
 from pkm_exact.numeric.linearisation import Linearisation
@@ -20,8 +20,8 @@ Real = NDArray[np.float64]
 SLACK: Final = 0.94
 """What is proved leaves a part of 1 to what doubles do not see."""
 NEWTON: Final = 12
-WIDER: Final = 1.3
-"""The box of s beside the errors of the equations at the nominal pose."""
+WIDER: Final = 1.5
+"""The box of s beside the errors of the equations at the nominal pose, at first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,10 +39,10 @@ class BranchFamily:
     lengths : legs
     errors : three numbers
         Tolerances of base joints, platform joints, lengths.
+    wider : float
+        The box of s beside the errors of the equations at the nominal pose, in times ``WIDER``.
     axes : int
         Along which joints can err.
-    turning : int
-        How many of the first coordinates are those of e.
     """
 
     forms: Real
@@ -53,8 +53,8 @@ class BranchFamily:
     platform: Real
     lengths: Real
     errors: tuple[float, float, float]
+    wider: float
     axes: int
-    turning: int
 
     @property
     def first(self) -> int:
@@ -62,20 +62,20 @@ class BranchFamily:
         return len(self.forms) - len(self.lengths)
 
     @cached_property
-    def reach(self) -> Real:
-        """Half widths of the box of s."""
-        values = np.einsum("kij,i,j->k", self.motions, self.centre, self.centre) / 2
-        return np.asarray(np.ceil(WIDER * self.changes(values) * 2**PLACE_BITS) / 2**PLACE_BITS)
+    def is_bounded(self) -> bool:
+        """Whether errors change every leg, and by a number."""
+        reach = self.changes(self.values(self.centre))
+        return bool(np.isfinite(reach).all() and (reach > 2.0 ** (8 - PLACE_BITS)).all())
 
     @cached_property
-    def signs(self) -> Real:
-        """Of the errors of a leg, one of each two opposite ones."""
-        signs = np.array(list(product((1.0, -1.0), repeat=2 * self.axes)))
-        return np.concatenate([np.ones((len(signs), 1)), signs], axis=1)
+    def box(self) -> Box:
+        """Of s, in units of 2^-48."""
+        reach = WIDER * self.wider * self.changes(self.values(self.centre)) * 2**PLACE_BITS
+        return tuple((-int(r), int(r)) for r in np.ceil(reach))
 
-    def bent_errors(self, basis: Real) -> Real:
-        """Second derivatives of what each error adds, in the coordinates of a basis."""
-        return np.asarray(basis.T @ self.single @ basis)
+    def values(self, x: Real) -> Real:
+        """The quantities at x, or at the columns of x."""
+        return np.asarray(np.einsum("ki...,i...->k...", np.tensordot(self.motions, x, 1), x) / 2)
 
     @cached_property
     def solved(self) -> int:
@@ -116,26 +116,8 @@ class BranchFamily:
             found.append(2 * (change + length * dl * np.abs(norm)) + rest)
         return np.array(found)
 
-    @cached_property
-    def single(self) -> Real:
-        """2 K of what each error adds to its leg's equation to first order: legs x errors x n x n."""
-        return self.directions(self.motions)
 
-    def directions(self, at: Real) -> Real:
-        """What each error adds to its leg to first order, from quantities or their derivatives: legs x errors x .."""
-        da, db, dl = self.errors
-        norm, position, turned = at[NORM], at[POSITION:ROTATION], at[TURNED:POSITION]
-        turn = at[ROTATION:NORM].reshape(3, 3, *at.shape[1:])
-        found = []
-        for a, b, length in zip(self.base, self.platform, self.lengths, strict=True):
-            along = position + np.einsum("jk...,k->j...", turn, b) - np.multiply.outer(a, norm)
-            back = turned + np.multiply.outer(b, norm) - np.einsum("kj...,k->j...", turn, a)
-            parts = [-2 * da * along[: self.axes], 2 * db * back[: self.axes], -2 * length * dl * norm[None]]
-            found.append(np.concatenate(parts))
-        return np.array(found)
-
-
-def branch_family(near: Linearisation, errors: DataErrors) -> BranchFamily:
+def branch_family(near: Linearisation, errors: DataErrors, wider: float = 1.0) -> BranchFamily:
     """The family around a real pose."""
     robot = near.robot
     motion = robot.problem.motion
@@ -155,16 +137,18 @@ def branch_family(near: Linearisation, errors: DataErrors) -> BranchFamily:
         np.array([[float(x.mid()) for x in joint] for joint in robot.legs.platform]),
         np.array([float(x.mid()) for x in robot.legs.lengths]),
         (float(errors.base.upper()), float(errors.platform.upper()), float(errors.lengths.upper())),
+        wider,
         2 if motion.is_planar else 3,
-        len(turning),
     )
 
 
 class Cell:
     """A cell of the box of s: its middle, half widths, and the pose at the middle."""
 
-    def __init__(self, family: BranchFamily, start: Real, middle: Real, half: Real) -> None:
-        self.family, self.middle, self.half = family, middle, half
+    def __init__(self, family: BranchFamily, start: Real, box: Box) -> None:
+        ends = np.array(box, dtype=np.float64) / 2**PLACE_BITS
+        self.family, self.half = family, (ends[:, 1] - ends[:, 0]) / 2
+        middle = (ends[:, 0] + ends[:, 1]) / 2
         shift = np.zeros(len(start))
         shift[family.first : -1] = middle
         shift[-1] = -1
@@ -180,71 +164,62 @@ class Cell:
         self.has_pose = bool(np.isfinite(x).all() and off < 1e-10)
         self.centre, self.slope = x, family.forms @ x
 
-    def bounds(self, basis: Real, half: Real | None = None, *, joints: bool = True) -> CellBounds:
-        """What can be proved of the cell, or of one with other half widths, in the coordinates of a basis.
-
-        Without ``joints`` what the data add is taken at the centre, which is done sooner.
-        """
+    def errors(self, basis: Real) -> Real:
+        """About the greatest errors of the legs in the cell: at its corners, to first order."""
         family = self.family
-        reach = self.half if half is None else half
+        corners = np.concatenate([family.vertices, -family.vertices]) * self.half
+        moves = basis @ np.linalg.inv(self.slope @ basis)[:, family.first :]
+        return np.asarray(family.changes(family.values(self.centre[:, None] - moves @ corners.T)).max(axis=1))
+
+    def shape(self, basis: Real) -> CellShape:
+        """The second derivatives in the coordinates of a basis."""
+        family = self.family
         inverse: Real = np.linalg.inv(self.slope @ basis).astype(np.float64)
         bend = np.tensordot(inverse, basis.T @ family.forms @ basis, 1)
-        shifts = inverse[:, family.first :] * reach
-        turns = np.einsum("pqr,ri->ipq", bend, shifts)
-        at = np.tensordot(family.vertices, turns, 1)
-        slope = float(np.abs(np.linalg.eigvalsh((at + np.swapaxes(at, 1, 2)) / 2)).max())
-        pairs = np.einsum("ipq,qj->pij", turns, shifts)
-        images = family.vertices @ pairs @ family.vertices.T
         flat = bend.reshape(len(bend), -1)
-        residual = float(np.linalg.norm(images, axis=0).max() / 2)
-        first = CellBounds(slope, float(np.sqrt(np.linalg.eigvalsh(flat @ flat.T)[-1])), residual, 0.0, 0.0)
-        if not joints:
-            return replace(first, joints=self._joints_at_centre(basis, inverse[:, family.first :]))
-        share, errors = self._joints(basis, inverse[:, family.first :], shifts, first.radius)
-        return replace(first, joints=share, errors=errors)
+        size = float(np.sqrt(np.linalg.eigvalsh(flat @ flat.T)[-1]))
+        return CellShape(family.vertices, inverse[:, family.first :], bend, size)
 
-    def _joints_at_centre(self, basis: Real, on_legs: Real) -> float:
-        """Roughly what errors of the data add to f' at the centre."""
-        steep = np.linalg.norm(self.steepness @ basis, axis=(1, 2)) + 1e-300
-        weights = np.sqrt(np.linalg.norm(on_legs, axis=0) / steep)
-        return float(np.linalg.norm(on_legs / weights, 2) * np.linalg.norm(weights * steep))
 
-    @cached_property
-    def steepness(self) -> Real:
-        """Derivatives of what each error adds, at the centre."""
-        return np.asarray(np.einsum("lkij,j->lki", self.family.single, self.centre))
+@dataclass(frozen=True, eq=False)
+class CellShape:
+    """A cell in the coordinates of a basis, of any size.
 
-    def _joints(self, basis: Real, on_legs: Real, shifts: Real, radius: float) -> tuple[float, float]:
-        """What errors of the data add to f', and to the legs beside the box of s."""
-        family = self.family
-        signs = family.signs
-        bent = np.tensordot(signs, family.bent_errors(basis), (1, 1))
-        rows = np.einsum("lkij,j,ip->lkp", family.single, self.centre, basis)
-        values = np.einsum("lkij,i,j->lk", family.single, self.centre, self.centre) / 2
-        turned = np.einsum("vlpq,qi->vlpi", bent, shifts)
-        away = np.abs(turned).sum(axis=3) + radius * np.linalg.norm(bent, axis=3)
-        line = np.tensordot(signs, rows, (1, 1))
-        steep = np.linalg.norm(np.abs(line) + away, axis=2).max(axis=0) + 1e-300
-        far = float(np.linalg.norm(family.vertices @ shifts.T, axis=1).max()) + radius
-        reach = np.abs(np.tensordot(signs, values, (1, 1))) + np.abs(line @ shifts).sum(axis=2)
-        reach += radius * np.linalg.norm(line, axis=2) + far * np.linalg.norm(away, axis=2) / 2
-        weights = np.sqrt(np.linalg.norm(on_legs, axis=0) / steep)
-        share = float(np.linalg.norm(on_legs / weights, 2) * np.linalg.norm(weights * steep))
-        da, db, dl = family.errors
-        norm = float(self.centre[: family.turning] @ self.centre[: family.turning])
-        rest = 1.1 * norm * (3 * (da * da + db * db) + dl * dl + 18 * da * db)
-        return share, float(((reach.max(axis=0) + rest) / family.reach).max())
+    Attributes
+    ----------
+    vertices : corners x legs
+    on_legs : (n - 1) x legs
+        What s of 1 adds to y.
+    bend : (n - 1) x (n - 1) x (n - 1)
+        B.
+    size : float
+        Its norm.
+    """
+
+    vertices: Real
+    on_legs: Real
+    bend: Real
+    size: float
+
+    def bounds(self, halves: Real) -> list[CellBounds]:
+        """What can be proved for some half widths, a row for each."""
+        shifts = self.on_legs * halves[:, None, :]
+        turns = np.einsum("pqr,kri->kipq", self.bend, shifts)
+        at = np.tensordot(self.vertices, turns, (1, 1))
+        slopes = np.abs(np.linalg.eigvalsh((at + np.swapaxes(at, -1, -2)) / 2)).max(axis=(0, 2))
+        pairs = np.einsum("kipq,kqj->kpij", turns, shifts)
+        images = self.vertices @ pairs @ self.vertices.T
+        residuals = np.linalg.norm(images, axis=1).max(axis=(1, 2)) / 2
+        return [CellBounds(float(slope), self.size, float(off)) for slope, off in zip(slopes, residuals, strict=True)]
 
 
 @dataclass(frozen=True)
 class CellBounds:
-    """Bounds in a cell, in doubles: see ``branch_proof.BranchCell``."""
+    """Bounds in a cell, in doubles: see ``branch_robot.BranchCell``."""
 
     slope: float
     bend: float
     residual: float
-    joints: float
-    errors: float
 
     @property
     def radius(self) -> float:
@@ -257,16 +232,6 @@ class CellBounds:
         return float(min(1.3 * least, free / (2 * self.bend)))
 
     @property
-    def cost(self) -> float:
-        """The less, the farther a basis reaches."""
-        return float(self.slope + 2 * (self.bend * self.residual) ** 0.5 + 0.3 * self.joints)
-
-    @property
     def excess(self) -> float:
-        """Below 1 if all is proved."""
-        exists = self.slope + 2 * (self.bend * self.residual) ** 0.5
-        radius = self.radius
-        if not radius:
-            return float(1 + exists)
-        regular = self.slope + self.bend * radius + 1.03 * self.joints
-        return float(max(exists, regular, 1.01 * SLACK * self.errors))
+        """Below 1 if there is one pose for each s. The less, the farther a basis reaches."""
+        return float(self.slope + 2 * (self.bend * self.residual) ** 0.5)

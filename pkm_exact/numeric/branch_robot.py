@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product as all_of
 from typing import Final
 
 import numpy as np
@@ -20,8 +21,19 @@ PLACE_BITS: Final = 48
 BASIS_BITS: Final = 10
 CLAIM_BITS: Final = 16
 """What is claimed of a cell are multiples of 2^-16."""
+WEIGHT_BITS: Final = 32
+"""Weights are multiples of 2^-32."""
 MARGIN: Final = 2.0**-12
 """What the solver leaves to a checker's rounding, of 1."""
+
+
+Box = tuple[tuple[int, int], ...]
+"""Intervals of s, in units of 2^-48."""
+Cut = tuple[int, int]
+"""How a box of s is cut: the leg, from 1, and the place; or ``CELL`` or ``LEFT_OUT``."""
+CELL: Final = (0, 0)
+LEFT_OUT: Final = (-1, 0)
+"""No robot has s there."""
 
 
 @dataclass(frozen=True)
@@ -34,16 +46,20 @@ class BranchCell:
         m, on the coordinates that are kept.
     radius : int
         r: of the balls in the coordinates y.
-    slope, bend, joints : int
-        At least the greatest eigenvalue of a symmetric part of B(z); the greatest norm of B(y) for a unit vector y; the
-        greatest norm of what errors of the data add to f'.
+    slope, bend : int
+        At least the greatest eigenvalue of a symmetric part of B(z); the greatest norm of B(y) for a unit vector y.
+    metric : tuple of rows of int
+        P: the symmetric part of P f' is definite at the poses of all robots of the cell.
+    weights : tuple of rows of int
+        By which this is shown, for each leg and each of its errors.
     """
 
     centre: tuple[int, ...]
     radius: int
     slope: int
     bend: int
-    joints: int
+    metric: tuple[tuple[int, ...], ...]
+    weights: tuple[tuple[int, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -56,36 +72,38 @@ class ProvedBranch:
         A, on the coordinates that are kept, in units of 2^-10.
     reach : tuple of int
         Half widths of L.
-    splits : tuple of int
-        How L is cut in halves: of each box in turn the leg across which it is cut, from 1, first the lower half with
-        all that is in it; 0 for a cell.
+    cuts : tuple of Cut
+        How L is cut: of each box in turn, first the lower part with all that is in it.
     cells : tuple of BranchCell
         In that order.
     """
 
     basis: tuple[tuple[int, ...], ...]
     reach: tuple[int, ...]
-    splits: tuple[int, ...]
+    cuts: tuple[Cut, ...]
     cells: tuple[BranchCell, ...]
 
 
-Box = tuple[tuple[Fraction, Fraction], ...]
+def boxes_of(reach: Sequence[int], cuts: Sequence[Cut]) -> tuple[list[Box], list[Box]]:
+    """The cells, and the boxes that are left out."""
+    cells: list[Box] = []
+    left_out: list[Box] = []
+    todo: list[Box] = [tuple((-r, r) for r in reach)]
+    for leg, place in cuts:
+        box = todo.pop()
+        if leg > 0:
+            low, high = box[leg - 1]
+            if not low < place < high:
+                raise ValueError(f"a box is cut outside of it, at {place}")
+            todo += [(*box[: leg - 1], half, *box[leg:]) for half in ((place, high), (low, place))]
+        else:
+            (left_out if leg else cells).append(box)
+    return cells, left_out
 
 
-def boxes_of(reach: Sequence[int], splits: Sequence[int]) -> list[Box]:
-    """The cells: intervals of s, in units of 2^-48."""
-    rest = iter(splits)
-
-    def cut(box: Box) -> list[Box]:
-        leg = next(rest)
-        if not leg:
-            return [box]
-        low, high = box[leg - 1]
-        middle = (low + high) / 2
-        halves = ((low, middle), (middle, high))
-        return [leaf for half in halves for leaf in cut((*box[: leg - 1], half, *box[leg:]))]
-
-    return cut(tuple((Fraction(-r), Fraction(r)) for r in reach))
+def signs_of(count: int) -> Enclosed:
+    """The corners of a cube, one of each two opposite ones."""
+    return exact([(1, *signs) for signs in all_of((1, -1), repeat=count - 1)])
 
 
 class BranchRobot:
@@ -114,6 +132,8 @@ class BranchRobot:
         self.errors = [exact(float(bound.abs_upper()) * (1 + 2.0**-50)) for bound in bounds]
         self.single = self.changes(self.motions)
         self.bent_errors = product("leab,ap,bq->lepq", self.single, self.basis, self.basis)
+        self.bent_cubes = product("ve,lepq->vlpq", signs_of(self.single.mid.shape[1]), self.bent_errors)
+        """Second derivatives of what a leg's errors add to first order, at the corners of their cube."""
 
     def completed(self, rows: Sequence[Sequence[Fraction]], constant: Fraction) -> Enclosed:
         """All rows from those of the kept coordinates: the other from w.x = constant."""

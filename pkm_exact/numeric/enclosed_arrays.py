@@ -103,6 +103,11 @@ def lengths(values: Enclosed) -> Real:
     return np.asarray(np.sqrt((values.most**2).sum(axis=-1)) * (1 + ROUNDING) + TINY)
 
 
+def above(value: float | Real) -> float:
+    """The greatest of some bounds, with room for the rounding of what they were added from."""
+    return float(np.max(value)) * (1 + 2.0**-36)
+
+
 def are_positive(matrices: Enclosed) -> bool:
     """Whether symmetric matrices are positive definite, along the last two axes.
 

@@ -18,7 +18,7 @@ from pkm_exact.numeric.tolerance_result import FollowedPose
 STEPS: Final = 16
 """Fractions that are tried beyond that of the box: each greater by ``RATIO``."""
 RATIO: Final = Fraction(6, 5)
-TRIES: Final = 8
+TRIES: Final = 3
 """Fractions whose proof is tried, from the greatest that doubles promise."""
 
 
@@ -51,9 +51,9 @@ def followed_pose(
     low, high = -1, len(ladder)
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (middle, high) if search.cells(errors(middle)) else (low, middle)
+        low, high = (middle, high) if search.found(errors(middle)) else (low, middle)
     for step in range(low, max(low - TRIES, -1), -1):
-        cells = search.proved(errors(step))
+        cells = search.proved(search.found(errors(step)))
         bounds = None if cells is None else branch_bounds(near, cells, core, attained)
         if cells is not None and bounds is not None:
             return FollowedPose(ladder[step], len(cells), bounds)
