@@ -98,6 +98,8 @@ def boxes_of(reach: Sequence[int], cuts: Sequence[Cut]) -> tuple[list[Box], list
             todo += [(*box[: leg - 1], half, *box[leg:]) for half in ((place, high), (low, place))]
         else:
             (left_out if leg else cells).append(box)
+    if todo:
+        raise ValueError(f"{len(todo)} boxes are neither cut nor cells nor left out")
     return cells, left_out
 
 

@@ -26,7 +26,7 @@ from pkm_exact.numeric.cell_proof import CellProof
 
 CELLS: Final = 64
 """Most cells of a branch."""
-DOUBTFUL: Final = 4
+DOUBTFUL: Final = 2
 """So many times as many cells are foreseen where the search ends at once."""
 NODES: Final = 16
 """Most entries of a tree for each of these cells."""
@@ -144,22 +144,22 @@ class TreeSearch:
 
     def _trimmed(self, node: Node, cell: Cell, todo: list[tuple[Node | None, float]]) -> Node | None:
         """What is left where robots may have s; None if nothing is."""
-        most = self.apart * cell.errors(self.basis) * 2**PLACE_BITS
+        most = [int(np.ceil(bound)) for bound in self.apart * cell.errors(self.basis) * 2**PLACE_BITS]
         for leg, bound in enumerate(most):
             low, high = node.box[leg]
-            if low > bound or -high > bound:
+            if low >= bound or -high >= bound:
                 return None
         for leg, bound in enumerate(most):
             low, high = node.box[leg]
             worth = TRIMMED * (high - low)
             if high - bound > worth:
-                self.cuts.append((leg + 1, int(bound)))
+                self.cuts.append((leg + 1, bound))
                 todo.append((None, 0.0))
-                node = node.cut(leg, int(bound), 0)
+                node = node.cut(leg, bound, 0)
                 node = replace(node, ends=node.ends | {(leg, 1)})
             if -bound - low > worth:
-                self.cuts += [(leg + 1, -int(bound)), LEFT_OUT]
-                node = node.cut(leg, -int(bound), 1)
+                self.cuts += [(leg + 1, -bound), LEFT_OUT]
+                node = node.cut(leg, -bound, 1)
                 node = replace(node, ends=node.ends | {(leg, 0)})
         return node
 

@@ -101,6 +101,7 @@ class CellProof:
                 return False
         return (
             are_positive(product(",,aq->aq", exact(self.bend), exact(self.bend), self.unit) - squares)
+            and self.bend > 0
             and self.free > 0
             and self.residual < (1 - MARGIN) * self.free * self.radius
         )

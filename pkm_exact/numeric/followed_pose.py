@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cache
 from typing import Final
 
 from flint import arb
 
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.numeric.branch_bounds import branch_bounds
+from pkm_exact.numeric.branch_robot import BranchRobot
 from pkm_exact.numeric.branch_search import BranchSearch
+from pkm_exact.numeric.branch_tree import BranchTree
 from pkm_exact.numeric.data_errors import DataErrors, data_errors
 from pkm_exact.numeric.linearisation import Linearisation
 from pkm_exact.numeric.tolerance_result import FollowedPose
@@ -48,12 +51,17 @@ def followed_pose(
 
     core = arb(2) ** -(exponent // 2)
     search = BranchSearch(near, errors(0), core)
+
+    @cache
+    def found(step: int) -> tuple[BranchRobot, BranchTree] | None:
+        return search.found(errors(step))
+
     low, high = -1, len(ladder)
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (middle, high) if search.found(errors(middle)) else (low, middle)
+        low, high = (middle, high) if found(middle) else (low, middle)
     for step in range(low, max(low - TRIES, -1), -1):
-        cells = search.proved(search.found(errors(step)))
+        cells = search.proved(found(step))
         bounds = None if cells is None else branch_bounds(near, cells, core, attained)
         if cells is not None and bounds is not None:
             return FollowedPose(ladder[step], len(cells), bounds)
