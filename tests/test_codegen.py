@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from following_tools import Array, precise_pose
+from following_tools import Array, precise_pose, values_at
 from samples import solved
 
 from pkm_exact import Robot, read_robot
@@ -176,3 +176,64 @@ def test_files_are_written_all_or_none(tmp_path: Path) -> None:
     with pytest.raises(OSError):  # noqa: PT011 - whatever the system says of a name that is too long
         write_all(tmp_path / "new" / "folder", {"a": b"1", "x" * 300: b"2"})
     assert not (tmp_path / "new").exists()
+
+
+def _rotation(e: Array) -> Array:
+    a, v = e[0], e[1:]
+    cross = np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+    return np.asarray(np.eye(3) + 2 * (a * cross + cross @ cross) / (e @ e))
+
+
+def _singular_pose(robot: Robot, home: Followed, rng: np.random.Generator) -> Array:
+    """A place and a quaternion, about, at which det J of a spatial robot is 0."""
+    platform = np.array(robot.platform_joints, dtype=object).astype(float)
+    base = np.array(robot.base_joints, dtype=object).astype(float)
+    sizes = np.append(np.full(3, home.tables.unit), np.ones(4))
+    pose = np.append(home.position, home.quaternion)
+
+    def determinant(x: Array) -> float:
+        arms = platform @ _rotation(x[3:]).T
+        d = x[:3] + arms - base
+        return float(np.linalg.det(np.column_stack([d, np.cross(arms, d)])))
+
+    while True:
+        low, high = (pose + rng.uniform(0, 0.7) * sizes * rng.normal(size=7) for _ in range(2))
+        if determinant(low) * determinant(high) < 0:
+            for _ in range(60):
+                middle = (low + high) / 2
+                low, high = (middle, high) if determinant(low) * determinant(middle) > 0 else (low, middle)
+            return np.asarray(low)
+
+
+@needs_compiler
+@pytest.mark.parametrize("count", [50, pytest.param(10_000, marks=pytest.mark.slow)])
+def test_no_way_across_a_singularity_is_called_one_mode(count: int, tmp_path: Path) -> None:
+    """Ways between poses of a hexapod on both sides of det J = 0, and along it."""
+    robot = Robot.load(MODELS / "rolland-6-6.toml")
+    home = robot.follow(joint_values(robot, robot.configuration()), solved("rolland-6-6").poses[-1])
+    library = _library(tmp_path, robot, home)
+    pose = _pose_type(len(home.values), len(home.point))()
+    sizes = np.append(np.full(3, home.tables.unit), np.ones(4))
+    rng = np.random.default_rng(count)
+    claimed = crossed = 0
+    for _ in range(count // 10):
+        singular = _singular_pose(robot, home, rng)
+        for _ in range(10):
+            away = 10.0 ** rng.uniform(-6, -1) * sizes
+            first = singular + away * rng.normal(size=7)
+            last = first + away * 10.0 ** rng.uniform(-3, 1) * rng.normal(size=7)
+            lengths = [values_at(robot, x[:3], _rotation(x[3:])) for x in (first, last)]
+            start = [_doubles(x) for x in (lengths[0], first[:3], first[3:] / np.linalg.norm(first[3:]))]
+            if not library.r_start(*start, ctypes.byref(pose)):
+                continue
+            ends = [(lengths[0], np.array(pose.position), np.array(pose.quaternion))]
+            claim = library.r_follow(_doubles(lengths[1]), ctypes.byref(pose))
+            if not claim:
+                continue
+            ends.append((lengths[1], np.array(pose.position), np.array(pose.quaternion)))
+            signs = [precise_pose(robot, *end)[2] for end in ends]
+            claimed += claim == 2
+            crossed += signs[0] != signs[1]
+            assert claim == 1 or signs[0] == signs[1] != 0
+    assert claimed > count // 20
+    assert crossed

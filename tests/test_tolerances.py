@@ -70,6 +70,13 @@ def _centroids(result: ToleranceResult, poses: Any) -> Any:
     return poses[:, :3] + poses[:, 3:12].reshape(-1, 3, 3) @ middle
 
 
+def test_what_is_proved_for_a_tolerance_is_proved_for_less() -> None:
+    solution = solved("rolland-6-6")
+    for tolerance in ("0.01", "0.008", "0.006", "0.003"):
+        result = tolerance_boxes(solution.problem, Tolerances.uniform(tolerance), solution, asked=[6, 12])
+        assert [(box.pose, box.is_proved) for box in result.boxes] == [(6, True), (12, True)]
+
+
 def test_a_micrometre_on_the_reference_robot() -> None:
     result = tolerant("rolland-6-6", "0.001")
     assert [box.pose for box in result.boxes] == list(range(1, 17))
