@@ -277,6 +277,11 @@ def rows() -> dict[str, Row]:
             "rejected",
             bad,
         ),
+        "one cell too many, after one of no volume": (
+            _curves([(2, 2)], ["0 0", "0 0 0"], [], ("y-2", "x*y^2+x*y-12")),
+            "rejected",
+            bad,
+        ),
         "ten": (_curves(CROSSINGS, ["10 10", "0 4 7"], honest), "accepted", "mixed volume"),
         "more polynomials than variables": (
             _curves(PAIR, BILINEAR_CELLS["lifting"], BILINEAR_CELLS["obstructions"], (*BILINEAR, BILINEAR[0])),
