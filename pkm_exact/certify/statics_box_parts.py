@@ -159,10 +159,10 @@ def indices_entry(rows: arb_mat, twists: arb_mat, scales: Sequence[Fraction], ne
     scaled = arb_mat([[ball(s) * x for x in row] for s, row in zip(scales, twists.tolist(), strict=True)])
     norm = twists.transpose() * scaled
     (low, high), (least, most) = near
-    below = _decided(low, -1, lambda s: _verdict(gram - s * s * norm) is True)
-    above = _decided(high, 1, lambda s: _verdict(gram - s * s * norm) is False)
-    under = _decided(least, -1, lambda s: _verdict(s * s * norm - gram) is False)
-    over = _decided(most, 1, lambda s: _verdict(s * s * norm - gram) is True)
+    below = _decided(low, -1, lambda s: is_definite(gram - s * s * norm) is True)
+    above = _decided(high, 1, lambda s: is_definite(gram - s * s * norm) is False)
+    under = _decided(least, -1, lambda s: is_definite(s * s * norm - gram) is False)
+    over = _decided(most, 1, lambda s: is_definite(s * s * norm - gram) is True)
     condition = _dyadic(under / above, up=False), _dyadic(over / below, up=True)
     return {
         "sigma_min": [str(below), str(above)],
@@ -181,8 +181,12 @@ def _decided(start: Fraction, way: int, holds: Any) -> Fraction:
     raise UndecidedError("the box is not narrow enough for bounds of singular values")
 
 
-def _verdict(matrix: arb_mat) -> bool | None:
-    """Whether a symmetric matrix is positive definite, by pivots in order; None where they do not tell."""
+def is_definite(matrix: arb_mat) -> bool | None:
+    """Whether a symmetric matrix is positive definite, by pivots in order; None where they do not tell.
+
+    >>> is_definite(arb_mat([[2, 1], [1, 2]])), is_definite(arb_mat([[0]])), is_definite(arb_mat([[-1]]))
+    (True, None, False)
+    """
     left = matrix.tolist()
     for k in range(len(left)):
         pivot = left[k][k]
@@ -190,9 +194,9 @@ def _verdict(matrix: arb_mat) -> bool | None:
             return False
         if not pivot > 0:
             return None
-        for r in range(k + 1, len(left)):
-            factor = left[r][k] / pivot
-            left[r] = [x - factor * y for x, y in zip(left[r], left[k], strict=True)]
+        for row in left[k + 1 :]:
+            factor = row[k] / pivot
+            row[:] = [x - factor * y for x, y in zip(row, left[k], strict=True)]
     return True
 
 

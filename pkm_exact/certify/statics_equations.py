@@ -11,6 +11,7 @@ from flint import arb, arb_mat
 
 from pkm_exact.balls import ball, hull
 from pkm_exact.certify.statics_box_machine import box_of, in_box
+from pkm_exact.certify.statics_box_parts import is_definite
 from pkm_exact.certify.widened import Ends, hulls, widened, widened_all
 from pkm_exact.constraints.constraint import SquareForm
 from pkm_exact.constraints.form import ordinary, value_at, wrench
@@ -254,22 +255,3 @@ def _is_regular(w: list[list[arb]], r: list[list[arb]], *, forward: bool) -> boo
     """Whether pivots exclude the singularities in the box that the solution of all equations does not exclude."""
     rows, rates = arb_mat(w), arb_mat(r)
     return is_definite(rates * rates.transpose() if forward else rows.transpose() * rows) is True
-
-
-def is_definite(matrix: arb_mat) -> bool | None:
-    """Whether a symmetric matrix is positive definite, by pivots in order; None where they do not tell.
-
-    >>> is_definite(arb_mat([[2, 1], [1, 2]])), is_definite(arb_mat([[0]])), is_definite(arb_mat([[-1]]))
-    (True, None, False)
-    """
-    left = matrix.tolist()
-    for k in range(len(left)):
-        pivot = left[k][k]
-        if pivot < 0:
-            return False
-        if not pivot > 0:
-            return None
-        for row in left[k + 1 :]:
-            factor = row[k] / pivot
-            row[:] = [x - factor * y for x, y in zip(row, left[k], strict=True)]
-    return True
