@@ -6,16 +6,15 @@ folder. Everything is enclosed from what is listed before it, with room for twic
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.certify.build import sealed
-from pkm_exact.certify.statics_box_claims import both_ways, box_ellipsoid, box_indices
+from pkm_exact.certify.statics_box_claims import attempts, both_ways, box_ellipsoid, box_indices
 from pkm_exact.certify.statics_box_machine import BoxedMachine, boxed_machine
 from pkm_exact.certify.statics_box_parts import actuator_forces, velocity_entry, wrench_entry
 from pkm_exact.certify.widened import texts
-from pkm_exact.errors import PkmExactError
 from pkm_exact.precision import working_precision
 from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.measures import Measures
@@ -60,17 +59,7 @@ def statics_box_certificate(
     ends = None if limits.force_ends is None else list(zip(*limits.force_ends, strict=True))
     with working_precision(BITS):
         machine = boxed_machine(at)
-        rows, twists = machine.rows, machine.twists
-
-        def tried(name: str, needed: Any, make: Callable[[], Any]) -> Any:
-            if needed is None:
-                return None
-            try:
-                return make()
-            except PkmExactError as error:
-                left_out[name] = str(error)
-                return None
-
+        rows, twists, tried = machine.rows, machine.twists, attempts(left_out)
         borne = tried("actuator_forces", load, lambda: actuator_forces(rows, twists, load or ()))
         velocity = tried("velocity_polytope", limits.speeds, lambda: velocity_entry(rows, both_ways(limits.speeds)))
         wrench = tried("wrench_polytope", ends, lambda: wrench_entry(rows, ends or []))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import frexp
 from typing import Any
@@ -11,6 +11,7 @@ from flint import arb, arb_mat
 
 from pkm_exact.certify.statics_box_parts import ellipsoid_entry, indices_entry
 from pkm_exact.certify.statics_build import short_weights
+from pkm_exact.errors import PkmExactError
 from pkm_exact.polytopes.enclosures import ball_of, interval_of
 from pkm_exact.statics.at_pose import AtPose
 from pkm_exact.statics.freedom import Freedom
@@ -53,3 +54,18 @@ def _power(value: float) -> arb:
 def _positive(value: Any) -> tuple[Fraction, Fraction]:
     found = interval_of(value)
     return Fraction(found.lo), Fraction(found.hi)
+
+
+def attempts(left_out: dict[str, str]) -> Callable[[str, Any, Callable[[], Any]], Any]:
+    """A way to make a part if what it needs is given; why it could not be made is kept under its name."""
+
+    def tried(name: str, needed: Any, make: Callable[[], Any]) -> Any:
+        if needed is None:
+            return None
+        try:
+            return make()
+        except PkmExactError as error:
+            left_out[name] = str(error)
+            return None
+
+    return tried

@@ -14,11 +14,10 @@ from flint import arb_mat
 
 from pkm_exact.balls import ball
 from pkm_exact.certify.build import sealed
-from pkm_exact.certify.statics_box_claims import both_ways, box_ellipsoid, box_indices
+from pkm_exact.certify.statics_box_claims import attempts, both_ways, box_ellipsoid, box_indices
 from pkm_exact.certify.statics_box_parts import actuator_forces, velocity_entry, wrench_entry
 from pkm_exact.certify.statics_equations import CertifiedEquation, EquationMachine, equation_machine
 from pkm_exact.certify.widened import texts, widened_all
-from pkm_exact.errors import PkmExactError
 from pkm_exact.precision import working_precision
 from pkm_exact.statics.ball_rows import BITS
 from pkm_exact.statics.measures import Measures, RefusedError
@@ -101,14 +100,7 @@ def _claims(
     """Forces, polytopes, ellipsoid and indices, each None if it is not asked for or not decided."""
     rows, twists, speeds, forward = machine.rows, machine.twists, measures.limits.speeds, machine.free is None
 
-    def tried(name: str, needed: Any, make: Callable[[], Any]) -> Any:
-        if needed is None:
-            return None
-        try:
-            return make()
-        except PkmExactError as error:
-            left_out[name] = str(error)
-            return None
+    tried = attempts(left_out)
 
     def others(make: Callable[[], Any]) -> Any:
         if forward:
