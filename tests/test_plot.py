@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
 from picture_tools import Drawn, length, line, on_paper, panels, render
+from samples import model
 from test_scene import inconsistent
 
 from pkm_exact.certify.build import canonical_bytes, certificate, sealed
@@ -28,8 +29,10 @@ from pkm_exact.certify.tolerance_build import tolerance_certificate
 from pkm_exact.cli.main import main
 from pkm_exact.engine import solve
 from pkm_exact.errors import InputError
+from pkm_exact.geometry.nominal_pose import nominal_from_numbers
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.tolerances import Tolerances
+from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.numeric.tolerance import tolerance_boxes
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.pictures.camera import View, Window, camera, window
@@ -540,6 +543,23 @@ def test_the_command_says_from_where_a_pose_is_seen(tmp_path: Path, capsys: Capt
     assert path.read_bytes() != chosen
 
 
+def test_the_pose_that_is_meant_is_marked(tmp_path: Path, capsys: Capture) -> None:
+    near = ["--near", "5,5,1"]
+    for options in ([], ["--overlay"]):
+        assert main(["plot", MERLET, "-o", str(tmp_path / "all.png"), *options, *near]) == 0
+        assert capsys.readouterr().out.endswith("; complete; 2*: nearest to the pose that is meant\n")
+    marked = scene_of(golden("3-rpr-merlet-p"), None, [Fraction(5), Fraction(5), Fraction(1)])
+    texts = [text for text, _ in render(poses_figure(marked)).texts]
+    assert [text.split(":")[0] for text in texts if ": det J" in text] == ["1", "2*"]
+    assert "2*" in [text for text, _ in render(overlay_figure(marked)).texts]
+    assert "nearest" in " ".join(text for text, _ in render(pose_figure(marked, 2)).texts)
+    assert "nearest" not in " ".join(text for text, _ in render(pose_figure(marked, 1)).texts)
+    robot = replace(
+        model("3-rpr-merlet-p"), nominal=nominal_from_numbers([Fraction(5), Fraction(5), Fraction(1)], "", PLANAR)
+    )
+    assert [pose.is_nearest for pose in scene_of(golden("3-rpr-merlet-p"), robot).poses] == [False, True]
+
+
 def test_the_picture_in_the_documentation_is_the_command_s() -> None:
     import matplotlib as mpl
 
@@ -596,6 +616,8 @@ BAD_OPTIONS = [
     (["--dpi", "19"], "--dpi"),
     (["--dpi", "601"], "--dpi"),
     (["--model", "missing.toml"], "missing.toml: no such file"),
+    (["--near", "1,2"], "--near: 2 numbers; give X,Y,DEGREES"),
+    (["--near", "1,x,2"], "--near, number 2: x is not a number"),
     (["--model", str(ROOT / "models" / "3-rrr.toml")], "is not one of the model '3-RRR'"),
 ]
 

@@ -392,6 +392,16 @@ def test_a_pose_is_not_called_the_third_of_one(chromium: WebDriver, tmp_path: Pa
     assert Tab(chromium, page).element("#pose-title").text == "Pose 3 (listed: 1)"
 
 
+def test_the_pose_that_is_meant_is_shown_first(chromium: WebDriver, tmp_path: Path) -> None:
+    page = tmp_path / "near.html"
+    assert main(["report", str(CERTS / "3-rpr-merlet-p.json"), "--near", "5,5,1", "-o", str(page)]) == 0
+    tab = Tab(chromium, page)
+    assert tab.current == [2]
+    assert tab.element("tr[data-pose='2'] th").text == "2*"
+    assert tab.element("tr[data-pose='1'] th").text == "1"
+    assert tab.element("#view-corner").text == "Pose 2, nearest to the one that is meant"
+
+
 def test_columns_are_sorted_both_ways(rolland: Tab) -> None:
     data = data_of(page("rolland-6-6"))
     column = data["columns"].index("condition")

@@ -64,6 +64,17 @@ def near(context: click.Context, _option: click.Parameter, value: str | None) ->
     return None if value is None else _any_numbers(context, value, "--near")
 
 
+def near_option(what: str, default: str = "the model's nominal pose") -> Callable[[Any], Any]:
+    """The option --near of a command, which does this with the nearest pose."""
+    return click.option(
+        "--near",
+        callback=near,
+        metavar="X,Y,Z,R,P,Y",
+        help=f"{what}: position, and roll, pitch, yaw in degrees or a quaternion. X,Y,DEGREES if planar.  "
+        f"[default: {default}]",
+    )
+
+
 def start_pose(context: click.Context, _option: click.Parameter, value: str | None) -> int | str | None:
     """The number of a pose that --start denotes, its name, or ``NEAR``; None if it is not given."""
     if value is None or _POSE_NAME.fullmatch(value):

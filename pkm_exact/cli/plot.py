@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -77,6 +78,7 @@ def _size(context: click.Context, _option: click.Parameter, value: str | None) -
     metavar="MODEL.toml",
     help="The robot's model: draws cranks or slides too, and says which limits each pose keeps.",
 )
+@arguments.near_option("Mark the pose nearest to this one")
 @click.option(
     "--limits",
     "limits",
@@ -105,6 +107,7 @@ def plot(
     overlay: bool,
     roots: bool,
     model: str | None,
+    near: tuple[Fraction, ...] | None,
     limits: tuple[str, ...],
     view: tuple[float, float] | None,
     size: tuple[float, float] | None,
@@ -119,12 +122,12 @@ def plot(
     Examples:
       certify-poses plot certs/rolland-6-6.json -o poses.png
       certify-poses plot certs/rolland-6-6.json -o pose.svg --pose 3 --view -30,15
-      certify-poses plot certs/hexa.json -o hexa.pdf --model models/hexa.toml
+      certify-poses plot certs/hexa.json -o hexa.pdf --model models/hexa.toml --near 0,0,650,0,0,0
       certify-poses plot certs/rolland-6-6.json -o forces.png --pose 3 --limits forces=5
       certify-poses plot certs/rolland-6-6.json -o roots.png --roots
     """
-    if roots and (pose is not None or overlay or view is not None or model is not None or limits):
-        raise click.UsageError("--roots excludes --pose, --overlay, --view, --model and --limits.")
+    if roots and any(given not in (None, False, ()) for given in (pose, overlay, view, model, near, limits)):
+        raise click.UsageError("--roots excludes --pose, --overlay, --view, --model, --near and --limits.")
     if limits and pose is None:
         raise click.UsageError("--limits: is drawn at one pose, give --pose K as well.")
     path, source = Path(output), Path(certificate)
@@ -147,7 +150,7 @@ def plot(
         click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
         return ExitCode.REJECTED
     try:
-        figure, line = _figure(document, pose, overlay, roots, model, limits, view, size)
+        figure, line = _figure(document, pose, overlay, roots, model, near, limits, view, size)
         data = _bytes(figure, suffix, dpi)
     except InputError as error:
         raise InputError(f"{certificate}: {error}") from None
@@ -162,6 +165,7 @@ def _figure(
     overlay: bool,
     roots: bool,
     model: str | None,
+    near: tuple[Fraction, ...] | None,
     limits: tuple[str, ...],
     view: tuple[float, float] | None,
     size: tuple[float, float] | None,
@@ -181,7 +185,7 @@ def _figure(
     if model is not None and document["format"] == certified_links.FORMAT:
         raise InputError("--model: a certificate of a mechanism with passive bodies has all of it; leave out the model")
     machine = None if model is None else announced_model(model)
-    scene = scene_of(document, machine)
+    scene = scene_of(document, machine, near)
     seen = DEFAULT_VIEW if view is None else View(*view)
     if pose is not None:
         if view is None and not overlay and pose <= len(scene.poses):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ from pkm_exact.wording import printable
     metavar="MODEL",
     help="Its model file, to draw cranks and slides, and to say which limits each pose keeps.",
 )
+@arguments.near_option("Mark the pose nearest to this one, and begin with it")
 @click.option(
     "--limits",
     "limits",
@@ -32,7 +34,9 @@ from pkm_exact.wording import printable
     metavar="KEY=VALUES",
     help="What actuators can do, for indices and polytopes; can be repeated: speeds=1/2, forces=4.2, length=0.1, ..",
 )
-def report(certificate: str, output: str, model: str | None, limits: tuple[str, ...]) -> int:
+def report(
+    certificate: str, output: str, model: str | None, near: tuple[Fraction, ...] | None, limits: tuple[str, ...]
+) -> int:
     """Write one web page that shows what the certificate CERT.json proves, and every pose to turn and copy.
 
     The certificate is checked first. The page holds all its data: it opens without a network, and can be sent around
@@ -41,7 +45,7 @@ def report(certificate: str, output: str, model: str | None, limits: tuple[str, 
     \b
     Examples:
       certify-poses report certs/rolland-6-6.json -o rolland.html
-      certify-poses report certs/hexa.json --model models/hexa.toml -o hexa.html
+      certify-poses report certs/hexa.json --model models/hexa.toml --near 0,0,650,0,0,0 -o hexa.html
       certify-poses report certs/3-rrr.json --limits speeds=1 --limits length=2 -o planar.html
 
     Exit codes: 0 written; 1 the certificate is rejected, nothing is written. Others as for certify-poses.
@@ -65,7 +69,7 @@ def report(certificate: str, output: str, model: str | None, limits: tuple[str, 
     except RejectedError as error:
         click.echo(f"{PROGRAM}: error: {printable(str(error))}", err=True)
         return ExitCode.REJECTED
-    page = _page(document, lines, certificate, model, given)
+    page = _page(document, lines, certificate, model, near, given)
     arguments.write_output(target, page.encode("utf-8"))
     sys.stdout.write(f"{printable(output)}: {meaning_of(document).headline}\n")
     return ExitCode.DONE
@@ -76,6 +80,7 @@ def _page(
     lines: tuple[str, ...],
     certificate: str,
     model: str | None,
+    near: tuple[Fraction, ...] | None,
     limits: dict[str, Any],
 ) -> str:
     from pkm_exact.cli.model_reading import announced_model
@@ -87,6 +92,6 @@ def _page(
         )
     robot = None if model is None else announced_model(model)
     try:
-        return report_page(document, lines, Path(certificate).name, robot, limits)
+        return report_page(document, lines, Path(certificate).name, robot, limits, near)
     except InputError as error:
         raise InputError(f"{certificate}: {error}") from None

@@ -70,13 +70,7 @@ _WITH_NOTES: Final = ("table", "json")
     "What to print: decimals as a table or as csv, or exact bounds as json or csv_exact.",
     ("table", "json", "csv", "csv_exact"),
 )
-@click.option(
-    "--near",
-    callback=arguments.near,
-    metavar="X,Y,Z,R,P,Y",
-    help="Mark the pose nearest to this one: position, and roll, pitch, yaw in degrees or a quaternion. X,Y,DEGREES if "
-    "planar.  [default: the model's nominal pose]",
-)
+@arguments.near_option("Mark the pose nearest to this one")
 @click.option("--feasible", is_flag=True, help="List only the poses that are proved to keep all limits of the model.")
 @click.option("--nearest", is_flag=True, help="List only the pose nearest to --near, or to the model's nominal pose.")
 @click.option(

@@ -15,12 +15,8 @@ from pkm_exact.errors import InputError
 @click.command()
 @click.argument("model", type=arguments.FilePath())
 @arguments.configuration_option
-@click.option(
-    "--near",
-    callback=arguments.near,
-    metavar="X,Y,Z,R,P,Y",
-    help="The solid pose is the one nearest to this one: position, and roll, pitch, yaw in degrees or a quaternion. "
-    "X,Y,DEGREES if planar.  [default: the model's nominal pose, or the best conditioned]",
+@arguments.near_option(
+    "The solid pose is the one nearest to this one", "the model's nominal pose, or the best conditioned"
 )
 @click.option(
     "--port",

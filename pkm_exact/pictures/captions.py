@@ -25,6 +25,7 @@ LONG_ENTRY_WIDTH: Final = 1.9
 """The same where constraints have names."""
 ENTRY_WIDTH: Final = 0.74
 """Inches that an entry of the legend takes."""
+NEAREST: Final = "nearest to the pose that is meant"
 _SIZE: Final = 8.5
 _AXES: Final = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _SIGNS: Final = {1: "det J > 0", -1: "det J < 0", 0: "det J = 0", None: "det J not decided"}
@@ -43,14 +44,20 @@ def headline(name: str, kind: str, configuration: str | None) -> str:
 
 
 def statement(scene: Scene) -> str:
-    """How many poses there are, and what is proved of their list, no more.
+    """How many poses there are, what is proved of their list, no more, and which is marked.
 
     Examples
     --------
     >>> from types import SimpleNamespace
-    >>> statement(SimpleNamespace(poses=(1,), claim="complete", complex_solutions=6))
-    '1 real pose of 6 complex solutions; complete'
+    >>> pose = SimpleNamespace(number=1, is_nearest=True)
+    >>> statement(SimpleNamespace(poses=(pose,), claim="complete", complex_solutions=6))
+    '1 real pose of 6 complex solutions; complete; 1*: nearest to the pose that is meant'
     """
+    marked = "".join(f"; {pose.number}*: {NEAREST}" for pose in scene.poses if pose.is_nearest)
+    return f"{_of_the_list(scene)}{marked}"
+
+
+def _of_the_list(scene: Scene) -> str:
     poses = counted(len(scene.poses), "real pose")
     if scene.claim == "complete":
         return f"{poses} of {counted(scene.complex_solutions, 'complex solution')}; complete"
@@ -70,19 +77,21 @@ def title(pose: PoseView, *, of: int | None = None) -> str:
     Examples
     --------
     >>> from types import SimpleNamespace
-    >>> known = {"limits": None, "has_jacobian": True}
-    >>> title(SimpleNamespace(number=3, multiplicity=1, det_sign=-1, condition=12345.6, **known))
+    >>> known = {"has_jacobian": True, "is_nearest": False}
+    >>> title(SimpleNamespace(number=3, multiplicity=1, det_sign=-1, condition=12345.6, limits=None, **known))
     '3: det J < 0, cond 12300'
-    >>> title(SimpleNamespace(number=1, multiplicity=2, det_sign=0, condition=None, limits="yes", has_jacobian=True))
+    >>> title(SimpleNamespace(number=1, multiplicity=2, det_sign=0, condition=None, limits="yes", **known))
     '1 (double): det J = 0, limits: yes'
     """
-    number = str(pose.number) if of is None else f"pose {pose.number} of {of}"
+    star = "*" if pose.is_nearest else ""
+    number = f"{pose.number}{star}" if of is None else f"pose {pose.number} of {of}"
     names = {1: "", 2: " (double)", 3: " (triple)", None: " (multiplicity not proved)"}
     multiple = names.get(pose.multiplicity, f" ({pose.multiplicity}-fold)")
     condition = "" if pose.condition is None else f", cond {rounded(pose.condition)}"
     kept = "" if pose.limits is None else f", limits: {pose.limits}"
     sign = f": {_SIGNS[pose.det_sign]}" if pose.has_jacobian else ""
-    return f"{number}{multiple}{sign}{condition}{kept}"
+    near = f", {NEAREST}" if star and of is not None else ""
+    return f"{number}{multiple}{sign}{condition}{kept}{near}"
 
 
 def rounded(value: float) -> str:

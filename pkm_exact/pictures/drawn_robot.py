@@ -68,6 +68,8 @@ class PoseView:
         What else moves: of mechanisms with passive bodies.
     has_jacobian : bool
         Whether there is a leg Jacobian to speak of.
+    is_nearest : bool
+        Whether it is proved to be the nearest to the pose that is meant.
     """
 
     number: int
@@ -82,6 +84,7 @@ class PoseView:
     limits: str | None = None
     parts: tuple[Part, ...] = ()
     has_jacobian: bool = True
+    is_nearest: bool = False
 
     @property
     def joints(self) -> tuple[Point, ...]:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 from pkm_exact.certify import certified_links
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.mechanism import Mechanism
+from pkm_exact.geometry.nominal_pose import nominal_from_numbers
 from pkm_exact.geometry.robot import Robot, jointed
 from pkm_exact.pictures.drawn_robot import Point, Scene, view_of
 from pkm_exact.wording import printable, shown
@@ -83,7 +84,9 @@ def accepted_with_lines(path: Path, *, formats: Collection[str] = OF_POSES) -> t
     raise InputError(f"{reason}; {remedy}")
 
 
-def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene:
+def scene_of(
+    document: Mapping[str, Any], robot: Machine | None = None, near: Sequence[Fraction] | None = None
+) -> Scene:
     """The scene of an accepted certificate of poses, of a robot or of a mechanism with passive bodies.
 
     Parameters
@@ -93,6 +96,9 @@ def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene
     robot : Machine, optional
         Its model. A certificate knows legs only; the model adds the cranks or slides below the rods, and its limits.
         A mechanism with passive bodies is whole without.
+    near : sequence of Fraction, optional
+        The pose that is meant, as ``nominal_from_numbers`` takes it; otherwise the nominal one of the model, if it has
+        one. The pose nearest to it is marked.
 
     Raises
     ------
@@ -106,6 +112,7 @@ def scene_of(document: Mapping[str, Any], robot: Machine | None = None) -> Scene
         )
     try:
         scene = _limited(_scene(document, robot), document, robot)
+        scene = _with_nearest(scene, document, robot, near)
         scene = replace(scene, cables=robot is not None and robot.cables)
     except OverflowError:
         raise InputError(_OUT_OF_RANGE) from None
@@ -184,6 +191,31 @@ def _limited(scene: Scene, document: Mapping[str, Any], robot: Machine | None) -
     poses = [pose_of(entry) for entry in document["poses"]]
     verdicts = limit_verdicts(robot, locked, certified_problem(document), poses)
     views = (replace(view, limits=in_words(found)) for view, found in zip(scene.poses, verdicts, strict=True))
+    return replace(scene, poses=tuple(views))
+
+
+def _with_nearest(
+    scene: Scene, document: Mapping[str, Any], robot: Machine | None, near: Sequence[Fraction] | None
+) -> Scene:
+    """The scene with a mark on the pose nearest to the one that is meant; none if the boxes do not tell which."""
+    if near is not None and document["format"] == certified_links.FORMAT:
+        raise InputError("--near: is for certificates of a robot or mechanism; this one has passive bodies")
+    nominal = None if robot is None else robot.nominal
+    if near is not None:
+        nominal = nominal_from_numbers(near, "--near", scene.motion)
+    if nominal is None:
+        return scene
+    from pkm_exact.poses.nearest_pose import nearest_pose
+    from pkm_exact.poses.pose_spelling import pose_of
+
+    poses = [
+        replace(pose_of(entry), jacobian=view.jacobian)
+        for entry, view in zip(document["poses"], scene.poses, strict=True)
+    ]
+    found = nearest_pose(poses, nominal)
+    if found is None or len(found.numbers) > 1:
+        return scene
+    views = (replace(view, is_nearest=(view.number,) == found.numbers) for view in scene.poses)
     return replace(scene, poses=tuple(views))
 
 

@@ -66,7 +66,9 @@ def poses_figure(scene: Scene, *, view: View = DEFAULT_VIEW, size: tuple[float, 
         figure = Figure(figsize=plan.size)
         pen = Pen(width=min(1.6, max(0.8, plan.panel[0] / 1.3)))
         titles = [captions.title(pose) for pose in scene.poses] or ["no pose to draw"]
-        letters = min(9.0, *(captions.fitting(title, plan.panel[0] - 0.04) for title in titles))
+        bold = [pose.is_nearest for pose in scene.poses] or [False]
+        fitting = [captions.fitting(t, plan.panel[0] - 0.04, bold=b) for t, b in zip(titles, bold, strict=True)]
+        letters = min(9.0, *fitting)
         for place, pose in enumerate(scene.poses or (None,)):
             cell = plan.cell(place)
             axes = panel(figure, scene, view, shot, cell, frame.centre, plan.scale, points)
@@ -75,7 +77,7 @@ def poses_figure(scene: Scene, *, view: View = DEFAULT_VIEW, size: tuple[float, 
                 draw_base(axes, scene, shot, pen, FAR)
             else:
                 draw_robot(axes, scene, pose, shot, pen)
-            _title(figure, titles[place], cell, letters)
+            _title(figure, titles[place], cell, letters, bold=bold[place])
         _headline(figure, scene, captions.statement(scene))
         captions.add_legend(figure, scene)
         captions.add_key(figure, scene, shot, plan.scale)
@@ -169,7 +171,8 @@ def _ghost(axes: Axes, scene: Scene, pose: PoseView, shot: Camera, colour: str, 
     """A platform with its passive bodies, pale, with its number."""
     draw_parts(axes, scene, pose, shot, Pen(width=0.8, opacity=0.3))
     draw_platform(axes, scene, pose, shot, Pen(width=1.1, opacity=0.7, fill=0.12), colour, colour, layer)
-    label(axes, scene, middle(pose.platform), str(pose.number), colour, layer + 0.9)
+    number = f"{pose.number}*" if pose.is_nearest else str(pose.number)
+    label(axes, scene, middle(pose.platform), number, colour, layer + 0.9)
 
 
 def _number_legs(axes: Axes, scene: Scene, pose: PoseView) -> None:
@@ -184,7 +187,7 @@ def _headline(figure: Figure, scene: Scene, second: str) -> None:
     captions.add_headline(figure, captions.headline(scene.name, scene.kind, scene.configuration), second)
 
 
-def _title(figure: Figure, text: str, cell: Rectangle, size: float) -> None:
+def _title(figure: Figure, text: str, cell: Rectangle, size: float, *, bold: bool) -> None:
     """A line above a panel."""
     width, height = figure.get_size_inches()
     figure.text(
@@ -194,6 +197,7 @@ def _title(figure: Figure, text: str, cell: Rectangle, size: float) -> None:
         ha="center",
         va="bottom",
         fontsize=size,
+        weight="bold" if bold else "normal",
     )
 
 

@@ -7,7 +7,7 @@ connection, no image, no form, no evaluation of text.
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from hashlib import sha256
 from importlib.resources import files
@@ -23,7 +23,7 @@ from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.machine import locked_at
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.pictures.captions import leg_word
+from pkm_exact.pictures.captions import NEAREST, leg_word
 from pkm_exact.pictures.scene import configuration_of, scene_of
 from pkm_exact.report_page.markup import Markup, element, embedded_json, joined
 from pkm_exact.report_page.numerals import exact, unit_words
@@ -58,6 +58,7 @@ def report_page(
     file: str,
     robot: Machine | None = None,
     limits: Mapping[str, Any] | None = None,
+    near: Sequence[Fraction] | None = None,
 ) -> str:
     """The page on an accepted certificate, of poses or of tolerances.
 
@@ -73,6 +74,8 @@ def report_page(
         The model; with it, cranks and slides are drawn, and it is said which of its limits each pose keeps.
     limits : mapping, optional
         What actuators can do, as for ``statics.limits_of_actuators``: speeds, forces, length, ..
+    near : sequence of Fraction, optional
+        The pose that is meant, as for ``scene_of``.
 
     Raises
     ------
@@ -91,7 +94,7 @@ def report_page(
         pkm_exact.__version__,
         not tolerances,
     )
-    scene, poses = _within_tolerance(document, robot) if tolerances else _certified(document, robot)
+    scene, poses = _within_tolerance(document, robot, near) if tolerances else _certified(document, robot, near)
     meaning = meaning_of(document)
     counts = _tolerance_counts(document) if tolerances else _counts(document, scene)
     notes = () if tolerances else document["notes"]
@@ -109,12 +112,18 @@ def report_page(
     return _assembled(scene, meaning, poses, sections)
 
 
-def _certified(document: Mapping[str, Any], robot: Machine | None) -> tuple[Scene, PoseRows]:
-    scene = scene_of(document, robot)
+def _certified(
+    document: Mapping[str, Any], robot: Machine | None, near: Sequence[Fraction] | None
+) -> tuple[Scene, PoseRows]:
+    scene = scene_of(document, robot, near)
     return scene, certified_rows(document, scene)
 
 
-def _within_tolerance(document: Mapping[str, Any], robot: Machine | None) -> tuple[Scene, PoseRows]:
+def _within_tolerance(
+    document: Mapping[str, Any], robot: Machine | None, near: Sequence[Fraction] | None
+) -> tuple[Scene, PoseRows]:
+    if near is not None:
+        raise InputError("--near: is for certificates of poses, not of tolerances; leave it out")
     if robot is not None:
         raise InputError("model: cranks and slides are drawn for certificates of poses only; leave it out")
     try:
@@ -194,6 +203,7 @@ def _explorer(scene: Scene, poses: PoseRows, *, tolerances: bool) -> Markup:
         else "All digits are right, the last one to within one unit; more of them with the button. Exact bounds stand "
         "below the table and in the copies."
     )
+    precision += "".join(f" {row.number}*: {NEAREST}." for row in poses.rows if row.is_nearest)
     words = {
         "view_keys": f"{turn}, wheel or pinch to zoom; by keyboard: {arrows}, 0 to reset.",
         "presets": joined(*buttons),

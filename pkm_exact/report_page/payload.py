@@ -27,6 +27,7 @@ def payload(scene: Scene, poses: PoseRows) -> dict[str, Any]:
         "bars": _points(scene.bars),
         "columns": poses.plain,
         "exact_first": poses.first,
+        "first_shown": next((view.number for view in scene.poses if view.is_nearest), None),
         "poses": [_pose(row, view, scene) for row, view in zip(poses.rows, scene.poses, strict=True)],
     }
 

@@ -90,14 +90,15 @@ function reveal(node) {
 function startPoses(data) {
   const view = new View(byId("view"), data);
   const withNumber = new Map(data.poses.map((pose, index) => [pose.number, index]));
-  let shown = data.poses[0].number;
+  let shown = data.first_shown ?? data.poses[0].number;
   const show = (number) => {
     shown = number;
     const pose = data.poses[withNumber.get(number)];
     view.show(withNumber.get(number));
     table.mark(number);
     showNumbers(data, pose);
-    byId("view-corner").textContent = `Pose ${number}`;
+    const meant = number === data.first_shown ? ", nearest to the one that is meant" : "";
+    byId("view-corner").textContent = `Pose ${number}${meant}`;
   };
   const choose = (number) => {
     show(number);

@@ -61,6 +61,8 @@ class Row:
         For the table of decimals to be copied.
     first : tuple of str
         For the table of exact bounds, what precedes them.
+    is_nearest : bool
+        Whether it is the pose nearest to the one that is meant.
     """
 
     number: int
@@ -73,6 +75,7 @@ class Row:
     bounds: tuple[tuple[str, str, str], ...]
     plain: tuple[str, ...]
     first: tuple[str, ...]
+    is_nearest: bool = False
 
 
 @dataclass(frozen=True)
@@ -216,6 +219,7 @@ def _row(
         box.bounds,
         (str(view.number), name, *place, *quaternion, error, *(_plain(index, view) for index in indices), multiplicity),
         (str(view.number), name, document["claim"], multiplicity, *parameter),
+        view.is_nearest,
     )
 
 
@@ -254,4 +258,5 @@ def _lines(view: PoseView, scene: Scene, box: Box, place: Sequence[str]) -> tupl
         *((index.heading, index.in_words(view)) for index in shown_in(Output.PAGE)),
         ("multiplicity", "not proved" if view.multiplicity is None else str(view.multiplicity)),
         *(() if view.limits is None else (("limits of the model kept", view.limits),)),
+        *((("nearest", "of all poses to the one that is meant"),) if view.is_nearest else ()),
     )

@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Final
 
 from pkm_exact.geometry.kinds import KINDS
+from pkm_exact.pictures.captions import NEAREST
 from pkm_exact.report_page.markup import Markup, element, joined
 from pkm_exact.report_page.numerals import exact, in_unit, root_of, times_root, unit_words
 
@@ -141,7 +142,13 @@ def _table_row(row: Row, *, first: bool) -> Markup:
     return element(
         "tr",
         element("td", box, cls="tick"),
-        element("th", str(row.number), scope="row", data_value=row.number),
+        element(
+            "th",
+            f"{row.number}*" if row.is_nearest else str(row.number),
+            scope="row",
+            data_value=row.number,
+            title=NEAREST if row.is_nearest else None,
+        ),
         *cells,
         data_pose=row.number,
         tabindex="0" if first else "-1",
