@@ -3,15 +3,19 @@
 Six forms leave eleven of the 17 coordinates z; in a random basis of them no solution, also none at infinity, has z_0
 near 0. The 37 quadrics of the variety leave, of the homogeneous polynomials in the other ten, dimensions 1, 10, 18, 10
 and 1 in degrees 0 to 4, and of all polynomials a quotient algebra of dimension 40. Its products with z_0 are found
-degree by degree, from the relations x_i (x_j a) = x_j (x_i a), by orthogonal triangular factorisations:
+degree by degree, in the basis 1, x, b, a, f, e, by orthogonal triangular factorisations:
 
-    degree 2   x_i x_j  in  1, x, and an orthonormal basis q of the 18
-    degree 3   x_i q_a  in  1, x, q, and ten f_b
-    degree 4   x_0 f_b  in  1, x, q, f, and one e
+    degree 2   x_i x_j in 1, x, ten b_k = x_0 x_k, and an orthonormal basis a of eight others
+    degree 3   x_i a_m in 1, x, b, a, and ten f_k = x_0 b_k
+    degree 4   x_0 f_k in 1, x, b, a, f, and one e
     x_0 e = x_k (x_0 f) - x_0 (x_k f - e)  for an f with x_0 f free of e and x_k f = e + ..
 
-so that degree 5 is not needed. Eigenvectors of the matrix of x_0 (Stickelberger) hold the values of 1 and x, and with
-them all 17 coordinates. Robots with symmetries have fewer finite solutions; those at infinity are found as well.
+so that degree 5 is not needed. With x_i b_k = x_0 (x_i x_k) the relations x_i (x_j x_k) = x_j (x_i x_k) ask for no
+products but x_0 b and x_i a: 90 unknowns in place of 180 products of degree 3. And with n = a_m less those b that make
+x_0 n free of f, x_j (x_0 n) = x_0 (x_j n) asks for x_0 f alone: ten unknowns. If x_0 or x_0^2 were not one to one from
+degree 1 on, which no robot has shown so far, the guesses would be bad. Eigenvectors of the matrix of x_0
+(Stickelberger) hold the values of 1 and x, and with them all 17 coordinates. Robots with symmetries have fewer finite
+solutions; those at infinity are found as well.
 
 Nothing here is certified, and how good the guesses are is not known.
 
@@ -41,10 +45,14 @@ QUADRICS: Final = 37
 SECOND: Final = INNER * (INNER + 1) // 2 - QUADRICS
 THIRD: Final = 10
 """Dimensions of the parts of degree 2 and 3."""
-LED: Final = 3
-"""So many i, in a random basis, give relations enough, of the same quality as all: 218 of rank 170."""
-UP_TO: Final = (1 + INNER, 1 + INNER + SECOND, 1 + INNER + SECOND + THIRD)
+OTHERS: Final = SECOND - INNER
+"""So many of degree 2 are no multiples of x_0."""
+LED: Final = (1, 2)
+"""These i, in a random basis, give relations enough, of the same quality as all: 128 of rank 80."""
+ONE, TWO, THREE = 1 + INNER, 1 + INNER + SECOND, 1 + INNER + SECOND + THIRD
 """Dimensions of the parts up to degree 1, 2 and 3."""
+A: Final = ONE + INNER
+"""Where a begins; from ``ONE`` on are b, from ``TWO`` on f."""
 
 
 def motion_seeds(forms: Real) -> Complex:
@@ -67,9 +75,8 @@ def motion_seeds(forms: Real) -> Complex:
     """
     tables = _tables()
     basis = np.linalg.qr(forms.T, mode="complete")[0][:, len(forms) :] @ tables.turn
-    second = _second(basis.T @ tables.quadrics @ basis)
-    third = _third(second, tables.triples)
-    matrix = _product_with_first(second, third)
+    second = _with_multiples(_second(basis.T @ tables.quadrics @ basis))
+    matrix = _product_with_first(_third(second, tables.relations))
     vectors = np.linalg.eig(matrix)[1].astype(np.complex128)  # real where all solutions are
     found: Complex = vectors[:FREE].T @ basis.T
     return found
@@ -85,13 +92,13 @@ class _Tables:
         An orthonormal basis of the quadrics on the variety.
     turn : (11, 11) array
         A random orthogonal matrix.
-    triples : three (r,) arrays of int
-        Indices i < j and k >= i of the relations x_i (x_j x_k) = x_j (x_i x_k), for some i.
+    relations : four (r,) arrays of int
+        Places of i in ``LED``, then i < j and k >= i of the relations x_i (x_j x_k) = x_j (x_i x_k).
     """
 
     quadrics: Real
     turn: Real
-    triples: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]
+    relations: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]
 
 
 @cache
@@ -104,14 +111,14 @@ def _tables() -> _Tables:
             matrix[j, i] += value / 2
     orthonormal = np.linalg.svd(matrices.reshape(len(found), -1), full_matrices=False)[2][:QUADRICS]
     turn = np.linalg.qr(np.random.default_rng(SEED).standard_normal((FREE, FREE)))[0]
-    i, j, k = np.array(
-        [(i, j, k) for i in range(LED) for j in range(i + 1, INNER) for k in range(i, INNER)], dtype=np.intp
+    place, i, j, k = np.array(
+        [(n, i, j, k) for n, i in enumerate(LED) for j in range(i + 1, INNER) for k in range(i, INNER)], dtype=np.intp
     ).T
-    return _Tables(orthonormal.reshape(QUADRICS, SIZE, SIZE), turn, (i, j, k))
+    return _Tables(orthonormal.reshape(QUADRICS, SIZE, SIZE), turn, (place, i, j, k))
 
 
 def _second(quadrics: Real) -> Real:
-    """(10, 10, 29): x_i x_j in 1, x and q, from the quadrics on z."""
+    """(10, 10, 29): x_i x_j in 1, x and an orthonormal basis of the 18, from the quadrics on z."""
     i, j = np.triu_indices(INNER)
     weights = np.where(i == j, 1, np.sqrt(2))
     top = quadrics[:, 1:, 1:][:, i, j] * weights
@@ -126,70 +133,100 @@ def _second(quadrics: Real) -> Real:
     return table
 
 
-def _third(second: Real, triples: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]) -> Real:
-    """(10, 18, 39): x_i q_a in 1, x, q and f."""
-    i, j, k = triples
-    one, two, _ = UP_TO
-    # x_i times the part of x_j x_k below degree 2: (j, k, i, 29).
-    low = np.tensordot(second[:, :, 1:one], second, axes=([2], [1]))
+def _with_multiples(second: Real) -> Real:
+    """The same in 1, x, b and a: b_k is x_0 x_k as a whole, what it has in lower degrees included."""
+    rotation, triangle = np.linalg.qr(second[0, :, ONE:].T, mode="complete")
+    top = second[:, :, ONE:].reshape(-1, SECOND) @ rotation
+    multiples = np.linalg.solve(triangle[:INNER], top[:, :INNER].T).T
+    low = second[:, :, :ONE].reshape(-1, ONE) - multiples @ second[0, :, :ONE]
+    table = np.concatenate([low, multiples, top[:, INNER:]], axis=1).reshape(INNER, INNER, TWO)
+    table[0] = np.eye(INNER, TWO, ONE)
+    table[:, 0] = table[0]
+    return table
+
+
+def _third(second: Real, relations: tuple[NDArray[np.intp], ...]) -> Real:
+    """(10, 29, 39): x_i times each of 1, x, b and a, in 1, x, b, a and f."""
+    place, i, j, k = relations
+    known = np.zeros((INNER, TWO, TWO + SECOND))  # the same in 1, x, b, a, then x_0 a, x_0 b; rows of x_i a are left 0
     axes = np.arange(INNER)
-    low[:, :, axes, 1 + axes] += second[:, :, :1]
-    count = np.arange(len(i))
-    top = np.zeros((len(i), INNER, SECOND))
-    top[count, i] = second[j, k, one:]
-    top[count, j] -= second[i, k, one:]
-    relations = np.concatenate([top.reshape(len(i), -1), low[j, k, i] - low[i, k, j]], axis=1)
-    return _normal_forms(relations, INNER * SECOND, THIRD).reshape(INNER, SECOND, two + THIRD)
+    known[axes, 0, 1 + axes] = 1
+    known[:, 1:ONE, :TWO] = second
+    known[:, ONE:A, 1] = second[:, :, 0]  # x_i b_k is x_0 times x_i x_k
+    known[:, ONE:A, ONE:A] = second[:, :, 1:ONE]
+    known[:, ONE:A, TWO : TWO + OTHERS] = second[:, :, A:]
+    known[:, ONE:A, TWO + OTHERS :] = second[:, :, ONE:A]
+    led = second[list(LED)]
+    left = (second.reshape(-1, TWO) @ known[list(LED)]).reshape(len(LED), INNER, INNER, -1)
+    rows = left[place, j, k] - (led[:, None] @ known)[place, j, k]
+    top = np.zeros((len(rows), INNER, OTHERS))  # x_1 a, .., x_9 a, x_0 a
+    count = np.arange(len(rows))
+    top[count, i - 1] = second[j, k, A:]
+    top[count, j - 1] -= second[i, k, A:]
+    top[:, -1] = rows[:, TWO : TWO + OTHERS]
+    symbols = np.concatenate([top.reshape(len(rows), -1), rows[:, TWO + OTHERS :]], axis=1)
+    others = _solved(symbols, rows[:, :TWO], THIRD).reshape(INNER, OTHERS, THREE)
+    below = np.zeros((INNER, TWO, THREE))
+    below[:, :, :TWO] = known[:, :, :TWO]
+    below[:, ONE:A] += known[:, ONE:A, TWO : TWO + OTHERS] @ others[-1]
+    below[:, ONE:A, TWO:] += known[:, ONE:A, TWO + OTHERS :]
+    below[0, A:], below[1:, A:] = others[-1], others[:-1]
+    return below
 
 
-def _product_with_first(second: Real, third: Real) -> Real:
-    """(40, 40): x_0 times each of 1, x, q, f, e."""
-    one, two, three = UP_TO
-    below = np.zeros((INNER, two, three))  # x_i times each of 1, x, q
-    below[:, 0, 1:one] = np.eye(INNER)
-    below[:, 1:one, :two] = second
-    below[:, one:] = third
-    top = np.zeros((INNER - 1, SECOND, INNER, THIRD))
-    top[:, :, 0] = third[1:, :, two:]
-    others = np.arange(INNER - 1)
-    top[others, :, 1 + others] -= third[0, :, two:]
-    low = third[1:, :, :two] @ below[0] - third[0, :, :two] @ below[1:]
-    relations = np.concatenate([top.reshape(-1, INNER * THIRD), low.reshape(-1, three)], axis=1)
-    fourth = _normal_forms(relations, INNER * THIRD, 1).reshape(INNER, THIRD, three + 1)  # x_i f_b
-    matrix = np.zeros((three + 1, three + 1))
-    matrix[:two, :three] = below[0]
-    matrix[two:three] = fourth[0]
-    matrix[three] = _last(below, fourth)
+def _product_with_first(below: Real) -> Real:
+    """(40, 40): x_0 times each of 1, x, b, a, f, e."""
+    free = np.concatenate([np.zeros((OTHERS, ONE)), -below[0, A:, TWO:], np.eye(OTHERS)], axis=1)
+    moved = free @ below  # x_j n
+    products = moved[1:].reshape(-1, THREE)
+    low = products[:, :TWO] @ below[0] - (moved[0, :, :TWO] @ below[1:]).reshape(-1, THREE)
+    fourth = _normal_forms(products[:, TWO:], low, 1)  # x_0 f
+    matrix = np.zeros((THREE + 1, THREE + 1))
+    matrix[:TWO, :THREE] = below[0]
+    matrix[TWO:THREE] = fourth
+    matrix[THREE] = _last(below, fourth)
     return matrix
 
 
 def _last(below: Real, fourth: Real) -> Real:
     """(40,): x_0 e."""
-    _, two, three = UP_TO
-    tops = fourth[:, :, three]
-    first = tops[0] / np.linalg.norm(tops[0])
-    rest = tops - np.outer(tops @ first, first)
-    k = 1 + int(np.argmax(np.linalg.norm(rest[1:], axis=1)))
+    tops = fourth[:, THREE]
+    first = tops / np.linalg.norm(tops)
+    values = below[1:, ONE:A, TWO:] @ tops  # e in x_j f_k = x_0 (x_j b_k)
+    rest = values - np.outer(values @ first, first)
+    k = int(np.argmax(np.linalg.norm(rest, axis=1)))
     chosen = rest[k] / (rest[k] @ rest[k])  # x_0 f has no e, x_k f has it once
 
-    def times(unknown: int, value: Real) -> Real:
-        product: Real = value[two:] @ fourth[unknown]
-        product[:three] += value[:two] @ below[unknown]
+    def first_times(value: Real) -> Real:
+        product: Real = value[TWO:] @ fourth
+        product[:THREE] += value[:TWO] @ below[0]
         return product
 
-    f = np.concatenate([np.zeros(two), chosen])
-    last: Real = times(k, times(0, f)[:three]) - times(0, times(k, f)[:three])
+    def other_times(value: Real) -> Real:
+        product = first_times(value[TWO:] @ below[1 + k, ONE:A])
+        product[:THREE] += value[:TWO] @ below[1 + k]
+        return product
+
+    f = np.concatenate([np.zeros(TWO), chosen])
+    last: Real = other_times(first_times(f)[:THREE]) - first_times(other_times(f)[:THREE])
     return last
 
 
-def _normal_forms(relations: Real, symbols: int, dimension: int) -> Real:
-    """(symbols, l + dimension): symbols in what is lower and an orthonormal basis of what relations leave of them.
+def _solved(symbols: Real, low: Real, dimension: int) -> Real:
+    """(s - dimension, l + dimension): the first of s symbols in what is lower and the last ones, from relations.
 
-    Relations are rows on the symbols, then on the l lower ones; their rank on the symbols is ``symbols - dimension``.
+    Relations are rows on the symbols and on the l lower ones; their rank on the symbols is s - dimension.
     """
-    triangle = np.asarray(np.linalg.qr(relations, mode="r"))
-    rank = symbols - dimension
-    solved = np.linalg.solve(triangle[:rank, :rank], triangle[:rank, rank:])
-    free = np.linalg.qr(np.concatenate([-solved[:, :dimension], np.eye(dimension)]))[0]
-    low = np.concatenate([-solved[:, dimension:], np.zeros((dimension, solved.shape[1] - dimension))])
-    return np.concatenate([low - free @ (free.T @ low), free], axis=1)
+    rank = symbols.shape[1] - dimension
+    triangle = np.asarray(np.linalg.qr(np.concatenate([symbols, low], axis=1), mode="r"))
+    solved = -np.linalg.solve(triangle[:rank, :rank], triangle[:rank, rank:])
+    return np.concatenate([solved[:, dimension:], solved[:, :dimension]], axis=1)
+
+
+def _normal_forms(symbols: Real, low: Real, dimension: int) -> Real:
+    """(s, l + dimension): all symbols in what is lower and an orthonormal basis of what relations leave of them."""
+    solved = _solved(symbols, low, dimension)
+    width = low.shape[1]
+    free = np.linalg.qr(np.concatenate([solved[:, width:], np.eye(dimension)]))[0]
+    below = np.concatenate([solved[:, :width], np.zeros((dimension, width))])
+    return np.concatenate([below - free @ (free.T @ below), free], axis=1)
