@@ -38,6 +38,8 @@ STEPS: Final = 3
 """Newton steps with more exact values of F, at most."""
 ARRIVED: Final = 2.0**-10
 """Newton steps that are this small, in units, have arrived."""
+SETTLED: Final = 2.0**-20
+"""Those that are larger are followed by another one all the same: how far off a solution may be is in proportion."""
 ASTRAY: Final = 2.0**-16
 """Where Newton's method leads farther than this, relative to the point, it is not followed."""
 GREATEST: Final = 2.0**52
@@ -115,11 +117,12 @@ def _arrived(
     """Where Newton's method leads until steps are far smaller than units; F there and its error; if it is so."""
     points, inverses = newton_step(equations, begun)
     values, off = equations.forms.at(points)
-    small = ARRIVED * _grids(equations, points, exponent)[1]
-    left = np.arange(len(points))
+    units = _grids(equations, points, exponent)[1]
+    left, sizes = np.arange(len(points)), np.zeros(len(points))
     for _ in range(STEPS):
         steps = products(inverses, values[left])
-        moves = ~(np.abs(steps) < small[left]).all(axis=1)
+        sizes[left] = (np.abs(steps) / units[left]).max(axis=1)
+        moves = ~(sizes[left] < SETTLED)
         left = left[moves]
         if not len(left):
             break
@@ -127,7 +130,7 @@ def _arrived(
         inverses = inverses_of(equations.jacobians(points[left]))
         values[left], off[left] = equations.forms.at(points[left])
     has_arrived = (np.abs(points - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
-    has_arrived[left] = False
+    has_arrived &= sizes < ARRIVED
     return points, values, off, has_arrived
 
 

@@ -65,14 +65,18 @@ class DoubleForms:
         t terms that is less than 12 u^2 sigma, as t |p| < sigma (``twofold_sums``).
         """
         if not np.iscomplexobj(points):
-            x = _extended(points.real, 1.0)
-            return self._sums([(x, x)])
+            return _rounded(*self.in_two(points.real))
         a, b = _extended(points.real, 1.0), _extended(points.imag, 0.0)
-        real, off = self._sums([(a, a), (-b, b)])
-        imaginary, also_off = self._sums([(a, b), (b, a)])
+        real, off = _rounded(*self._sums([(a, a), (-b, b)]))
+        imaginary, also_off = _rounded(*self._sums([(a, b), (b, a)]))
         return real + 1j * imaginary, off + also_off
 
-    def _sums(self, factors: Sequence[tuple[Real, Real]]) -> tuple[Real, Real]:
+    def in_two(self, points: Real) -> tuple[Real, Real, Real]:
+        """The same at real points as sums of two doubles, the second not rounded away: heads, tails, and bounds."""
+        x = _extended(points, 1.0)
+        return self._sums([(x, x)])
+
+    def _sums(self, factors: Sequence[tuple[Real, Real]]) -> tuple[Real, Real, Real]:
         """The values with x_i x_j replaced by the sum of y_i z_j over the given (y, z)."""
         products = [two_product(left[:, self.first], right[:, self.second]) for left, right in factors]
         high = np.concatenate([h for h, _ in products], axis=1)[:, None]
@@ -80,8 +84,13 @@ class DoubleForms:
         head, tail = (np.tile(part, len(factors)) for part in (self.head, self.tail))
         terms, rest = two_product(head, high)
         first, second, bound = twofold_sums(terms, rest + head * low + tail * high)
-        value: Real = first + second
-        return value, (3 * bound + U * np.abs(value)) * OUTWARD
+        return first, second, 3 * bound * OUTWARD
+
+
+def _rounded(first: Real, second: Real, bound: Real) -> tuple[Real, Real]:
+    """The sums as doubles, and how far they are off at most."""
+    value: Real = first + second
+    return value, (bound + U * np.abs(value)) * OUTWARD
 
 
 def _extended(points: Real, last: float) -> Real:

@@ -15,10 +15,10 @@ all matrices on the way from L R to A are regular, and their determinants have o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from math import sqrt
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,9 +34,13 @@ from pkm_exact.roots.interval import Interval
 
 _FEW: Final = 18
 """Roundings in a row in an entry of a Jacobian: data (8), sums of up to six products of two or three factors (8)."""
-DOUBT: Final = 2.0**-42
+DOUBT: Final = 2.0**-44
 """Ends of intervals that are relatively closer to the grid of the intervals returned are not decided by doubles."""
-_LEVI_CIVITA: Final = np.array(
+ROUNDED: Final = 1 + 2.0**-49
+"""For less than a dozen roundings in a row."""
+Finer: TypeAlias = Callable[[Real, Real], tuple[Real, Real]]
+"""Of vectors u and v, (p, n) each, u^T A v and how far it is off at most."""
+LEVI_CIVITA: Final = np.array(
     [[[(i - j) * (j - k) * (k - i) / 2 for k in range(3)] for j in range(3)] for i in range(3)], dtype=float
 )
 
@@ -61,7 +65,7 @@ def double_jacobians(problem: ForwardProblem, found: DoubleCoordinates, length: 
             is_good = (np.isfinite(matrices) & np.isfinite(off) & (np.abs(matrices) < LARGE)).all(axis=(1, 2))
             is_good &= (np.abs(found.values) < LARGE).all(axis=1)
             matrices[~is_good], off[~is_good] = np.eye(size), 1.0
-            return _decided(matrices, off, length)
+            return decided(matrices, off, length)
         except (OverflowError, np.linalg.LinAlgError):
             return [None] * count
 
@@ -80,7 +84,7 @@ def _forms(problem: ForwardProblem, length: Fraction) -> Real:
 def _rows(problem: ForwardProblem, forms: Real, length: float, found: DoubleCoordinates) -> tuple[Real, Real]:
     """The Jacobians, and how far their entries are off at most."""
     square, turned, position, rotation = forms[:, 0], forms[:, 1:4], forms[:, 4:7], forms[:, 7:16].reshape(-1, 3, 3)
-    sign = np.abs(_LEVI_CIVITA)
+    sign = np.abs(LEVI_CIVITA)
     c, r = found.values[:, :3], found.values[:, 3:12].reshape(-1, 3, 3)
     c_off, r_off = found.errors[:, :3], found.errors[:, 3:12].reshape(-1, 3, 3)
 
@@ -92,7 +96,7 @@ def _rows(problem: ForwardProblem, forms: Real, length: float, found: DoubleCoor
         moment = np.einsum("ijk,pmj,pk->pmi", sign, moved, c) + np.einsum("ijk,pjl,mkl->pmi", sign, r, rotation)
         return moved, force, moment
 
-    _, force, moment = wrenches(c, r, square, turned, position, rotation, _LEVI_CIVITA)
+    _, force, moment = wrenches(c, r, square, turned, position, rotation, LEVI_CIVITA)
     tables = *(np.abs(table) for table in (square, turned, position, rotation)), sign
     moved, most_force, most_moment = wrenches(np.abs(c), np.abs(r), *tables)
     moved_off, force_off, moment_off = wrenches(c_off, r_off, *tables)
@@ -107,26 +111,40 @@ def _rows(problem: ForwardProblem, forms: Real, length: float, found: DoubleCoor
     return matrices, (off + gamma(4) * np.abs(matrices)) * OUTWARD + SMALL
 
 
-def _decided(matrices: Real, off: Real, length: Fraction) -> list[LegJacobian | None]:
-    """Determinants and singular values, of matrices with these bounds of their entries' errors."""
+def decided(
+    matrices: Real, off: Real, length: Fraction, finer: Finer | None = None, scale: float | Real = 1.0
+) -> list[LegJacobian | None]:
+    """Determinants and singular values, of matrices with these bounds of their entries' errors.
+
+    Parameters
+    ----------
+    matrices, off : (p, n, n) arrays
+    length : Fraction
+    finer : callable, optional
+        Of vectors u and v, (p, n) each, gives u^T A v and how far it is off at most, where that is known better.
+    scale : (p,) array, optional
+        The Jacobians are the matrices divided by it; it is off by three roundings at most.
+    """
     size = matrices.shape[1]
     left, _, right = np.linalg.svd(matrices)
     products = left.transpose(0, 2, 1) @ matrices @ right.transpose(0, 2, 1)
     around = np.abs(left.transpose(0, 2, 1)) @ (np.abs(matrices) * 2 * gamma(size + 1) + off)
     rest = around @ np.abs(right.transpose(0, 2, 1)) * (1 + gamma(4 * size))
-    diagonal = np.einsum("pii->pi", products)
+    diagonal = np.einsum("pii->pi", products).copy()
     lacking = np.abs(products * (1 - np.eye(size))) + rest
+    if finer is not None:
+        diagonal[:, -1], lacking[:, -1, -1] = finer(left[:, :, -1], right[:, -1])
     unit = [_norm(np.abs(v.transpose(0, 2, 1) @ v - np.eye(size)) + gamma(2 * size)) for v in (left, right)]
     is_unit = (unit[0] < 1 / 4) & (unit[1] < 1 / 4)
-    stretch = np.sqrt((1 + unit[0]) * (1 + unit[1])) * OUTWARD
-    shrink = np.sqrt((1 - unit[0]) * (1 - unit[1])) / OUTWARD
+    stretch = np.sqrt((1 + unit[0]) * (1 + unit[1])) * ROUNDED
+    shrink = np.sqrt((1 - unit[0]) * (1 - unit[1])) / ROUNDED
     least, largest = (
         ((middle - radius) / stretch, (middle + radius) / shrink) for middle, radius in _extremes(diagonal, lacking)
     )
     growth = gamma(size) * size**2 * 2.0 ** (size - 1) * np.abs(matrices).max(axis=(1, 2))
     is_regular = is_unit & (least[0] > (growth + _norm(off)) * OUTWARD + SMALL)
     signs = np.linalg.slogdet(matrices)[0]
-    smallest = _intervals(*least, is_regular)
+    smallest = _intervals(least[0] / scale, least[1] / scale, is_regular)
     conditions = _intervals(largest[0] / least[1], largest[1] / least[0], is_regular)
     return [
         LegJacobian(int(sign), size, sigma, condition, length) if sigma and condition and sign else None

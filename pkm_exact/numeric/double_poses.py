@@ -16,7 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.geometry.study import motion_quadrics
+from pkm_exact.geometry.study import Quadric, motion_quadrics
 from pkm_exact.numeric.double_forms import DoubleForms
 from pkm_exact.numeric.double_krawczyk import DoubleSolution
 from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U, gamma
@@ -54,9 +54,7 @@ def double_coordinates(
     """The coordinates of real poses that doubles have found; errors are nan where they cannot be told."""
     if not solutions:
         return DoubleCoordinates(np.zeros((0, 16)), np.zeros((0, 16)))
-    points, steps, errors = np.zeros((3, len(solutions), 8))
-    for row, found in enumerate(solutions):
-        points[row, support], steps[row, support], errors[row, support] = found.point, found.step, found.error
+    points, steps, errors = study_points(solutions, support)
     scales = np.sqrt(np.array(metric, dtype=float))
     factors = np.concatenate([scales, (scales[:, None] / scales[None]).ravel()])
     weights = np.concatenate([[np.prod(scales)], scales])
@@ -75,33 +73,62 @@ def double_coordinates(
     return DoubleCoordinates(middles, bounds)
 
 
+def study_points(solutions: Sequence[DoubleSolution], support: Sequence[int]) -> tuple[Real, Real, Real]:
+    """Points, steps and errors, (p, 8) each: coordinates that are not of the support are 0."""
+    points, steps, errors = np.zeros((3, len(solutions), 8))
+    places = list(support)
+    points[:, places] = [found.point for found in solutions]
+    steps[:, places] = [found.step for found in solutions]
+    errors[:, places] = [found.error for found in solutions]
+    return points, steps, errors
+
+
 def _quantities(points: Real, steps: Real, errors: Real, metric: tuple[int, int, int]) -> tuple[Real, Real]:
     """N(e) times C, R and 1, (p, 13), and how far these values are off at most."""
     forms, slopes = _motion_forms(metric)
-    values, off = (np.ldexp(part, forms.powers) for part in forms.at(points))
+    head, tail, off = forms_at(forms, slopes, (points, steps, errors))
+    found = head + tail
+    return found, (off + U * np.abs(found)) * OUTWARD
+
+
+def forms_at(forms: DoubleForms, slopes: Real, place: tuple[Real, Real, Real]) -> tuple[Real, Real, Real]:
+    """Quadratic forms with these second derivatives (k, 8, 8) at p - d, as sums of two doubles; how far they are off.
+
+    The place is p, d, and how far p - d is off at most, (p, 8) each.
+    """
+    points, steps, errors = place
+    parts = forms.in_two(points)
+    head, tail, off = (np.ldexp(part, forms.powers) for part in parts)
     sizes, moves = np.abs(points), np.abs(steps)
 
     def sums(table: Real, left: Real, right: Real) -> Real:
-        found: Real = np.einsum("kij,pi,pj->pk", table, left, right)
+        rows = (left[:, :, None] * right[:, None, :]).reshape(len(left), -1)
+        found: Real = rows @ table.reshape(len(table), -1).T
         return found
 
-    found = values - sums(slopes, points, steps)
+    change = sums(slopes, points, steps)
     around = np.abs(slopes)
-    bound = off + gamma(2 * _FEW) * sums(around, sizes, moves) + sums(around, moves, moves)
-    bound += sums(around, sizes + moves + errors, errors) + U * np.abs(found)
-    return found, bound * OUTWARD + SMALL
+    tail = tail - change
+    bound = off + gamma(2 * _FEW) * (sums(around, sizes, moves) + np.abs(tail))
+    bound += sums(around, moves, moves) + sums(around, sizes + moves + errors, errors)
+    return head, tail, bound * OUTWARD + SMALL
 
 
 @lru_cache(maxsize=8)
 def _motion_forms(metric: tuple[int, int, int]) -> tuple[DoubleForms, Real]:
     """C, R and N(e) as quadratic forms, and their second derivatives, (13, 8, 8)."""
     quadrics = motion_quadrics(metric)[4:]
+    return DoubleForms.of(quadrics), second_derivatives(quadrics)
+
+
+def second_derivatives(quadrics: Sequence[Quadric]) -> Real:
+    """(k, 8, 8): those of quadratic forms."""
     slopes = np.zeros((len(quadrics), 8, 8))
     for table, quadric in zip(slopes, quadrics, strict=True):
         for (i, j), value in quadric.items():
             table[i, j] += value
             table[j, i] += value
-    return DoubleForms.of(quadrics), slopes
+    return slopes
 
 
 def double_cells(found: DoubleCoordinates, exponent: int) -> list[list[Interval | None]]:

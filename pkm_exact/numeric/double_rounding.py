@@ -77,6 +77,19 @@ def two_product(a: Real, b: Real) -> tuple[Real, Real]:
     return p, a_tail * b_tail - (((p - a_head * b_head) - a_tail * b_head) - a_head * b_tail)
 
 
+def two_sum(a: Real, b: Real) -> tuple[Real, Real]:
+    """The rounded sums and what they lack, exactly (Knuth, The Art of Computer Programming 2, section 4.2.2).
+
+    Examples
+    --------
+    >>> two_sum(np.array([1.0]), np.array([2.0**-60]))
+    (array([1.]), array([8.67361738e-19]))
+    """
+    total = a + b
+    part = total - a
+    return total, (a - (total - part)) + (b - part)
+
+
 def _halves(a: Real) -> tuple[Real, Real]:
     """Two numbers of 26 bits each whose sum it is."""
     scaled = _SPLITTER * a

@@ -19,6 +19,7 @@ from pkm_exact.numeric.certified_boxes import GUARD_BITS, centre, enclosing_ball
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_jacobians import double_jacobians
 from pkm_exact.numeric.double_poses import double_cells, double_coordinates
+from pkm_exact.numeric.fine_jacobians import fine_jacobians
 from pkm_exact.numeric.krawczyk_operator import around_zero, is_inside, krawczyk
 from pkm_exact.numeric.start import StartSection, generic_start, start_quadrics
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates
@@ -155,6 +156,9 @@ def real_poses(
 
     def jacobians_in_doubles(length: Fraction) -> list[LegJacobian | None]:
         found = dict(zip(known, double_jacobians(system.problem, coordinates, length), strict=True))
+        rest = [(row, solution) for row, solution in enumerate(solutions) if solution and found[row] is None]
+        finer = fine_jacobians(system.problem, [solution for _, solution in rest], system.support, length)
+        found |= dict(zip([row for row, _ in rest], finer, strict=True))
         return [found.get(row) for row in range(count)]
 
     exponent, cells = disjoint_cells(enclosures, count, width, known=cells_in_doubles)
