@@ -23,7 +23,7 @@ from samples import model, shipped
 import pkm_exact
 from pkm_exact.certify.build import canonical_bytes, certificate, sealed
 from pkm_exact.certify.check import Status, Verdict, check_bytes
-from pkm_exact.certify.checker import document, elimination, multiplicity, realposes, solutions, verdict
+from pkm_exact.certify.checker import document, elimination, multiplicity, realposes, solutions, spelling, verdict
 from pkm_exact.certify.checker.descartes import real_roots
 from pkm_exact.certify.checker.section import section
 from pkm_exact.certify.checker.study_motion import CYCLIC, Motion, leg_form, leg_lines, motion
@@ -553,3 +553,8 @@ def test_another_grid_gives_another_true_certificate() -> None:
     assert all(both(canonical_bytes(content)).status == "accepted" for content in contents)
     claims = {(content["claim"], content["complex_solutions"], content["real_poses"]) for content in contents}
     assert claims == {("complete", 6, 2)}
+
+
+@pytest.mark.parametrize("value", [{}, [], "é\n\u2028\ud83d", [[], {}, {"a": [True, None, -3]}], {"b": {"ü": ["", 0]}}])
+def test_the_canonical_form_is_that_of_the_json_module(value: object) -> None:
+    assert spelling._canonical_bytes(value) == f"{json.dumps(value, indent=1)}\n".encode()

@@ -1,6 +1,7 @@
 """Echelon forms that look like others modulo the first primes: none is believed before its size proves it."""
 
 from fractions import Fraction
+from math import gcd
 from random import Random
 
 import pytest
@@ -86,8 +87,10 @@ def test_sparse_rows_have_the_form_that_rational_arithmetic_tells(rows: int, col
     form = {next(k for k, value in enumerate(row) if value): row for row in reduced}
 
     for known in ([], range(0, columns, 2), range(columns)):
-        found = reduced_rows(given, known)
+        found = reduced_rows(map(dict, given), known)
         assert set(form) - set(known) <= set(found) <= set(form)
-        for pivot, tail in found.items():
-            entries = {column: Fraction(int(value.p), int(value.q)) for column, value in tail.items()}
-            assert entries == {k: value for k, value in enumerate(form[pivot]) if value and k != pivot}
+        for pivot, row in found.items():
+            assert row[pivot] > 0
+            assert gcd(*row.values()) == 1
+            entries = {column: Fraction(value, row[pivot]) for column, value in row.items()}
+            assert entries == {k: value for k, value in enumerate(form[pivot]) if value}

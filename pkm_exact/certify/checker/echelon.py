@@ -15,13 +15,14 @@ N is found from as many of the primes as its size asks for; modulo the others it
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping, Sequence
-from math import isqrt, lcm, prod
+from collections.abc import Container, Iterable, Sequence
+from functools import lru_cache
+from math import gcd, isqrt, prod
 from typing import Final, NamedTuple, TypeAlias
 
-from flint import fmpq, fmpz, fmpz_mat, nmod_mat
+from flint import fmpz, fmpz_mat, nmod_mat
 
-from pkm_exact.certify.checker.budget import charge, limbs
+from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.residues import centred, combined, images, primes
 
 _COMBINATIONS: Final = 6
@@ -34,7 +35,7 @@ _SLACK: Final = 16
 _DENSE: Final = ((64, 3), (32, 2))
 """More rows than these are dense if a shortest one has more than one entry in so many."""
 
-Row: TypeAlias = dict[int, fmpq]
+Row: TypeAlias = dict[int, int]
 """Entries by column, none of them 0."""
 
 
@@ -175,20 +176,22 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     raise AssertionError("there are primes enough")
 
 
-def reduced_rows(rows: Sequence[Mapping[int, int]], known: Container[int] = ()) -> dict[int, Row]:
-    """The rows of the reduced echelon form of a sparse matrix, by pivot what they have beside 1 at the pivot.
+def reduced_rows(rows: Iterable[Row], known: Container[int] = ()) -> dict[int, Row]:
+    """The rows of the reduced echelon form of a sparse matrix by pivot, each times what makes it coprime integers.
 
     Of pivots that are ``known`` not all are there.
 
     Examples
     --------
     >>> reduced_rows([{0: 2, 1: 4, 2: 6}, {0: 1, 1: 2, 2: 4}])
-    {2: {}, 0: {1: 2}}
+    {2: {2: 1}, 0: {0: 1, 1: 2}}
     """
-    width = len({column for row in rows for column in row})
     waiting: dict[int, list[Row]] = {}
+    columns: set[int] = set()
     for row in rows:
-        _sort_in(waiting, {column: fmpq(value) for column, value in row.items()})
+        columns.update(row)
+        _sort_in(waiting, row)
+    width = len(columns)
     steps: list[tuple[int, Row]] = []
     needed: set[int] = set()
     while waiting:
@@ -198,19 +201,16 @@ def reduced_rows(rows: Sequence[Mapping[int, int]], known: Container[int] = ()) 
         if _is_dense(len(first), number, width - pivot):
             break
         del waiting[pivot]
-        lead = first.pop(pivot)
-        tail = {column: value / lead for column, value in first.items()}
         for other in others:
-            _subtract(other, other.pop(pivot), tail)
-            _sort_in(waiting, other)
+            _sort_in(waiting, _without(pivot, other, first))
         if pivot in needed or pivot not in known:
-            steps.append((pivot, tail))
-            needed.update(tail)
+            steps.append((pivot, first))
+            needed.update(first)
     found = _of_dense([row for group in waiting.values() for row in group])
-    for pivot, tail in reversed(steps):
-        for column in [column for column in tail if column in found]:
-            _subtract(tail, tail.pop(column), found[column])
-        found[pivot] = tail
+    for pivot, row in reversed(steps):
+        for column in [column for column in row if column in found]:
+            row = _without(column, row, found[column])
+        found[pivot] = _primitive(row, row[pivot])
     return found
 
 
@@ -225,17 +225,34 @@ def _sort_in(waiting: dict[int, list[Row]], row: Row) -> None:
         waiting.setdefault(min(row), []).append(row)
 
 
-def _subtract(row: Row, factor: fmpq, tail: Row) -> None:
-    """Subtract a multiple of a row from another one."""
-    bits = 0
-    for column, value in tail.items():
-        entry = row.get(column, 0) - factor * value
+def _without(column: int, row: Row, other: Row) -> Row:
+    """A multiple of a row minus one of another row, which both have an entry in a column: the least that has none.
+
+    The row itself is used up.
+    """
+    lead, factor = other[column], row[column]
+    common = gcd(lead, factor) if lead > 0 else -gcd(lead, factor)
+    scale, factor = lead // common, factor // common
+    length = len(row) + len(other)
+    if scale != 1:
+        row = {place: scale * value for place, value in row.items()}
+    for place, value in other.items():
+        entry = row.get(place, 0) - factor * value
         if entry:
-            row[column] = entry
-            bits += entry.height_bits()
+            row[place] = entry
         else:
-            del row[column]
-    charge(1000 * len(tail) + bits * bits // (1000 * (len(tail) + 1)))
+            del row[place]
+    bits = sum(map(int.bit_length, row.values()))
+    charge(500 * length + bits * bits // (600 * (len(row) + 1)))
+    return row if scale == 1 else _primitive(row, 1)
+
+
+def _primitive(row: Row, sign: int) -> Row:
+    """The row divided by what its entries have in common, and by a sign."""
+    content = gcd(*row.values())
+    if sign < 0:
+        content = -content
+    return row if content in (0, 1) else {column: value // content for column, value in row.items()}
 
 
 def _of_dense(rows: Sequence[Row]) -> dict[int, Row]:
@@ -243,18 +260,12 @@ def _of_dense(rows: Sequence[Row]) -> dict[int, Row]:
     columns = sorted({column for row in rows for column in row})
     if not columns:
         return {}
-    table = []
-    for row in rows:
-        words = limbs(max(int(value.height_bits()) for value in row.values()))
-        charge(len(row) * (2000 + 4 * words * words))
-        denominator = lcm(*(int(value.q) for value in row.values()))
-        table.append([int(row[column] * denominator) if column in row else 0 for column in columns])
-    form = echelon_form(table)
+    form = echelon_form([[row.get(column, 0) for column in columns] for row in rows])
     others = [columns[place] for place in form.others]
     found = {}
     for pivot, numerators in zip(form.pivots, form.numerators, strict=True):
-        entries = zip(others, numerators, strict=True)
-        found[columns[pivot]] = {column: fmpq(value, form.denominator) for column, value in entries if value}
+        entries = {column: value for column, value in zip(others, numerators, strict=True) if value}
+        found[columns[pivot]] = _primitive({columns[pivot]: form.denominator, **entries}, form.denominator)
     return found
 
 
@@ -269,6 +280,7 @@ def _staircase(echelon: nmod_mat, rank: int) -> list[int]:
     return pivots
 
 
+@lru_cache(maxsize=64)
 def _weights(number: int, base: int) -> list[int]:
     """Numbers without pattern."""
     return [pow(base, 1000 + power, 65537) for power in range(number)]

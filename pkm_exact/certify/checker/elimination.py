@@ -113,13 +113,8 @@ def echelon(polynomials: Sequence[Polynomial], leading: Sequence[Monomial] = ())
     place = {monomial: column for column, monomial in enumerate(columns)}
     known = {column for monomial, column in place.items() if _is_divisible(monomial, leading)}
     found = reduced_rows([{place[monomial]: value for monomial, value in row.items()} for row in polynomials], known)
-    rows = []
-    for pivot, tail in sorted((pivot, tail) for pivot, tail in found.items() if pivot not in known):
-        denominator = lcm(*(int(value.q) for value in tail.values()))
-        row = {columns[pivot]: denominator}
-        row.update((columns[column], int(value * denominator)) for column, value in sorted(tail.items()))
-        rows.append(row)
-    return rows
+    rows = [found[pivot] for pivot in sorted(found) if pivot not in known]
+    return [{columns[column]: row[column] for column in sorted(row)} for row in rows]
 
 
 def _is_divisible(monomial: Monomial, divisors: Sequence[Monomial]) -> bool:

@@ -57,7 +57,8 @@ def combined(parts: Sequence[tuple[int, fmpz_mat]], factor: int) -> tuple[int, l
         pairs = zip(terms[::2], terms[1::2], strict=False)
         joined = [(p * q, first * q + second * p) for (p, first), (q, second) in pairs]
         terms = joined + terms[len(joined) * 2 :]
-    return modulus, [centred(entry, modulus) for entry in terms[0][1].entries()]
+    half, odd = fmpz(modulus // 2), fmpz(modulus)
+    return modulus, [(entry + half) % odd - half for entry in terms[0][1].entries()]
 
 
 def centred(value: fmpz, modulus: int) -> fmpz:

@@ -80,8 +80,9 @@ def motion_quadrics(values: Sequence[Any], metric: Metric) -> list[Any]:
     for i in range(3):
         for j in range(3):
             unit = int(i == j)
-            found.append(sum((g[k] * r[k][i] * r[k][j] for k in range(3)), -unit * g[i]))
-            found.append(sum((1 / g[k] * r[i][k] * r[j][k] for k in range(3)), -unit / g[i]))
+            if i <= j:  # both are symmetric
+                found.append(sum((g[k] * r[k][i] * r[k][j] for k in range(3)), -unit * g[i]))
+                found.append(sum((1 / g[k] * r[i][k] * r[j][k] for k in range(3)), -unit / g[i]))
             (i1, i2), (j1, j2) = CYCLIC[i][1:], CYCLIC[j][1:]
             found.append(r[i1][j1] * r[i2][j2] - r[i1][j2] * r[i2][j1] - g[i] / g[j] * r[i][j])
         found.append(sum((r[i][k] * u[k] for k in range(3)), -c[i]))

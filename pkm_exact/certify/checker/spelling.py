@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable
 from fractions import Fraction
 from hashlib import sha256
+from json.encoder import encode_basestring_ascii
 from typing import Any, Final, TypeVar
 
 from pkm_exact.certify.checker.budget import charge
@@ -67,7 +68,20 @@ def _depth(content: object) -> int:
 
 
 def _canonical_bytes(content: object) -> bytes:
-    return (json.dumps(content, indent=1, ensure_ascii=True) + "\n").encode("ascii")
+    return (_spelled(content, "\n") + "\n").encode("ascii")
+
+
+def _spelled(value: object, line: str) -> str:
+    """The canonical form of a value after this beginning of its line: an entry has a line, one space further in."""
+    if isinstance(value, str):
+        return encode_basestring_ascii(value)
+    inner = f"{line} "
+    if isinstance(value, list) and value:
+        return f"[{inner}{f',{inner}'.join([_spelled(entry, inner) for entry in value])}{line}]"
+    if isinstance(value, dict) and value:
+        entries = [f"{encode_basestring_ascii(key)}: {_spelled(entry, inner)}" for key, entry in value.items()]
+        return f"{{{inner}{f',{inner}'.join(entries)}{line}}}"
+    return json.dumps(value)
 
 
 def _json(data: bytes) -> Any:
