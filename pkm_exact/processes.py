@@ -28,7 +28,7 @@ def process_apart(work: Callable[..., None], *arguments: Any) -> Iterator[tuple[
     context = get_context("spawn")
     receiver, sender = context.Pipe(duplex=False)
     process = context.Process(target=work, args=(sender, *arguments), daemon=True)
-    with _interrupts_held():
+    with interrupts_held():
         process.start()
     sender.close()
     try:
@@ -108,7 +108,7 @@ def signals_deferred() -> Iterator[None]:
 
 
 @contextmanager
-def _interrupts_held() -> Iterator[None]:
+def interrupts_held() -> Iterator[None]:
     """A process started here never sees the interrupt of the terminal: its parent does, and ends it."""
     if not hasattr(signal, "pthread_sigmask"):
         yield

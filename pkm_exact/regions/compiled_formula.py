@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
@@ -148,6 +149,13 @@ class CompiledFormula:
         """How many coefficients the largest of its parts has."""
         sizes = [part.tensor.size for pair in self.atoms.values() for part in pair]
         return max([*sizes, *(matrix.size for matrix in self.matrices.values()), 1])
+
+    @cached_property
+    def work(self) -> int:
+        """How many coefficients all of its parts have: what a box costs, about."""
+        parts = {id(part): part.tensor.size for pair in self.atoms.values() for part in pair}
+        matrices = sum(matrix.size for matrix in self.matrices.values())
+        return 1 + sum(parts.values()) + sum(root.tensor.size for root, _ in self.roots) + matrices
 
     def truths(self, depths: Sequence[int], places: NDArray[np.int64]) -> Truth:
         """What is proved of the formula on many boxes.

@@ -21,7 +21,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.regions.compiled_formula import CompiledFormula
+from pkm_exact.regions.compiled_formula import CompiledFormula, Truth
 
 SPLIT: Final = "s"
 INSIDE: Final = "i"
@@ -97,6 +97,56 @@ class Paved:
     open_parts: tuple[Part, ...] = ()
 
 
+class Front:
+    """A paving that grows level by level: what is undecided at one depth is halved, and looked at again.
+
+    Whoever decides the parts of a level, at once or in pieces, here or elsewhere, the paving is the same.
+
+    Parameters
+    ----------
+    axes : sequence of int
+        Along which variable the parts of each depth are halved.
+    depth : int
+    places : array (n, k)
+        Of the first parts, all of this depth.
+    last : int
+        Parts of this depth are not halved.
+    most : int
+        Nor are parts of a depth at which more are undecided.
+    stop_outside : bool
+        Whether to go no deeper once a part is outside: the question is answered.
+    """
+
+    def __init__(
+        self, axes: Sequence[int], depth: int, places: Places, last: int, *, most: int, stop_outside: bool
+    ) -> None:
+        self.depth, self.places, self.is_ended = depth, places, False
+        self._axes, self._last, self._most, self._stop_outside = axes, last, most, stop_outside
+        self._levels: list[NDArray[np.str_]] = []
+
+    def grow(self, truths: Truth) -> None:
+        """Go on, as far as what is proved of the parts at ``places`` says."""
+        letters, undecided = _LETTERS[truths], truths == 0
+        count = int(undecided.sum())
+        self.is_ended = self.depth >= self._last or not count or count > self._most
+        self.is_ended = self.is_ended or (self._stop_outside and bool((truths < 0).any()))
+        if self.is_ended:
+            self._levels.append(letters)
+            self.places = self.places[undecided]
+            return
+        self._levels.append(np.where(undecided, SPLIT, letters))
+        lower = np.repeat(self.places[undecided], 2, axis=0)
+        axis = self._axes[self.depth]
+        lower[:, axis] *= 2
+        lower[1::2, axis] += 1
+        self.places, self.depth = lower, self.depth + 1
+
+    @property
+    def paved(self) -> Paved:
+        """The paving, once it has ended, of one first part."""
+        return Paved(_word(self._levels), tuple(Part(self.depth, tuple(map(int, place))) for place in self.places))
+
+
 def pave(
     formula: CompiledFormula,
     axes: Sequence[int],
@@ -111,37 +161,26 @@ def pave(
     Parameters
     ----------
     formula : CompiledFormula
-    axes : sequence of int
-        Along which variable the parts of each depth are halved.
+    axes, last, most, stop_outside
+        As of ``Front``.
     start : Part
-    last : int
-        Parts of this depth are not halved.
-    most : int
-        Nor are parts of a depth at which more are undecided.
-    stop_outside : bool
-        Whether to go no deeper once a part is outside: the question is answered.
     """
-    levels: list[NDArray[np.str_]] = []
-    places = np.array([start.places], dtype=np.int64)
-    depth, ended = start.depth, False
-    while True:
-        depths = depths_at(axes, depth, formula.variables)
-        truths = np.concatenate([formula.truths(depths, batch) for batch in _batches(formula, places)])
-        letters = _LETTERS[truths]
-        undecided = truths == 0
-        ended = depth >= last or not undecided.any() or int(undecided.sum()) > most
-        ended = ended or (stop_outside and bool((truths < 0).any()))
-        if ended:
-            levels.append(letters)
-            break
-        levels.append(np.where(undecided, SPLIT, letters))
-        lower = np.repeat(places[undecided], 2, axis=0)
-        axis = axes[depth]
-        lower[:, axis] *= 2
-        lower[1::2, axis] += 1
-        places, depth = lower, depth + 1
-    open_parts = tuple(Part(depth, tuple(map(int, place))) for place in places[levels[-1] == UNDECIDED])
-    return Paved(_word(levels), open_parts)
+    front = Front(axes, start.depth, places_of(start), last, most=most, stop_outside=stop_outside)
+    while not front.is_ended:
+        front.grow(truths_at(formula, axes, front.depth, front.places))
+    return front.paved
+
+
+def places_of(part: Part) -> Places:
+    """A part as an array of one."""
+    return np.array([part.places], dtype=np.int64)
+
+
+def truths_at(formula: CompiledFormula, axes: Sequence[int], depth: int, places: Places) -> Truth:
+    """What is proved of the parts of a depth: of each by itself, whichever others there are."""
+    depths = depths_at(axes, depth, formula.variables)
+    found: Truth = np.concatenate([formula.truths(depths, batch) for batch in _batches(formula, places)])
+    return found
 
 
 def _batches(formula: CompiledFormula, places: Places) -> list[Places]:

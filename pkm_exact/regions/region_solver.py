@@ -17,13 +17,17 @@ from pkm_exact.regions.paving import (
     INSIDE,
     OUTSIDE,
     UNDECIDED,
+    Front,
     Part,
     Paved,
+    Places,
     depths_at,
     halving_axes,
     leaves,
     pave,
+    places_of,
     spliced,
+    truths_at,
 )
 from pkm_exact.regions.region_conditions import Asked, asked_of
 from pkm_exact.regions.region_legs import RegionMachine
@@ -179,6 +183,18 @@ def points_of(box: Sequence[tuple[Fraction, Fraction]], axes: Sequence[int], par
     return [tuple((low + high) / 2 for low, high in ends), *product(*ends)]
 
 
+class Pavings(Protocol):
+    """Pavings of parts, in their order, as they come."""
+
+    def __iter__(self) -> Iterator[Paved]:
+        """Them."""
+        ...
+
+    def close(self) -> None:
+        """Have no further ones made."""
+        ...
+
+
 class Run(Protocol):
     """Paves parts, in their order, here or elsewhere."""
 
@@ -186,8 +202,8 @@ class Run(Protocol):
         """Make ready for the parts of a question, while its first parts are paved here."""
         ...
 
-    def paved(self, ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
-        """Pave parts."""
+    def paved(self, ready: PreparedQuestion, parts: Sequence[Part]) -> Pavings:
+        """Pave parts; other processes begin at once."""
         ...
 
 
@@ -197,7 +213,7 @@ class InThisProcess:
     def begin(self, question: RegionQuestion) -> None:
         """Nothing is to be done."""
 
-    def paved(self, ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
+    def paved(self, ready: PreparedQuestion, parts: Sequence[Part]) -> Pavings:
         """Pave parts."""
         return (pave_part(ready, part) for part in parts)
 
@@ -207,10 +223,17 @@ IN_THIS_PROCESS: Final = InThisProcess()
 
 def pave_part(ready: PreparedQuestion, part: Part) -> Paved:
     """The paving of a part that is a job of its own: it depends on nothing but the question and the part."""
+    front = front_of(ready, part, part.depth, places_of(part))
+    while not front.is_ended:
+        front.grow(truths_at(ready.compiled, ready.axes, front.depth, front.places))
+    return front.paved
+
+
+def front_of(ready: PreparedQuestion, part: Part, depth: int, places: Places) -> Front:
+    """Where the paving of a part has come: to these parts of it, all of a depth."""
     answer = ready.question.answer
     share = max(16, answer.boxes >> min(HEAD_STEPS, part.depth))
-    stop = answer.kind != "map"
-    return pave(ready.compiled, ready.axes, part, len(ready.axes), most=share, stop_outside=stop)
+    return Front(ready.axes, depth, places, len(ready.axes), most=share, stop_outside=answer.kind != "map")
 
 
 def answered(
@@ -246,26 +269,30 @@ def answered(
     start = Part(0, (0,) * len(ready.box))
     last = min(HEAD_STEPS, len(ready.axes))
     head = pave(ready.compiled, ready.axes, start, last, most=question.answer.boxes, stop_outside=not is_map)
-    if not is_map:
-        _look(search, ready, head.word, start)
-    result = RegionAnswer(
-        question, machine, ready.axes, head.word, search.found, member, ready.asked.matrix is not None
-    )
-    if search.found is not None or not head.open_parts or last == len(ready.axes):
-        return result
+    result = RegionAnswer(question, machine, ready.axes, head.word, None, member, ready.asked.matrix is not None)
+    is_whole = not head.open_parts or last == len(ready.axes)
     parts = [part for letter, part in leaves(head.word, ready.axes, len(ready.box)) if letter == UNDECIDED]
     stored = [record["word"] for record in store.records] if store is not None else []
-    words: list[str] = []
-    rest = (paved.word for paved in run.paved(ready, parts[len(stored) :]))
-    for number, (part, word) in enumerate(zip(parts, chain(stored, rest), strict=True)):
-        words.append(word)
-        if store is not None and number >= len(stored):
-            store.add({"part": number, "word": word})
-        if progress is not None:
-            progress(Fraction(number + 1, len(parts)))
-        if not is_map and search.found is None:
-            _look(search, ready, word, part)
-    return replace(result, word=spliced(head.word, words), counterexample=search.found)
+    # Other processes begin while a counterexample is looked for here.
+    pavings = run.paved(ready, [] if is_whole else parts[len(stored) :])
+    try:
+        if not is_map:
+            _look(search, ready, head.word, start)
+        if search.found is not None or is_whole:
+            return replace(result, counterexample=search.found)
+        words: list[str] = []
+        rest = (paved.word for paved in pavings)
+        for number, (part, word) in enumerate(zip(parts, chain(stored, rest), strict=True)):
+            words.append(word)
+            if store is not None and number >= len(stored):
+                store.add({"part": number, "word": word})
+            if progress is not None:
+                progress(Fraction(number + 1, len(parts)))
+            if not is_map and search.found is None:
+                _look(search, ready, word, part)
+        return replace(result, word=spliced(head.word, words), counterexample=search.found)
+    finally:
+        pavings.close()
 
 
 def _a_pose(ready: PreparedQuestion) -> Point:

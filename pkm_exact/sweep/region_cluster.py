@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from threading import Lock
 from typing import Any, Final
 
+from pkm_exact.regions.compiled_formula import Truth
 from pkm_exact.regions.paving import Part, Paved
+from pkm_exact.regions.paving_tasks import PartsInOrder, Task
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_question import RegionQuestion
-from pkm_exact.regions.region_solver import PreparedQuestion, Run
-from pkm_exact.regions.region_workers import paved_part
+from pkm_exact.regions.region_solver import Pavings, PreparedQuestion, Run
+from pkm_exact.regions.region_workers import Sent, task_done
 from pkm_exact.sweep.cluster import cluster_failure, connected_cluster
 
-PARTS_PER_THREAD: Final = 4
-"""Parts that are sent at the same time."""
+TASKS_PER_THREAD: Final = 4
+"""Tasks that are sent at the same time."""
 
-_one_part = Lock()
+_one_task = Lock()
 
 
-def pave_one(machine: RegionMachine, question: RegionQuestion, part: Part) -> Paved:
-    """What a worker does: one part at a time, as FLINT's precision belongs to a process."""
-    with _one_part:
-        return paved_part((machine, question, part))
+def do_one(sent: Sent, task: Task) -> list[Truth]:
+    """What a worker does: one task at a time, as FLINT's precision belongs to a process."""
+    with _one_task:
+        return task_done(sent, task)
 
 
 @contextmanager
@@ -43,7 +44,7 @@ def cluster_run(machine: RegionMachine, address: str) -> Iterator[Run]:
 
 @dataclass(frozen=True)
 class _Cluster:
-    """Workers that may come and go; each makes the question ready with its first part."""
+    """Workers that may come and go; each makes the question ready with its first task."""
 
     distributed: Any
     client: Any
@@ -52,21 +53,28 @@ class _Cluster:
     def begin(self, question: RegionQuestion) -> None:
         """Nothing is sent before there are parts."""
 
-    def paved(self, ready: PreparedQuestion, parts: Sequence[Part]) -> Iterator[Paved]:
-        most = PARTS_PER_THREAD * max(1, sum(self.client.nthreads().values()))
-        waiting: deque[Any] = deque()
-        for number, part in enumerate(parts):
-            job = self.client.submit(pave_one, self.machine, ready.question, part, pure=False, priority=-number)
-            waiting.append(job)
-            if len(waiting) >= most:
-                yield _result(self.distributed, waiting.popleft())
-        while waiting:
-            yield _result(self.distributed, waiting.popleft())
+    def paved(self, ready: PreparedQuestion, parts: Sequence[Part]) -> Pavings:
+        threads = max(1, sum(self.client.nthreads().values()))
+        sent = Sent.of(self.machine, ready.question)
+
+        def submit(task: Task, number: int) -> Any:
+            return self.client.submit(do_one, sent, task, pure=False, priority=-number)
+
+        room = TASKS_PER_THREAD * threads
+        return _OfCluster(ready, parts, submit, processes=threads, room=room, lost=self.distributed.CancelledError)
 
 
-def _result(distributed: Any, future: Any) -> Paved:
-    try:
-        found: Paved = future.result()
-    except (Exception, distributed.CancelledError) as error:
-        raise cluster_failure(error) from None
-    return found
+class _OfCluster(PartsInOrder):
+    """Pavings whose failures are those of the cluster."""
+
+    def __init__(self, *given: Any, lost: type[BaseException], **named: Any) -> None:
+        self._lost = lost
+        super().__init__(*given, **named)
+
+    def __next__(self) -> Paved:
+        try:
+            return super().__next__()
+        except StopIteration:
+            raise
+        except (Exception, self._lost) as error:
+            raise cluster_failure(error) from None
