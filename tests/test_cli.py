@@ -264,6 +264,14 @@ def test_check_combines_the_verdicts(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert err.count("\n") == 1
 
 
+@pytest.mark.parametrize("options", [[], ["--pure"]])
+def test_a_model_is_no_certificate(options: list[str], capsys: Capture) -> None:
+    path = str(Path(__file__).parent.parent / "models" / "3-rrr.toml")
+    assert main(["check", path, *options]) == 2
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-2:] == [f"{path}: give a certificate, as solve MODEL -o CERT.json writes one", f"{path}: malformed"]
+
+
 def test_an_engine_that_gives_up_has_exit_code_4(
     monkeypatch: pytest.MonkeyPatch, stays_empty: Path, capsys: Capture
 ) -> None:

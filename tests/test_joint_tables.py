@@ -81,13 +81,42 @@ def test_a_model_from_a_table_of_joints(tmp_path: Path, capsys: Capture) -> None
     assert Robot.load(model).configurations[0].lengths_squared == (Fraction("222.5") ** 2,) * 6
 
 
+@pytest.mark.parametrize("mark", [";", "\t"])
+def test_tables_of_spreadsheets_are_the_same_tables(mark: str, tmp_path: Path, capsys: Capture) -> None:
+    """Between semicolons a comma is a decimal point; a byte order mark, comments and CRLF change nothing."""
+    path, model = _table(tmp_path), tmp_path / "robot.toml"
+    words = ["new", "--csv", str(path), "--height", "220", "-o", str(model), "--force"]
+    assert main(words) == 0
+    wanted = model.read_bytes()
+    text = path.read_text().replace(",", mark).replace("\n", "\r\n")
+    path.write_text("\ufeff# drawing\r\n" + (text.replace(".", ",") if mark == ";" else text), newline="")
+    assert main(words) == 0
+    assert model.read_bytes() == wanted
+    assert "pose = { position = [0, 0, 220], quaternion = [1, 0, 0, 0] }" in wanted.decode()
+    assert Robot.load(model).nominal is not None
+    capsys.readouterr()
+
+
 @pytest.mark.parametrize(
     ("header", "rows", "words", "part"),
     [
-        ("a,b", ["1,2"], ["--height", "1"], "line 1: the columns are a, b; give base_x, base_y,"),
+        ("a,b", ["1,2"], ["--height", "1"], "line 1: the columns are a, b; name them base_x, base_y,"),
         (HEADER, ["1,2,3,4,5"], ["--height", "1"], "line 2: 5 values; give 6"),
         (HEADER, ["1,2,3,4,5,x"], ["--height", "1"], "line 2, platform_z: x is not a number"),
         (HEADER, [], ["--height", "1"], "0 rows; give one per leg"),
+        (
+            HEADER,
+            ["0,0,0,0,0,5"] * 5,
+            ["--height", "1"],
+            "joints.csv: 5 rows; give 6, one per leg, or 3 if it is planar",
+        ),
+        ("0,0,0,0,0,5", ["0,0,0,0,0,5"] * 5, ["--height", "1"], "line 1: has no names of columns; name them base_x,"),
+        (
+            HEADER.replace(",", ";"),
+            ["1,0;0;0;0;0;1.000,5"] * 6,
+            ["--height", "1"],
+            "platform_z: 1.000,5 is not a number",
+        ),
         (HEADER, None, [], "give either --height"),
         (HEADER, None, ["--height", "1", "--kind", "3-RRR"], "6 rows are those of a 6-UPS robot"),
         (HEADER, None, ["--height", "1", "--base-sides", "1,2"], "--csv and --base-sides exclude each other"),

@@ -307,7 +307,16 @@ def test_positions_are_those_of_the_tool_point(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "part"), [('{"format": 1}', "is JSON, as certificates"), ("# a\nname: x\n", "is YAML")]
+    ("text", "part"),
+    [
+        ('{"format": 1}', "is JSON, as certificates"),
+        ("{" + '"1234567890' * 10**6 + '"}', "is JSON, as certificates"),
+        ("# a\nname: x\n", "is YAML"),
+        ("\n<?xml version='1.0'?>", "is XML, it seems; `new --urdf`"),
+        ("base_x,base_y\n1,2", "is a table of numbers, it seems; `new --csv`"),
+        ("1.5;2", "is a table of numbers"),
+        ("schema = 1, 2", "not valid TOML"),
+    ],
 )
 def test_files_of_other_sorts_are_named(text: str, part: str) -> None:
     with pytest.raises(InputError, match=part):

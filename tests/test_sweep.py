@@ -274,6 +274,21 @@ def test_a_bad_row_is_a_line_and_does_not_stop_the_others(tmp_path: Path, line: 
     assert output.read_bytes().isascii()
 
 
+def test_a_spreadsheet_s_semicolons_and_decimal_commas_are_read(tmp_path: Path) -> None:
+    robot = read_robot(PLANAR)
+    lines = ["# exported", "l1;l2;l3", "7,1;5,1;5", "7.1;26/5;5e0", '7,1;"5,2";1.000,5', "7,1,5;5;5"]
+    lengths = read_lengths(written(tmp_path / "lengths.csv", lines), robot)
+    assert [row.fields for row in lengths.rows()] == [
+        ("7.1", "5.1", "5"),
+        ("7.1", "26/5", "5e0"),
+        ("7.1", "5.2", "1.000,5"),
+        ("7,1,5", "5", "5"),
+    ]
+    output = tmp_path / "out.jsonl"
+    sweep(quick_job(lengths), lengths, output, inline)
+    assert ["error" in entry for entry in records(output)] == [False, False, True, True]
+
+
 def test_a_line_that_is_no_text(tmp_path: Path) -> None:
     path = tmp_path / "lengths.csv"
     path.write_bytes(b"7,5,5\n7,\xff,5\n# \xff\r\n7,5\x00,5\n7,5,5")

@@ -102,6 +102,8 @@ def _check(path: Path, *, pure: bool, before_output: Callable[[], None]) -> Exit
     before_output()
     for line in lines:
         sys.stdout.write(f"{name}: {printable(line)}\n")
+    if status == "malformed" and not data.lstrip().startswith(b"{"):
+        sys.stdout.write(f"{name}: give a certificate, as solve MODEL -o CERT.json writes one\n")
     sys.stdout.write(f"{name}: {status}\n")
     sys.stdout.flush()
     if status == "accepted":

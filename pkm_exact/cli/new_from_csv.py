@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from fractions import Fraction
+from math import sqrt
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +21,8 @@ from pkm_exact.geometry.joint_arrays import describe_rounding, read_joints_csv
 from pkm_exact.geometry.model_writer import robot_text
 from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.robot import Configuration, Robot
-from pkm_exact.wording import printable
+from pkm_exact.templates.model_text import toml_number
+from pkm_exact.wording import counted, printable
 
 _NOT_WITH_CSV = (
     "base_sides",
@@ -54,6 +57,8 @@ def write_from_csv(path: str, output: str | None, name: str | None, given: dict[
         raise click.UsageError("--csv: give -o MODEL.toml as well, or -o - for stdout.")
     base, platform, lengths = read_joints_csv(path, given["digits"])
     planar = len(base) == 3
+    if len(base) not in (3, 6):
+        raise InputError(f"{printable(path)}: {counted(len(base), 'row')}; give 6, one per leg, or 3 if it is planar")
     kind = "3-RPR" if planar else "6-UPS"
     if given["kind"] not in (None, kind, *(() if planar else ("6-6",))):
         raise click.UsageError(f"--csv: {len(base)} rows are those of a {kind} robot; leave --kind out.")
@@ -64,6 +69,7 @@ def write_from_csv(path: str, output: str | None, name: str | None, given: dict[
         if lengths is None
         else tuple(length * length for length in lengths)
     )
+    nominal = None if lengths is not None else NominalPose(_level(given["height"], planar), rotation_of(_UNTURNED))
     source = f"joints from {Path(path).name}, {describe_rounding(given['digits'])}"
     title = name or ("my robot" if output == "-" else Path(output).stem)
     robot = Robot(
@@ -74,9 +80,9 @@ def write_from_csv(path: str, output: str | None, name: str | None, given: dict[
         base,
         platform,
         configurations=(Configuration("home", squares),),
-        nominal=None if lengths is not None else NominalPose(_level(given["height"], planar), rotation_of(_UNTURNED)),
+        nominal=nominal,
     )
-    text = robot_text(robot)
+    text = robot_text(robot) if nominal is None else _text_at(robot, nominal)
     if output == "-":
         sys.stdout.write(text)
         return ExitCode.DONE
@@ -84,6 +90,26 @@ def write_from_csv(path: str, output: str | None, name: str | None, given: dict[
     click.echo(f"{printable(output)}: {kind}, {source}")
     click.echo(f"next: {PROGRAM} solve {printable(output)}")
     return ExitCode.DONE
+
+
+def _text_at(robot: Robot, nominal: NominalPose) -> str:
+    """The model with its configuration as the nominal pose, as people read it, and what may be given in its place."""
+    planar = robot.motion.is_planar
+    position = ", ".join(toml_number(x) for x in nominal.position[: 2 if planar else 3])
+    turn = "half_tangent = 0" if planar else "quaternion = [1, 0, 0, 0]"
+    squares = robot.configurations[0].lengths_squared
+    lengths = ", ".join(f"{sqrt(square):.8g}" for square in squares)
+    return f"""{robot_text(replace(robot, configurations=()))}
+# The lengths that the legs have when the platform is level, at this position.
+[[configurations]]
+name = "home"
+pose = {{ position = [{position}], {turn} }}
+
+# Measured lengths, one per leg (here those of home, rounded):
+# [[configurations]]
+# name = "measured"
+# lengths = [{lengths}]
+"""
 
 
 def _squares_at(base: Any, platform: Any, height: str, planar: bool) -> tuple[Fraction, ...]:

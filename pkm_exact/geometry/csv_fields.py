@@ -1,8 +1,13 @@
-"""What lines of CSV files with one column per leg have in common: headers, and numbers as they were written."""
+"""What lines of CSV files with one column per leg have in common: headers, and numbers as they were written.
+
+Fields are separated by commas, or by semicolons or tabs, as spreadsheets write them. Between semicolons a comma is a
+decimal point: programs take semicolons where it is one.
+"""
 
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Final
@@ -12,6 +17,8 @@ from pkm_exact.geometry.rational import NumberText, parse_rational
 from pkm_exact.wording import shown
 
 _NOT_FINITE: Final = ("nan", "inf", "infinity")
+_QUOTED: Final = re.compile(r'"[^"]*"')
+_DECIMAL_COMMA: Final = re.compile(r"([+-]?[0-9]{1,100}),([0-9]{1,100}(?:[eE][+-]?[0-9]{1,10})?(?:\s*deg)?)", re.ASCII)
 
 
 def is_header(fields: Sequence[str]) -> bool:
@@ -23,6 +30,38 @@ def is_header(fields: Sequence[str]) -> bool:
     (True, False)
     """
     return any(field[:1].isalpha() and field.lower() not in _NOT_FINITE for field in fields)
+
+
+def delimiter_of(line: str) -> str:
+    """What separates the fields of a line.
+
+    >>> [delimiter_of(line) for line in ("l1,l2", "1,5; 2", "1.5\\t2", '"a;b",2')]
+    [',', ';', '\\t', ',']
+    """
+    bare = _QUOTED.sub("", line)
+    return next((mark for mark in ";,\t" if mark in bare), ",")
+
+
+def split_line(line: str, mark: str) -> list[str]:
+    """The fields of one line that this mark separates, without blanks around them, decimal commas as points.
+
+    Raises
+    ------
+    csv.Error
+        If it is no line of CSV.
+
+    Examples
+    --------
+    >>> split_line("7, 5/2,30deg", ","), split_line("7,5; 1.000,5; 30,5deg", ";")
+    (['7', '5/2', '30deg'], ['7.5', '1.000,5', '30.5deg'])
+    """
+    return [_field(cell, mark) for cells in csv.reader([line], delimiter=mark) for cell in cells]
+
+
+def _field(cell: str, mark: str) -> str:
+    text = cell.strip()
+    decimal = _DECIMAL_COMMA.fullmatch(text) if mark == ";" else None
+    return text if decimal is None else f"{decimal[1]}.{decimal[2]}"
 
 
 def numbered_rows(text: str) -> Iterator[tuple[int, list[str]]]:
@@ -38,10 +77,13 @@ def numbered_rows(text: str) -> Iterator[tuple[int, list[str]]]:
     >>> list(numbered_rows("# a path\\nl1, l2\\n\\n7,5\\n"))
     [(2, ['l1', 'l2']), (4, ['7', '5'])]
     """
-    reader = csv.reader(text.splitlines())
+    lines = text.splitlines()
+    first = next((line for line in lines if line.strip() and not line.lstrip().startswith("#")), "")
+    mark = delimiter_of(first)
+    reader = csv.reader(lines, delimiter=mark)
     try:
         for cells in reader:
-            fields = [cell.strip() for cell in cells]
+            fields = [_field(cell, mark) for cell in cells]
             if any(fields) and not fields[0].startswith("#"):
                 yield reader.line_num, fields
     except csv.Error as error:

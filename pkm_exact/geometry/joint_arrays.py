@@ -14,7 +14,7 @@ from typing import Any, Final
 
 from pkm_exact.constraints.form import Vector
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.csv_fields import exact_number
+from pkm_exact.geometry.csv_fields import exact_number, is_header, numbered_rows
 from pkm_exact.geometry.kinds import Joints
 from pkm_exact.geometry.rational import NumberText, parse_rational
 from pkm_exact.wording import printable
@@ -91,14 +91,14 @@ def read_joints_csv(path: str, digits: int | None) -> tuple[Joints, Joints, tupl
         If the file cannot be read, or is not such a table; one sentence with file, line, column and remedy.
     """
     name = printable(path)
-    header, lines = _lines(path)
+    first, header, lines = _lines(path)
     axes = "xyz" if "base_z" in header or "platform_z" in header else "xy"
     names = [f"{side}_{axis}" for side in SIDES for axis in axes]
     wanted = (*names, "length") if "length" in header else tuple(names)
     if sorted(header) != sorted(wanted):
-        raise InputError(
-            f"{name}, line 1: the columns are {', '.join(header)[:200]}; give {', '.join(names)} and, if known, length"
-        )
+        said = f"the columns are {', '.join(header)[:200]}" if is_header(header) else "has no names of columns"
+        axes = "" if "z" in axes else ", with base_z and platform_z unless it is planar,"
+        raise InputError(f"{name}, line {first}: {said}; name them {', '.join(names)}{axes} and, if known, length")
     places = [header.index(column) for column in wanted]
     table = []
     for number, fields in lines:
@@ -117,7 +117,8 @@ def read_joints_csv(path: str, digits: int | None) -> tuple[Joints, Joints, tupl
     return base, platform, lengths
 
 
-def _lines(path: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
+def _lines(path: str) -> tuple[int, list[str], list[tuple[int, list[str]]]]:
+    """The number of the first line, the names of the columns in it, and the other lines."""
     try:
         data = Path(path).read_bytes()[: MOST_BYTES + 1]
         text = data.decode("utf-8-sig")
@@ -126,14 +127,13 @@ def _lines(path: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
         raise InputError(f"{printable(path)}: cannot be read ({reason}); give the path of a CSV file") from None
     if len(data) > MOST_BYTES:
         raise InputError(f"{printable(path)}: has more than {MOST_BYTES} bytes; a table of joints must be smaller")
-    rows = [
-        (number, [field.strip() for field in line.replace(";", ",").split(",")])
-        for number, line in enumerate(text.splitlines(), 1)
-        if line.strip()
-    ]
+    try:
+        rows = list(numbered_rows(text))
+    except InputError as error:
+        raise InputError(f"{printable(path)}: {error}") from None
     if not rows:
         raise InputError(f"{printable(path)}: is empty; give a header and a row per leg")
-    return [field.lower() for field in rows[0][1]], rows[1:]
+    return rows[0][0], [field.lower() for field in rows[0][1]], rows[1:]
 
 
 def describe_rounding(digits: int | None) -> str:

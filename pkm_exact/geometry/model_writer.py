@@ -12,7 +12,7 @@ from pkm_exact.geometry.inverse import UNIT_METRIC
 from pkm_exact.geometry.limits import Cones, Limits, Pair
 from pkm_exact.geometry.nominal_pose import NominalPose
 from pkm_exact.geometry.ordinary_pose import model_position, model_quaternion, quaternion_of
-from pkm_exact.geometry.rational import finite_decimal
+from pkm_exact.geometry.rational import finite_decimal, rational_root
 from pkm_exact.geometry.robot import Configuration, Robot
 from pkm_exact.geometry.tolerances import Tolerances
 
@@ -116,7 +116,12 @@ def _configuration(robot: Robot, configuration: Configuration) -> Iterator[str]:
     yield "[[configurations]]"
     yield f"name = {json.dumps(configuration.name, ensure_ascii=False)}"
     if not robot.chains:
-        yield f"lengths_squared = {_list(configuration.lengths_squared)}"
+        lengths = [rational_root(square) for square in configuration.lengths_squared]
+        known = [length for length in lengths if length is not None]
+        if len(known) == len(lengths):
+            yield f"lengths = {_list(known)}"
+        else:
+            yield f"lengths_squared = {_list(configuration.lengths_squared)}"
     elif isinstance(robot.chains[0], Slide):
         yield f"slides = {_list([v for v in configuration.joint_values if isinstance(v, Fraction)])}"
     else:

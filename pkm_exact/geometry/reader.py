@@ -51,6 +51,8 @@ MAX_BYTES: Final = 1 << 16
 _MAX_RUN: Final = 640  # digits in a row; below every limit that Python can be set to
 _MAX_DOTS: Final = 200  # dots in a line; the parser's time grows steeply with the parts of a dotted key
 _MAX_TEXT: Final = 2000
+_TABLE: Final = re.compile(r"[^=\[\]{}#\"']*[,;\t][^=\[\]{}#\"']*")
+_LONGEST_FIRST: Final = 1000
 _YAML: Final = re.compile(r"[A-Za-z_][\w-]*:(\s|$)", re.ASCII)
 _DECLARED: Final = (CONSTRAINTS_KIND, LINKS_KIND, CHAINS_KIND)
 _TOP: Final = (
@@ -373,6 +375,8 @@ def _text(data: bytes) -> str:
 
 def _parse(text: str) -> dict[str, Any]:
     """The TOML tables of a text whose size, digits and nesting are bounded first."""
+    if known := _what_it_is(text):
+        raise InputError(known)
     for number, line in enumerate(text.split("\n"), 1):
         if run := re.search(rf"[0-9_]{{{_MAX_RUN},}}", line):
             key = re.match(r"\s*([A-Za-z0-9_-]{1,40})\s*=", line)
@@ -388,8 +392,7 @@ def _parse(text: str) -> dict[str, Any]:
     except RecursionError:
         raise InputError("brackets are nested too deeply; a model file needs at most three levels") from None
     except ValueError as error:
-        known = _what_it_is(text)
-        raise InputError(known or f"not valid TOML: {printable(str(error))[:200]}; correct the file") from None
+        raise InputError(f"not valid TOML: {printable(str(error))[:200]}; correct the file") from None
 
 
 def parsed_toml(text: str) -> dict[str, Any]:
@@ -398,7 +401,7 @@ def parsed_toml(text: str) -> dict[str, Any]:
 
 
 def _what_it_is(text: str) -> str | None:
-    """What a file that is no TOML looks like, and what to do with it.
+    """What a file that is no TOML looks like by its first line, and what to do with it; None if it may be TOML.
 
     >>> _what_it_is("name: robot")
     'is YAML, it seems; a model file is TOML, with name = ".." in place of name: ..; `new` makes a first one'
@@ -408,4 +411,8 @@ def _what_it_is(text: str) -> str | None:
         return "is JSON, as certificates are; use check, plot or report for it, and give the path of a model file here"
     if first == "---" or _YAML.match(first):
         return 'is YAML, it seems; a model file is TOML, with name = ".." in place of name: ..; `new` makes a first one'
+    if first.startswith("<"):
+        return "is XML, it seems; `new --urdf` makes a model of a URDF file"
+    if _TABLE.fullmatch(first[:_LONGEST_FIRST]):
+        return "is a table of numbers, it seems; `new --csv` makes a model of a table of joints"
     return None

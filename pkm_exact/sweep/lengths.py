@@ -18,7 +18,14 @@ from pathlib import Path
 from typing import Final
 
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.csv_fields import exact_number, header_names, is_header, require_length
+from pkm_exact.geometry.csv_fields import (
+    delimiter_of,
+    exact_number,
+    header_names,
+    is_header,
+    require_length,
+    split_line,
+)
 from pkm_exact.geometry.given_joints import joint_configuration, joint_word
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.mechanism import Mechanism
@@ -198,9 +205,11 @@ def problem_of(robot: Machine, row: LengthRow, names: tuple[str, ...], *, square
 
 def _rows(stream: BufferedReader, names: tuple[str, ...]) -> Iterator[LengthRow]:
     """The rows of a file from its beginning."""
-    number, is_first = 0, True
+    number, is_first, mark = 0, True, ","
     for line, text in enumerate(_lines(stream), 1):
-        row = _row(number + 1, line, text)
+        if is_first and text is not None:
+            mark = delimiter_of(text.decode("utf-8", "replace"))
+        row = _row(number + 1, line, text, mark)
         if row is None:
             continue
         if is_first and is_header(row.fields):
@@ -221,7 +230,7 @@ def _lines(stream: BufferedReader) -> Iterator[bytes | None]:
         yield line if whole is line else _COMMENT if line.lstrip().startswith(_COMMENT) else None
 
 
-def _row(number: int, line: int, data: bytes | None) -> LengthRow | None:
+def _row(number: int, line: int, data: bytes | None, mark: str) -> LengthRow | None:
     """The row in a line, or None if the line has none."""
     if data is None:
         return LengthRow(number, line, (), f"has more than {MAX_LINE} bytes; give one length per leg")
@@ -229,7 +238,7 @@ def _row(number: int, line: int, data: bytes | None) -> LengthRow | None:
         return None
     try:
         text = data.decode("utf-8")
-        fields = tuple(field.strip() for cells in csv.reader([text.rstrip("\r\n")]) for field in cells)
+        fields = tuple(split_line(text.rstrip("\r\n"), mark))
     except UnicodeDecodeError:
         return LengthRow(number, line, (), "is not UTF-8 text; save the file as UTF-8")
     except csv.Error as error:
