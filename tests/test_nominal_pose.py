@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -12,8 +13,10 @@ from samples import model, solved
 
 from pkm_exact.cli.main import main
 from pkm_exact.errors import InputError
-from pkm_exact.geometry.nominal_pose import NominalPose
+from pkm_exact.geometry.nominal_pose import NominalPose, nominal_from_numbers
 from pkm_exact.geometry.reader import robot_from_toml
+from pkm_exact.motions.motion_groups import SPATIAL
+from pkm_exact.poses.meant_lengths import farthest_note, meant_notes
 from pkm_exact.poses.nearest_pose import nearest_pose
 from pkm_exact.poses.unreachable_legs import unreachable_notes
 
@@ -157,15 +160,58 @@ def test_nothing_is_said_where_a_pose_exists(lengths: list[int]) -> None:
 
 
 def test_two_lengths_that_were_exchanged_are_named() -> None:
+    """By the lengths alone: legs 1 and 2 in each other's place close all quadrilaterals."""
     robot = model("3-rpr-merlet-p")
-    notes = unreachable_notes(robot.problem_at([Fraction(1), Fraction(12), Fraction(7, 2)]), "mm")
-    if notes:
-        assert notes[0].startswith("no pose: ")
-    assert unreachable_notes(robot.problem_at([Fraction(50), Fraction(5), Fraction(7)]), "1")[0].endswith(
-        "leg 1 is 50 long, but with the others as they are it could be at most 19 long"
+    assert unreachable_notes(robot.problem_at([Fraction(n) for n in (5, 1, 15)]), "mm") == ()
+    assert unreachable_notes(robot.problem_at([Fraction(n) for n in (1, 5, 15)]), "m") == (
+        "no pose: leg 1 is 1 m long, but with the others as they are it could be no shorter than 1.731 m",
+        "with the lengths of legs 1 and 2 exchanged they would not contradict each other",
     )
-    wrong = unreachable_notes(robot.problem_at([Fraction(50), Fraction(5), Fraction(7)]), "mm")
-    assert wrong[0].startswith("no pose: leg 1 is 50 mm long")
+    with_unit, without = (
+        unreachable_notes(robot.problem_at([Fraction(50), Fraction(5), Fraction(7)]), unit) for unit in ("mm", "1")
+    )
+    assert without[0].endswith("leg 1 is 50 long, but with the others as they are it could be at most 19 long")
+    assert with_unit[0].startswith("no pose: leg 1 is 50 mm long")
+
+
+MEANT = "\n[nominal]\nposition = [5, 5]\ndegrees = 0\n"
+
+
+@pytest.mark.parametrize(
+    ("lengths", "words"),
+    [
+        ("7.08,5.1,5.03", None),
+        ("0.00708,0.0051,0.00503", "multiplied by 1000, as if they were in metres, they are off by"),
+        ("7.08,5.1,0.00503", "with that of leg 3 multiplied by 1000, as if it was in metres, they are off by"),
+        ("0.278,0.2,0.198", "multiplied by 25.4, as if they were in inches, they are off by"),
+        ("7.08,0.2,5.03", "with that of leg 2 multiplied by 25.4, as if it was in inches, they are off by"),
+    ],
+)
+def test_what_was_meant_is_guessed_at_the_nominal_pose(
+    lengths: str, words: str | None, tmp_path: Path, capsys: Capture
+) -> None:
+    path = tmp_path / "meant.toml"
+    path.write_text(Path(PLANAR).read_text().replace('unit = "1"', 'unit = "mm"') + MEANT)
+    notes = _json(["solve", str(path), "--lengths", lengths], capsys)["notes"]
+    guesses = [note for note in notes if note.startswith("at the nominal pose these lengths are off by")]
+    assert len(guesses) == (words is not None)
+    assert words is None or words in guesses[0]
+
+
+def test_exchanged_joints_are_recognised_though_there_are_poses() -> None:
+    """A hexapod whose rows 1 and 4 of the platform are in each other's place has poses, none of which is meant."""
+    robot = replace(
+        model("rolland-6-6"), nominal=nominal_from_numbers([Fraction(n) for n in (0, 0, 770, 0, 0, 0)], "", SPATIAL)
+    )
+    rows = list(robot.platform_joints)
+    rows[0], rows[3] = rows[3], rows[0]
+    problem = replace(robot, platform_joints=tuple(rows)).problem(robot.configuration())
+    assert robot.nominal is not None
+    (note,) = meant_notes(problem, robot.nominal, "mm")
+    assert "with the platform joints of legs 1 and 4 exchanged they are off by" in note
+    assert meant_notes(robot.problem(robot.configuration()), robot.nominal, "mm") == ()
+    far = robot.problem_at([Fraction(10) ** 399] * 6, squared=True)
+    assert meant_notes(far, robot.nominal, "mm") == farthest_note(far, robot.nominal, "mm") == ()
 
 
 def test_a_path_begins_at_the_nominal_pose(tmp_path: Path, capsys: Capture) -> None:

@@ -29,14 +29,27 @@ def answer_notes(robot: Machine | None, configuration: str | None, solution: Sol
         *stand_in_notes(robot, configuration),
         *digit_notes(solution.problem, solution.poses, digit),
         *nominal_notes(robot, solution.poses),
-        *(() if solution.poses or robot is None else _why_none(solution.problem, robot)),
+        *(() if robot is None else _what_is_meant(solution, robot)),
     )
 
 
-def _why_none(problem: ForwardProblem, robot: Machine) -> tuple[str, ...]:
+def _what_is_meant(solution: Solution, robot: Machine) -> tuple[str, ...]:
+    """Why there is no pose, and what was perhaps meant in place of lengths that are far from the nominal pose."""
+    problem, are_given = solution.problem, all(robot.are_lengths)
+    why = () if solution.poses else _why_none(problem, robot, are_given=are_given)
+    if robot.nominal is None or not are_given:
+        return why
+    from pkm_exact.poses.meant_lengths import farthest_note, meant_notes
+
+    meant = meant_notes(problem, robot.nominal, robot.unit)
+    farthest = () if solution.poses or why or meant else farthest_note(problem, robot.nominal, robot.unit)
+    return (*(why[:1] if meant else why), *meant, *farthest)
+
+
+def _why_none(problem: ForwardProblem, robot: Machine, *, are_given: bool) -> tuple[str, ...]:
     from pkm_exact.poses.unreachable_legs import unreachable_notes
 
-    return unreachable_notes(problem, robot.unit, are_given=all(robot.are_lengths))
+    return unreachable_notes(problem, robot.unit, are_given=are_given)
 
 
 def nominal_notes(robot: Machine | None, poses: Sequence[Pose]) -> tuple[str, ...]:

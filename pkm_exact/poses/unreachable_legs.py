@@ -13,21 +13,13 @@ from itertools import combinations
 from math import isqrt
 from typing import TYPE_CHECKING, Final
 
-from pkm_exact.wording import NO_UNIT, with_unit
+from pkm_exact.geometry.length_units import METRES
+from pkm_exact.poses.other_units import factors_of, times
+from pkm_exact.wording import with_unit
 
 if TYPE_CHECKING:
     from pkm_exact.constraints.form import Vector
     from pkm_exact.geometry.problem import ForwardProblem
-
-FACTORS: Final = {
-    Fraction(1000): "1000 times",
-    Fraction(1, 1000): "a thousandth of",
-    Fraction(10): "10 times",
-    Fraction(1, 10): "a tenth of",
-    Fraction(127, 5): "25.4 times",
-    Fraction(5, 127): "1/25.4 of",
-}
-"""What lengths are off by if their unit is another one: metres, millimetres, centimetres, inches."""
 
 _BITS: Final = 80
 
@@ -63,11 +55,14 @@ def unreachable_notes(problem: ForwardProblem, unit: str, *, are_given: bool = T
     if not are_given:
         return (_worst(lengths, sides, unit, "rod"),)
     notes = [_worst(lengths, sides, unit)]
-    for factor, words in FACTORS.items():
-        if _fits([(low * factor, high * factor) for low, high in lengths], sides):
-            asked = "" if unit == NO_UNIT else f": is the unit {unit}, as in the model?"
-            notes.append(f"lengths {words} these would not contradict each other{asked}")
-            return tuple(notes)
+    fitting = [
+        pair for pair in factors_of(unit) if _fits([(low * pair[0], high * pair[0]) for low, high in lengths], sides)
+    ]
+    if fitting:
+        names = " or ".join(name for _, name in fitting)
+        asked = f": are they in {names}, and not in {unit}, as in the model?" if unit in METRES else ""
+        named = " or ".join(times(factor) for factor, _ in fitting)
+        return (*notes, f"lengths {named} times these would not contradict each other{asked}")
     exchanged = [pair for pair in combinations(range(len(lengths)), 2) if _fits(_exchanged(lengths, pair), sides)]
     if exchanged:
         named = ", or ".join(f"{i + 1} and {j + 1}" for i, j in exchanged[:3])
