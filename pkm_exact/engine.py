@@ -27,7 +27,7 @@ from pkm_exact.formulations.registry import formulation_codes, formulation_for
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.notes import inconsistent_note, isolated_note, motion_note, open_question, singular_notes, turn_notes
 from pkm_exact.policy import Policy
-from pkm_exact.poses.boxes import DEFAULT_WIDTH, exponent_for_width, in_order, pose_boxes, root_enclosures
+from pkm_exact.poses.boxes import DEFAULT_WIDTH, RootEnclosures, exponent_for_width, in_order, pose_boxes
 from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.modular_start import Start
 from pkm_exact.poses.pose import Pose
@@ -146,9 +146,10 @@ class _Run:
     ) -> Solution:
         """All poses in boxes, and what is proved about their list."""
         self.stages.enter("real roots and boxes")
-        exponent, poses = pose_boxes(representation, self.problem.metric, width)
+        enclosures = RootEnclosures(representation, self.problem.metric)
+        exponent, poses = pose_boxes(enclosures, width)
         self.stages.enter("Jacobians")
-        poses, singular = self._with_jacobians(poses, representation, proof)
+        poses, singular = self._with_jacobians(poses, enclosures, proof)
         count = proof.total if proof else start.count or 0
         question = () if proof else (open_question(count, representation.univariate.degree),)
         self.stages.leave()
@@ -221,9 +222,10 @@ class _Run:
         return None
 
     def _with_jacobians(
-        self, poses: tuple[Pose, ...], representation: PoseRepresentation, proof: CompletenessProof | None
+        self, poses: tuple[Pose, ...], enclosures: RootEnclosures, proof: CompletenessProof | None
     ) -> tuple[tuple[Pose, ...], tuple[str, ...]]:
         """The poses with the multiplicities that are proved and what is certified of their Jacobians, and notes."""
+        representation = enclosures.representation
         h = representation.univariate.primitive_polynomial
         found: Sequence[tuple[fmpz_poly, int | None]] = ((h, 1),)
         if proof is not None:
@@ -238,7 +240,6 @@ class _Run:
         ]
         parameters = [pose.parameter for pose in poses if pose.parameter is not None]
         places = [next(k for k, (f, _) in enumerate(found) if has_root(f, parameter)) for parameter in parameters]
-        enclosures = root_enclosures(representation, self.problem.metric)
         ranks = [None if kind is None else kind.rank for kind in (singular[place] for place in places)]
         jacobians = pose_jacobians(enclosures, self.problem, ranks)
         known = {

@@ -9,7 +9,7 @@ from flint import arb, ctx, fmpz_poly
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from pkm_exact.roots.isolation import RealRoot, isolate_real_roots, real_root_enclosures
+from pkm_exact.roots.isolation import RealRoot, isolate_real_roots, real_root_enclosures, refined_enclosures
 
 # Polynomials without a real root.
 COMPLEX_FACTORS = [fmpz_poly([1]), fmpz_poly([1, 0, 1]), fmpz_poly([3, 1, 1]) * fmpz_poly([7, 0, 0, 0, 2])]
@@ -90,3 +90,18 @@ def test_balls_are_as_small_as_asked() -> None:
         for ball in balls:
             assert (ball * ball - 2).contains(arb(0))
             assert ball.rad() < arb(2) ** -400
+
+
+def test_enclosures_are_refined_where_newtons_operator_leads_to_the_root() -> None:
+    h = fmpz_poly([-2, 0, 1]) * fmpz_poly([0, 1]) * fmpz_poly([-1, 3])
+    rough = real_root_enclosures(h, 40)
+    fine = refined_enclosures(h, rough, 1000)
+
+    assert fine is not None
+    for ball, before in zip(fine, rough, strict=True):
+        assert before.overlaps(ball)
+        assert ball.is_exact() or ball.rel_accuracy_bits() > 990
+        low, high = (end.fmpq() for end in (ball.lower(), ball.upper()))
+        assert h(low) * h(high) <= 0
+    wide = [arb(0, 4)]  # the derivative has a zero in it
+    assert refined_enclosures(h, wide, 100) is None

@@ -7,8 +7,9 @@ The cell depends on the value alone, not on a precision or a library version: wi
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
+from functools import cached_property
 from math import ceil, floor
 from typing import TypeAlias
 
@@ -19,7 +20,7 @@ from pkm_exact.geometry.study import evaluate, motion_quadrics
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.precision import working_precision
-from pkm_exact.roots.isolation import isolate_real_roots, real_root_enclosures
+from pkm_exact.roots.isolation import RealRoot, isolated_and_enclosed, real_root_enclosures, refined_enclosures
 from pkm_exact.wording import shown
 
 DEFAULT_WIDTH = Fraction(1, 10**9)
@@ -32,6 +33,9 @@ NEAR_LIMIT = 1 << GUARD_BITS - NEAR_EXPONENT
 """2^-32 of a cell, in units of 2^-48."""
 DOUBLINGS = 4
 """Doublings of the precision before a value that still straddles the nearness limit counts as near."""
+
+LEAST_BITS = 192
+"""Coordinates are enclosed to as many at least: boxes and Jacobians mostly ask for no more."""
 
 Enclosures: TypeAlias = Callable[[int, Sequence[int]], Iterable[Sequence[arb]]]
 """Given a precision and indices of poses, their ordinary coordinates: position (3), rotation (9), quaternion (4)."""
@@ -55,44 +59,77 @@ def exponent_for_width(width: Fraction) -> int:
     return (ceil(2 / Fraction(width)) - 1).bit_length()
 
 
-def pose_boxes(
-    representation: PoseRepresentation, metric: Sequence[int], width: Fraction
-) -> tuple[int, tuple[Pose, ...]]:
-    """The grid exponent and the boxes of all real poses, pairwise disjoint, increasing in the parameter.
+@dataclass
+class RootEnclosures:
+    """Enclosures of the real poses, in the order of the roots of h; what was found is kept.
 
-    Parameters
+    Attributes
     ----------
     representation : PoseRepresentation
         Verified.
     metric : sequence of 3 int
-        Gram diagonal; boxes are in ordinary coordinates.
+        Gram diagonal; coordinates are ordinary ones.
+    """
+
+    representation: PoseRepresentation
+    metric: Sequence[int]
+    _found: dict[int, tuple[int, list[arb]]] = field(default_factory=dict, init=False, repr=False)
+    _enclosed: list[arb] | None = field(default=None, init=False, repr=False)
+
+    @cached_property
+    def roots(self) -> tuple[RealRoot, ...]:
+        """The real roots of h, isolated."""
+        isolated = isolated_and_enclosed(self.representation.univariate.primitive_polynomial)
+        self._enclosed = [ball for _, ball in isolated]
+        return tuple(root for root, _ in isolated)
+
+    def __call__(self, precision: int, indices: Sequence[int]) -> Iterator[list[arb]]:
+        """Position (3), rotation (9) and quaternion (4) of some poses, with about so many bits."""
+        bits = max(precision, LEAST_BITS)
+        wanted = [index for index in indices if self._found.get(index, (0,))[0] < bits]
+        if wanted:
+            roots = self._refined(bits)
+            if not set(wanted) <= set(range(len(roots))):
+                raise InternalContradictionError("the number of real roots changed with the precision")
+            with working_precision(bits):
+                univariate = self.representation.univariate
+                polynomials = [
+                    arb_poly(value) for value in (self.representation.denominator, *univariate.numerator_polynomials)
+                ]
+                for index in wanted:
+                    coordinates = study_coordinates(polynomials, roots[index])
+                    self._found[index] = bits, ordinary_coordinates(coordinates, self.metric)
+        for index in indices:
+            yield self._found[index][1]
+
+    def _refined(self, bits: int) -> list[arb]:
+        """The roots with about so many bits."""
+        h = self.representation.univariate.primitive_polynomial
+        refined = None if self._enclosed is None else refined_enclosures(h, self._enclosed, bits)
+        self._enclosed = real_root_enclosures(h, bits) if refined is None else refined
+        return self._enclosed
+
+
+def pose_boxes(enclosures: RootEnclosures, width: Fraction) -> tuple[int, tuple[Pose, ...]]:
+    """The grid exponent and the boxes of all real poses, pairwise disjoint, increasing in the parameter.
+
+    Parameters
+    ----------
+    enclosures : RootEnclosures
     width : Fraction
         Largest width of a box in any coordinate.
     """
-    roots = isolate_real_roots(representation.univariate.primitive_polynomial)
-    exponent, cells = disjoint_cells(root_enclosures(representation, metric), len(roots), width)
+    roots = enclosures.roots
+    exponent, cells = disjoint_cells(enclosures, len(roots), width)
     return exponent, tuple(
         pose_in_cells(row, Interval(root.lo, root.hi)) for root, row in zip(roots, cells, strict=True)
     )
 
 
-def root_enclosures(representation: PoseRepresentation, metric: Sequence[int]) -> Enclosures:
-    """Enclosures of the real poses, in the order of the roots of h."""
-    return partial(_at_roots, representation, metric)
-
-
-def _at_roots(
-    representation: PoseRepresentation, metric: Sequence[int], precision: int, indices: Sequence[int]
-) -> Iterator[list[arb]]:
-    roots = real_root_enclosures(representation.univariate.primitive_polynomial, precision)
-    if not set(indices) <= set(range(len(roots))):
-        raise InternalContradictionError("the number of real roots changed with the precision")
-    with working_precision(precision):
-        polynomials = _polynomials(representation)
-    for index in indices:
-        with working_precision(precision):
-            coordinates = ordinary_coordinates(study_coordinates(polynomials, roots[index]), metric)
-        yield coordinates
+def study_coordinates(polynomials: Sequence[arb_poly], root: arb) -> list[arb]:
+    """(e, f) at an enclosed root of h, from h' and the numerators."""
+    slope, *values = [polynomial(root) for polynomial in polynomials]
+    return [value / slope for value in values]
 
 
 def disjoint_cells(
@@ -133,17 +170,6 @@ def _cells(enclosures: Enclosures, exponent: int, decided: list[list[Interval | 
         late += fine
         precision *= 2
     return [[entry for entry in row if entry is not None] for row in decided]
-
-
-def _polynomials(representation: PoseRepresentation) -> list[arb_poly]:
-    """h' and the numerators of (e, f), in the working precision."""
-    return [arb_poly(value) for value in (representation.denominator, *representation.univariate.numerator_polynomials)]
-
-
-def study_coordinates(polynomials: Sequence[arb_poly], root: arb) -> list[arb]:
-    """(e, f) at an enclosed root of h, from h' and the numerators."""
-    slope, *values = [polynomial(root) for polynomial in polynomials]
-    return [value / slope for value in values]
 
 
 def ordinary_coordinates(x: Sequence[arb], metric: Sequence[int]) -> list[arb]:

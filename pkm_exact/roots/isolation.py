@@ -7,12 +7,13 @@ the intervals depend on the polynomial alone, not on a precision.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from typing import cast
 
-from flint import acb, arb, fmpq, fmpz, fmpz_poly
+from flint import acb, arb, arb_poly, fmpq, fmpz, fmpz_poly
 
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.failures.contradiction import require
@@ -53,6 +54,32 @@ def real_root_enclosures(polynomial: fmpz_poly, precision: int) -> list[arb]:
     degree = int(polynomial.degree())
     require(len(roots) + 2 * above == degree, "roots are missing", real=len(roots), above=above, degree=degree)
     return sorted(roots, key=lambda ball: _midpoint(ball))
+
+
+def refined_enclosures(polynomial: fmpz_poly, enclosures: Sequence[arb], precision: int) -> list[arb] | None:
+    """Balls around the same simple roots with about ``precision`` accurate bits, by Newton's operator, or None.
+
+    If a ball X with middle m has a root and the derivative no zero in it, the root lies in m - f(m) / f'(X).
+
+    Examples
+    --------
+    >>> rough = real_root_enclosures(fmpz_poly([-2, 0, 1]), 30)
+    >>> [ball.rel_accuracy_bits() > 190 for ball in refined_enclosures(fmpz_poly([-2, 0, 1]), rough, 200)]
+    [True, True]
+    """
+    with working_precision(precision + 16):
+        value, slope = arb_poly(polynomial), arb_poly(polynomial.derivative())
+        found = []
+        for given in enclosures:
+            ball = given
+            while ball.rad() and ball.rel_accuracy_bits() < precision:
+                middle = ball.mid()
+                smaller = middle - value(middle) / slope(ball)
+                if not 2 * smaller.rad() < ball.rad():
+                    return None
+                ball = smaller
+            found.append(ball)
+    return found
 
 
 def isolate_real_roots(polynomial: fmpz_poly) -> tuple[RealRoot, ...]:
