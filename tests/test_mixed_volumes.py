@@ -70,14 +70,31 @@ def test_the_cells_have_the_mixed_volume(text: str, volume: int) -> None:
 CURVE_AT_INFINITY = ["x = 2 + 3*x*y*z^2", "y = 5 - x^2*z*y", "z = 1 + 7*x*y*z"]
 
 
-def test_cells_are_counted_where_an_elimination_is_costly(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert solve_system(CURVE_AT_INFINITY).completeness_route == "exact-elimination"
-    monkeypatch.setattr("pkm_exact.systems.no_more_solutions._COSTLY", 0)
+def test_cells_are_counted_before_anything_is_eliminated(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("pkm_exact.systems.no_more_solutions.exact_basis", None)
     found = solve_system(CURVE_AT_INFINITY)
     assert found.completeness_route == "mixed-volume"
     assert both(found.certificate().data).status == "accepted"
 
 
-def test_an_elimination_goes_on_where_cells_are_too_many(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("pkm_exact.systems.no_more_solutions._COSTLY", 0)
+@pytest.mark.parametrize("work", [0, 10**4, 10**5])
+def test_an_elimination_goes_on_where_cells_take_too_much_work(monkeypatch: pytest.MonkeyPatch, work: int) -> None:
+    monkeypatch.setattr("pkm_exact.systems.mixed_volume.MOST_WORK", work)
+    assert solve_system(CURVE_AT_INFINITY).completeness_route == "exact-elimination"
+
+
+def test_an_elimination_goes_on_where_cells_are_too_many() -> None:
     assert solve_system(["x*y + x = 2", "x^2*y + x^2 = 2"]).completeness_route == "exact-elimination"
+
+
+def test_no_obstruction_tells_less_than_another() -> None:
+    found = subdivision_for(parse_system(_cyclic(5)), 70, Policy())
+    assert found is not None
+    low = [{place for place, weight in entry if weight < 0} for entry in found.obstructions]
+    assert len(low) > 50
+    assert not any(one is not other and one <= other for one in low for other in low)
+
+
+def test_terms_in_a_plane_have_no_volume() -> None:
+    assert subdivision_for(parse_system("x,y,z\n0\nx-y-1,x^2-y^2-3,x*y+x-z\n"), 1, Policy()) is None
+    assert subdivision_for(parse_system("x,y\n0\nx*y-1,x^2*y^2+x*y-2\n"), 1, Policy()) is None

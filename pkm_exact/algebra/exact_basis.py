@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf
 
 from pkm_exact.algebra.elimination_trace import Trace
 from pkm_exact.algebra.exact_reduction import ExactPolynomial, echelon_form, exact_new_rows
@@ -18,7 +17,6 @@ from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.monomials import MonomialRing, divides, exponent_fields
 from pkm_exact.algebra.reduction import Row
 from pkm_exact.algebra.system import PolynomialSystem
-from pkm_exact.errors import PkmExactError
 from pkm_exact.stages import Amount, Watch
 
 
@@ -46,19 +44,13 @@ class ExactBasis:
         return tuple(element[0][0] for element in self.elements)
 
 
-class CostlyMatrixError(PkmExactError):
-    """A matrix of an elimination is larger than was asked for."""
-
-
-def exact_basis(system: PolynomialSystem, trace: Trace, watch: Watch | None = None, most: float = inf) -> ExactBasis:
+def exact_basis(system: PolynomialSystem, trace: Trace, watch: Watch | None = None) -> ExactBasis:
     """The elimination of ``trace`` over Q; ``watch`` gets how many matrices are done before each.
 
     Raises
     ------
     UnluckyPrimeError
         If the elimination takes another course over Q than modulo the prime where the trace was learned.
-    CostlyMatrixError
-        If the square of the rows of a matrix, times the bits of its largest entry, is above ``most``.
     """
     ring = system.monomials
     generators = [
@@ -73,8 +65,6 @@ def exact_basis(system: PolynomialSystem, trace: Trace, watch: Watch | None = No
         if watch is not None:
             watch(Amount(done, len(trace.steps), "exact matrices", detail=f"{len(step.rows)} rows"))
         rows = [multiple(elements[index], monomial) for index, monomial in step.rows]
-        if most < inf and len(rows) ** 2 * max(value.bit_length() for row in rows for _, value in row) > most:
-            raise CostlyMatrixError(f"a matrix of {len(rows)} rows")
         found = ((row, _fields(ring, row)) for row in exact_new_rows(rows, step.leading))
         new = [row for row, fields in found if not any(divides(lead, fields) for lead in known)]
         _require_leading(new, step.new)

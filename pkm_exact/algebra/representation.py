@@ -153,6 +153,7 @@ def satisfies(representation: UnivariateRepresentation, system: PolynomialSystem
 def homogeneous_evaluator(numerators: Sequence[fmpz_poly], denominator: fmpz_poly) -> Callable[[fmpz_mpoly], fmpz_poly]:
     """A function that gives denominator^deg(F) F(numerators / denominator); products are kept between calls."""
     values: dict[tuple[int, ...], fmpz_poly] = {(0,) * len(numerators): fmpz_poly([1])}
+    powers = [fmpz_poly([1])]
 
     def monomial(exponents: tuple[int, ...]) -> fmpz_poly:
         if exponents not in values:
@@ -167,9 +168,10 @@ def homogeneous_evaluator(numerators: Sequence[fmpz_poly], denominator: fmpz_pol
         for exponents, coefficient in polynomial.to_dict().items():
             key = tuple(map(int, exponents))
             by_degree[sum(key)] += coefficient * monomial(key)
-        total = fmpz_poly()
-        for part in by_degree:
-            total = total * denominator + part
-        return total
+        while len(powers) <= degree:
+            powers.append(powers[-1] * denominator)
+        return sum(
+            (part * power for part, power in zip(by_degree, reversed(powers[: degree + 1]), strict=True)), fmpz_poly()
+        )
 
     return evaluate

@@ -8,7 +8,7 @@ those of n polynomials (Fulton, Intersection Theory, 12.3; proofs in ``docs/cert
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import islice
+from itertools import chain, groupby, islice
 from math import prod
 from typing import Final, TypeAlias
 
@@ -35,17 +35,31 @@ def total_degrees(system: PolynomialSystem) -> list[int]:
     return [int(polynomial.total_degree()) for polynomial in system.polynomials]
 
 
-def multihomogeneous_number(system: PolynomialSystem, groups: Groups) -> int:
-    """The number for as many polynomials as variables.
+def groups_with(system: PolynomialSystem, number: int) -> Groups | None:
+    """Groups of variables with a given multihomogeneous number; None if those that were tried have others.
 
     Examples
     --------
     >>> from pkm_exact.algebra.system import polynomial_ring
     >>> x, y = polynomial_ring(("x", "y")).gens()
-    >>> multihomogeneous_number(PolynomialSystem(("x", "y"), (x * y - 1, x * y + x + y)), ((0,), (1,)))
-    2
+    >>> groups_with(PolynomialSystem(("x", "y"), (x * y - 1, x * y + x + y)), 2)
+    ((0,), (1,))
     """
-    return _Degrees(system).number(groups)
+    size = len(system.unknowns)
+    if len(system.polynomials) != size:
+        return None
+    degrees = _Degrees(system)
+    for _, alike in groupby(islice(partitions(size), 1, MOST_PARTITIONS), key=len):
+        several = list(alike)
+        ordered = [tuple(sorted(groups, key=len)) for groups in several]
+        same: dict[tuple[int, ...], list[int]] = {}
+        for place, groups in enumerate(ordered):
+            same.setdefault(tuple(map(len, groups)), []).append(place)
+        bounds = (zip(places, degrees.numbers([ordered[k] for k in places]), strict=True) for places in same.values())
+        reached = [place for place, bound in chain.from_iterable(bounds) if bound == number]
+        if reached:
+            return several[min(reached)]
+    return None
 
 
 class _Degrees:
@@ -53,46 +67,38 @@ class _Degrees:
 
     def __init__(self, system: PolynomialSystem) -> None:
         self.exponents = [[tuple(map(int, key)) for key in polynomial.to_dict()] for polynomial in system.polynomials]
-        self.known: dict[tuple[int, ...], list[int]] = {}
+        self.known: dict[tuple[int, ...], int] = {}
+        self.degrees: list[list[int]] = []
 
-    def of(self, group: tuple[int, ...]) -> list[int]:
-        """The degree of each polynomial in a group."""
+    def place(self, group: tuple[int, ...]) -> int:
+        """Where the degree of each polynomial in a group stands."""
         if group not in self.known:
-            self.known[group] = [max(sum(key[k] for k in group) for key in keys) for keys in self.exponents]
+            self.known[group] = len(self.degrees)
+            self.degrees.append([max(sum(key[k] for k in group) for key in keys) for keys in self.exponents])
         return self.known[group]
 
-    def number(self, groups: Groups) -> int:
-        """The multihomogeneous number."""
-        sizes = tuple(map(len, groups))
-        counts = {(0,) * len(groups): 1}
-        for degrees in zip(*map(self.of, groups), strict=True):
-            counts = _joined(counts, degrees, sizes)
-        return counts.get(sizes, 0)
+    def numbers(self, several: Sequence[Groups]) -> list[float]:
+        """The multihomogeneous numbers for some partitions into groups of the same sizes.
 
+        They are coefficients of products of linear forms; arrays have their coefficients by exponents. All are sums of
+        integers that are not negative: a number below 2^53 is exact, and others are above it.
+        """
+        import numpy as np
 
-def _joined(
-    counts: dict[tuple[int, ...], int], degrees: Sequence[int], sizes: Sequence[int]
-) -> dict[tuple[int, ...], int]:
-    """A product of linear forms, by exponents, times one more; powers above ``sizes`` are left out."""
-    following: dict[tuple[int, ...], int] = {}
-    for key, value in counts.items():
-        for place, degree in enumerate(degrees):
-            if degree and key[place] < sizes[place]:
-                larger = (*key[:place], key[place] + 1, *key[place + 1 :])
-                following[larger] = following.get(larger, 0) + value * degree
-    return following
-
-
-def groups_with(system: PolynomialSystem, number: int) -> Groups | None:
-    """Groups of variables with a given multihomogeneous number; None if those that were tried have others."""
-    size = len(system.unknowns)
-    if len(system.polynomials) != size:
-        return None
-    degrees = _Degrees(system)
-    for groups in islice(partitions(size), MOST_PARTITIONS):
-        if len(groups) > 1 and degrees.number(groups) == number:
-            return groups
-    return None
+        sizes = tuple(map(len, several[0]))
+        places = np.array([[self.place(group) for group in groups] for groups in several])
+        degrees = np.array(self.degrees, dtype=float)[places]
+        counts = np.zeros((len(several), *(size + 1 for size in sizes)))
+        counts.reshape(len(several), -1)[:, 0] = 1
+        for factor in np.moveaxis(degrees, 2, 0):
+            following = np.zeros_like(counts)
+            for place in range(len(sizes)):
+                shifted, kept = np.moveaxis(following, place + 1, -1), np.moveaxis(counts, place + 1, -1)
+                shape = (len(several), *[1] * len(sizes))
+                shifted[..., 1:] += factor[:, place].reshape(shape) * kept[..., :-1]
+            counts = following
+        at: tuple[int | slice, ...] = (slice(None), *sizes)
+        return [float(value) for value in counts[at]]
 
 
 def partitions(size: int) -> Iterator[Groups]:

@@ -8,9 +8,9 @@ why, is in ``docs/certificates-systems.md``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import accumulate
 from random import Random
 from typing import Final, TypeAlias
 
@@ -18,16 +18,21 @@ from flint import fmpz_mat
 
 from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.policy import Policy
-from pkm_exact.systems.obstructions import Edge, Obstruction, Point, obstruction
+from pkm_exact.systems.obstructions import Face, LiftedPoints, Obstruction, Point, TooMuchWorkError, Work
 from pkm_exact.systems.polynomial_terms import decreasing_terms
 
 MOST_VARIABLES: Final = 12
 """Beyond which the search is not begun."""
-MOST_SEARCHES: Final = 6000
-"""Obstructions that are looked for."""
+MOST_POINTS: Final = 1000
+"""The same: of all supports together."""
+MOST_WORK: Final = 3 * 10**8
+"""Entries of matrices, and other work in their measure: a second or two."""
+_LOOK: Final = 1000
+"""Work of looking at one or two points."""
 _LIFTED: Final = 1 << 16
 
 Supports: TypeAlias = list[list[Point]]
+_Pair: TypeAlias = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -63,65 +68,100 @@ def subdivision_for(system: PolynomialSystem, number: int, policy: Policy) -> Su
     if any(len(keys) < 2 for keys in terms):
         return None
     supports = [keys if not any(keys[-1]) else [*keys, (0,) * size] for keys in terms]
+    if sum(map(len, supports)) > MOST_POINTS:
+        return None
     random = Random(policy.seed_for(system.digest, "mixed volume"))
     lifting = [[random.randrange(_LIFTED) for _ in support] for support in supports]
     search = _Search(supports, lifting, number)
-    if search.volume() != number:
+    try:
+        if search.volume() != number:
+            return None
+        return Subdivision(tuple(map(tuple, lifting)), search.obstructions())
+    except TooMuchWorkError:
         return None
-    return Subdivision(tuple(map(tuple, lifting)), tuple(search.found))
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Where some points, by their numbers, are lowest together."""
+
+    face: Face
+    points: frozenset[int]
 
 
 class _Search:
-    """The choices of an edge in each support, fewest points first, but for those that are obstructed."""
+    """The choices of two points in each support, supports with few points first, but for those that are obstructed."""
 
-    def __init__(self, supports: Supports, lifting: list[list[int]], most: int) -> None:
-        self.supports, self.lifting, self.most = supports, lifting, most
+    def __init__(self, supports: Supports, lifting: Sequence[Sequence[int]], most: int) -> None:
+        self.supports, self.most = supports, most
         self.order = sorted(range(len(supports)), key=lambda i: len(supports[i]))
-        self.level = {i: level for level, i in enumerate(self.order)}
-        self.searches = 0
-        self.found: list[Obstruction] = []
-        self.known: dict[tuple[int, int], list[frozenset[tuple[int, int]]]] = {}
-        """Points that are not lowest together, by one of them in the last support in which there are some."""
+        places = [(i, k) for i in self.order for k in range(len(supports[i]))]
+        self.lifted = LiftedPoints(places, [supports[i][k] for i, k in places], [lifting[i][k] for i, k in places])
+        self.starts = list(accumulate((len(supports[i]) for i in self.order), initial=0))
+        self.work = Work(MOST_WORK)
+        self.known: dict[int, list[frozenset[int]]] = {}
+        """Points that are not lowest together, by the last of them."""
+        self.found: list[tuple[frozenset[int], Obstruction]] = []
 
-    def volume(self) -> int | None:
-        """The sum of the volumes; None if it is above the number wanted, or if that takes too long."""
-        total = 0
-        for edges in self._cells((), frozenset()):
-            total += abs(int(fmpz_mat([_direction(self.supports, edge) for edge in edges]).det()))
+    def volume(self) -> int:
+        """The sum of the volumes, as soon as it is above the number wanted.
+
+        Raises
+        ------
+        TooMuchWorkError
+            If that takes too long.
+        """
+        whole, total = self.lifted.vertex(), 0
+        if whole is None:
+            return 0
+        for pairs in self._cells((), _Part(whole, frozenset())):
+            total += abs(int(fmpz_mat([self._direction(first, second) for first, second in pairs]).det()))
             if total > self.most:
-                return None
-        return total if self.searches <= MOST_SEARCHES else None
+                break
+        return total
 
-    def _cells(self, edges: tuple[Edge, ...], points: frozenset[tuple[int, int]]) -> Iterator[tuple[Edge, ...]]:
-        level = len(edges)
+    def obstructions(self) -> tuple[Obstruction, ...]:
+        """Those found but for those that tell less than another, in the order in which they were."""
+        smallest: list[frozenset[int]] = []
+        for low, _ in sorted(self.found, key=lambda entry: len(entry[0])):
+            self.work.spend(_LOOK + len(smallest))
+            if not any(other <= low for other in smallest):
+                smallest.append(low)
+        kept = set(smallest)
+        return tuple(entry for low, entry in self.found if low in kept)
+
+    def _cells(self, pairs: tuple[_Pair, ...], part: _Part) -> Iterator[tuple[_Pair, ...]]:
+        level = len(pairs)
         if level == len(self.order):
-            yield edges
+            yield pairs
             return
-        i = self.order[level]
-        for first, second in combinations(range(len(self.supports[i])), 2):
-            ends = ((i, first), (i, second))
-            further = points.union(ends)
-            if any(some <= further for end in ends for some in self.known.get(end, ())):
-                continue
-            chosen = (*edges, (i, first, second))
-            self.searches += 1
-            if self.searches > MOST_SEARCHES:
-                return
-            reason = obstruction(self.supports, self.lifting, chosen)
-            if reason is None:
-                yield from self._cells(chosen, further)
-            elif self._last(reason) < level:
-                return
+        points = range(self.starts[level], self.starts[level + 1])
+        parts = [(point, found) for point in points if (found := self._with(part, point)) is not None]
+        for place, (first, with_first) in enumerate(parts):
+            for second, _ in parts[place + 1 :]:
+                both = self._with(with_first, second)
+                if both is not None:
+                    yield from self._cells((*pairs, (first, second)), both)
 
-    def _last(self, reason: Obstruction) -> int:
-        """Keep an obstruction; the level of the last support that it needs."""
-        lowest = frozenset(place for place, value in reason if value < 0)
-        last = max(lowest, key=lambda place: self.level[place[0]])
-        self.found.append(reason)
-        self.known.setdefault(last, []).append(lowest)
-        return self.level[last[0]]
+    def _with(self, part: _Part, point: int) -> _Part | None:
+        """The part where one more point is lowest; None if it is obstructed."""
+        points = part.points | {point}
+        known = self.known.get(point, ())
+        self.work.spend(_LOOK + 50 * len(known))
+        if any(low <= points for low in known):
+            return None
+        lowest = part.face.where_lowest(point, self.work)
+        if lowest.face is not None:
+            return _Part(lowest.face, points)
+        reason = self.lifted.obstruction(lowest.relation, point, sorted(part.points))
+        if reason is None:
+            return _Part(part.face, points)
+        weights = dict(reason)
+        low = frozenset(number for number in points if weights.get(self.lifted.places[number], 0) < 0)
+        self.known.setdefault(point, []).append(low)
+        self.found.append((low, reason))
+        return None
 
-
-def _direction(supports: Supports, edge: Edge) -> list[int]:
-    i, first, second = edge
-    return [b - a for a, b in zip(supports[i][first], supports[i][second], strict=True)]
+    def _direction(self, first: int, second: int) -> list[int]:
+        points = self.lifted.points
+        return [b - a for a, b in zip(points[first], points[second], strict=True)]

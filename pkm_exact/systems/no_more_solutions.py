@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Final
 
 from pkm_exact.algebra.elimination_trace import Trace
-from pkm_exact.algebra.exact_basis import CostlyMatrixError, ExactBasis, exact_basis
+from pkm_exact.algebra.exact_basis import ExactBasis, exact_basis
 from pkm_exact.algebra.exact_quotient import exact_quotient
 from pkm_exact.algebra.groebner import GroebnerBasis, OutOfReachError, UnluckyPrimeError
 from pkm_exact.algebra.modular_elimination import Elimination
@@ -35,8 +34,6 @@ from pkm_exact.systems.system_claims import SystemRoute
 from pkm_exact.systems.system_solution import ListProof, Steps
 from pkm_exact.systems.top_forms import elements_of, is_empty_in_space, number_of, room_for
 
-_COSTLY: Final = 10**8
-"""Mixed volumes are tried before a matrix over Q with more rows, squared, times bits."""
 MOST_WORK: Final = 10**10
 """Half of what checkers allow for any file (``docs/certificates.md``, "Work")."""
 
@@ -91,9 +88,23 @@ def listed(representation: UnivariateRepresentation, system: PolynomialSystem, p
 
 
 def prove_complete(
-    found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None = None
+    found: ListedSolutions,
+    system: PolynomialSystem,
+    policy: Policy,
+    watch: Watch | None = None,
+    known: Elimination | None = None,
 ) -> ListProof | None:
     """A proof that the list is complete, or None if none of the ways known here closes.
+
+    Parameters
+    ----------
+    found : ListedSolutions
+    system : PolynomialSystem
+    policy : Policy
+    watch : callable, optional
+        Gets how far an elimination has come.
+    known : Elimination, optional
+        One of the same system, the bases of which are used again.
 
     Raises
     ------
@@ -103,11 +114,14 @@ def prove_complete(
         If a proof was found that is too much work to check.
     """
     proof = prove_by_bounds(found, system, policy)
-    return proof or prove_by_search(found, system, policy, watch)
+    return proof or prove_by_search(found, system, policy, watch, known)
 
 
 def prove_by_bounds(found: ListedSolutions, system: PolynomialSystem, policy: Policy) -> ListProof | None:
-    """A proof by degrees, as a whole or in groups of variables, or by ranks where nothing is at infinity."""
+    """A proof for which the system need not be solved modulo a prime.
+
+    By degrees, as a whole or in groups of variables, by ranks where nothing is at infinity, or by the terms that occur.
+    """
     degree = found.representation.degree
     if found.is_regular and degree == product_of_degrees(total_degrees(system), len(system.unknowns)):
         return ListProof(SystemRoute.REFINED_BEZOUT, degree)
@@ -115,43 +129,29 @@ def prove_by_bounds(found: ListedSolutions, system: PolynomialSystem, policy: Po
     weights = found.filling(room)
     if room is not None and weights is not None:
         return ListProof(SystemRoute.MODULAR_RANK, room, weights)
-    groups = groups_with(system, degree) if found.is_regular else None
-    return ListProof(SystemRoute.MULTIHOMOGENEOUS_BEZOUT, degree, groups=groups) if groups is not None else None
+    if not found.is_regular:
+        return None
+    groups = groups_with(system, degree)
+    if groups is not None:
+        return ListProof(SystemRoute.MULTIHOMOGENEOUS_BEZOUT, degree, groups=groups)
+    subdivision = subdivision_for(system, degree, policy)
+    return None if subdivision is None else ListProof(SystemRoute.MIXED_VOLUME, degree, subdivision=subdivision)
 
 
 def prove_by_search(
-    found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None = None
+    found: ListedSolutions,
+    system: PolynomialSystem,
+    policy: Policy,
+    watch: Watch | None = None,
+    known: Elimination | None = None,
 ) -> ListProof | None:
-    """A proof for which something must be found first; errors as ``prove_complete``."""
+    """A proof for which something must be solved or eliminated first; parameters and errors as ``prove_complete``."""
     points, room = with_room_left(system, found.weight, policy) or (None, None)
     weights = found.filling(room)
     if room is not None and weights is not None:
         return ListProof(SystemRoute.COUNTING_AT_INFINITY, room, weights, infinity=points)
-    cells = _Cells(found, system, policy)
-    proofs = (_by_elimination(basis, found, cells, watch) for basis in _eliminations(system, policy))
-    try:
-        return next((proof for proof in proofs if proof is not None), None) or cells.proof
-    except BeyondCheckersError:
-        if cells.proof is None:
-            raise
-        return cells.proof
-
-
-@dataclass(frozen=True)
-class _Cells:
-    """The proof by mixed volumes, looked for once: where an elimination is costly or comes to nothing."""
-
-    found: ListedSolutions
-    system: PolynomialSystem
-    policy: Policy
-
-    @cached_property
-    def proof(self) -> ListProof | None:
-        number = self.found.representation.degree
-        subdivision = subdivision_for(self.system, number, self.policy) if self.found.is_regular else None
-        if subdivision is None:
-            return None
-        return ListProof(SystemRoute.MIXED_VOLUME, number, subdivision=subdivision)
+    proofs = (_by_elimination(basis, found, system, policy, watch) for basis in _eliminations(system, policy, known))
+    return next((proof for proof in proofs if proof is not None), None)
 
 
 def prove_inconsistent(system: PolynomialSystem, policy: Policy, watch: Watch | None = None) -> ListProof | None:
@@ -167,9 +167,13 @@ def prove_inconsistent(system: PolynomialSystem, policy: Policy, watch: Watch | 
     return None
 
 
-def _eliminations(system: PolynomialSystem, policy: Policy) -> Iterator[GroebnerBasis]:
+def _eliminations(
+    system: PolynomialSystem, policy: Policy, known: Elimination | None = None
+) -> Iterator[GroebnerBasis]:
     """Eliminations modulo primes at which the solutions are finitely many, each that differs from those before once."""
     elimination = Elimination(system, policy)
+    if known is not None:
+        elimination.knowing(known)
     traces: list[Trace | None] = []
     for _ in range(policy.attempts):
         image = elimination.image(record=True)
@@ -182,18 +186,11 @@ def _eliminations(system: PolynomialSystem, policy: Policy) -> Iterator[Groebner
 
 
 def _by_elimination(
-    modular: GroebnerBasis, found: ListedSolutions, cells: _Cells, watch: Watch | None
+    modular: GroebnerBasis, found: ListedSolutions, system: PolynomialSystem, policy: Policy, watch: Watch | None
 ) -> ListProof | None:
     """The proof by polynomials over Q that follow: where degrees fall, or else by the whole algebra."""
-    system, policy = cells.system, cells.policy
     try:
-        trace = with_falls_only(modular)
-        try:
-            basis = exact_basis(system, trace, watch, _COSTLY)
-        except CostlyMatrixError:
-            if cells.proof is not None:
-                return cells.proof
-            basis = exact_basis(system, trace, watch)
+        basis = exact_basis(system, with_falls_only(modular), watch)
         room = number_of(len(system.unknowns), elements_of(basis), policy.dimension_limit, policy, system.digest)
         enough = room is None or room >= found.weight
         require(enough, "there is room for fewer solutions than were verified", room=room or 0)

@@ -98,7 +98,7 @@ class _Run:
             if found.representation is None:
                 return self._without_list(found.dimension)
             try:
-                return self._listed(found.representation)
+                return self._listed(found.representation, search)
             except UnluckyPrimeError:
                 continue
         raise InternalContradictionError("there are more solutions than any prime shows")
@@ -121,10 +121,14 @@ class _Run:
         found = listed(representation, self.system, self.policy)
         self.stages.enter("completeness")
         proof = prove_by_bounds(found, self.system, self.policy)
-        if proof is None and self._has_more_modulo_a_prime(representation.degree):
+        if proof is not None:
+            return self._boxed(found, proof)
+        search = SolutionSearch(self.system, self.policy, self.stages)
+        if self._has_more_modulo_a_prime(search, representation.degree):
             return self._boxed(found, None, (MISSING_NOTE,))
+        self.stages.enter("completeness")
         try:
-            proof = proof or prove_by_search(found, self.system, self.policy, self.stages.amount)
+            proof = prove_by_search(found, self.system, self.policy, self.stages.amount, search.elimination)
             return self._boxed(found, proof)
         except UnluckyPrimeError:
             pass
@@ -132,9 +136,9 @@ class _Run:
             return self._boxed(found, None, (BEYOND_CHECKERS_NOTE,))
         return self._boxed(found, None, (MISSING_NOTE,))
 
-    def _has_more_modulo_a_prime(self, degree: int) -> bool:
+    def _has_more_modulo_a_prime(self, search: SolutionSearch, degree: int) -> bool:
         """Whether the system has more distinct solutions modulo a prime: reason enough not to look for a proof."""
-        image = SolutionSearch(self.system, self.policy, self.stages).image()
+        image = search.image()
         if image.algebra is None or not image.dimension:
             return True
         return most_values(image.algebra, self.policy.seed_for(self.system.digest, image.prime)) > degree
@@ -153,7 +157,7 @@ class _Run:
             return SystemSolution(self.system, Claim.INCONSISTENT, proof)
         return SystemSolution(self.system, Claim.NOT_PROVEN_COMPLETE, notes=(NO_SOLUTION_NOTE,))
 
-    def _listed(self, representation: UnivariateRepresentation) -> SystemSolution:
+    def _listed(self, representation: UnivariateRepresentation, search: SolutionSearch) -> SystemSolution:
         """All solutions in boxes, and what is proved about their list.
 
         Raises
@@ -164,7 +168,7 @@ class _Run:
         self.stages.enter("completeness")
         found = listed(representation, self.system, self.policy)
         try:
-            proof = prove_complete(found, self.system, self.policy, self.stages.amount)
+            proof = prove_complete(found, self.system, self.policy, self.stages.amount, search.elimination)
         except BeyondCheckersError:
             return self._boxed(found, None, (BEYOND_CHECKERS_NOTE,))
         return self._boxed(found, proof)
