@@ -8,10 +8,8 @@ holds no real solution, and the conjugate box holds another one. What is neither
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite, ldexp
-from typing import TypeAlias
+from math import isfinite
 
 import numpy as np
 from flint import acb, acb_mat, arb
@@ -20,18 +18,16 @@ from pkm_exact.balls import Balls, unit_matrix_for
 from pkm_exact.numeric.box_order import in_order, meeting
 from pkm_exact.numeric.certified_boxes import GUARD_BITS, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
-from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX, NEARLY_BITS, double_boxes
+from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX, double_boxes
+from pkm_exact.numeric.far_solutions import FarSolution, far_solutions
+from pkm_exact.numeric.grids import GRIDS, dyadic, first_grid, grid_exponents, nearest_box, size_exponent
 from pkm_exact.numeric.study_system import Complex
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
 from pkm_exact.precision import working_precision
 from pkm_exact.stages import Amount, Watch
 
-GRIDS = (28, 44, 72, 120, 200, 340, 600, 1000)
-"""Exponents of the grids of e, tried one after another."""
 FIRST_REFINED = 72
 """Of these grids, the one for which solutions are refined first."""
-WIDEST = 0.55
-"""Norm of Y F' - 1, relative to the radii, above which no box succeeds."""
 NEWTON_STEPS = 60
 """Steps after which an approximation that still moves is given up; Newton's method needs half a dozen."""
 SETTLED_BITS = 30
@@ -44,9 +40,6 @@ GREATEST_DAMPING = 1 << 10
 """Steps are not made shorter than by this factor."""
 SAME = 1e-10
 """Points this close to each other, relative to their size, are taken for the same."""
-
-Dyadic: TypeAlias = tuple[tuple[int, int], tuple[int, int]]
-"""Real and imaginary part, each an integer and the exponent of 2 that goes with it."""
 
 
 def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None = None) -> IsolatedSolutions:
@@ -63,10 +56,12 @@ def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None
     boxes, points = _in_doubles(system, _without_conjugates(points))
     found: dict[Box, acb_mat | Complex] = {box: point for box, point in zip(boxes, points, strict=True) if box}
     rest = _without_conjugates(points[[box is None for box in boxes]])
-    left = [_start(system, point) for point in rest]
+    left = _starts(system, rest)
     for exponent in GRIDS:
         now = [start for start in left if start.exponent <= exponent]
         left = [start for start in left if start.exponent > exponent]
+        found |= {start.box: start.point for start in now if start.box is not None}
+        now = [start for start in now if start.box is None]
         limits = [limit for start in now if (limit := _limit(system, start, exponent)) is not None]
         candidates = {nearest_box(system, limit.point, exponent): limit for limit in limits if limit.known >= exponent}
         good = certified(system, list(candidates))
@@ -110,15 +105,27 @@ class _Start:
         It is known far better than this grid tells; 0 if nothing is known.
     exponent : int
         Of the first grid that is to be tried.
+    box : Box or None
+        On this grid, if it is proved already.
     """
 
     point: acb_mat
     known: int = 0
     exponent: int = 0
+    box: Box | None = None
 
 
-def _start(system: ChartSystem, point: Complex) -> _Start:
-    """An approximation, refined at once as far as is mostly needed: grids that are too coarse are not tried then."""
+def _starts(system: ChartSystem, points: Complex) -> list[_Start]:
+    """Approximations, refined at once as far as is mostly needed: grids that are too coarse are not tried then."""
+    sizes = np.abs(points).max(axis=1, initial=0)
+    complex_ones = np.flatnonzero(np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes)
+    far = dict(zip(complex_ones.tolist(), far_solutions(system, points[complex_ones]), strict=True))
+    return [_start(system, point, far.get(place)) for place, point in enumerate(points)]
+
+
+def _start(system: ChartSystem, point: Complex, far: FarSolution | None) -> _Start:
+    if far is not None:
+        return _Start(far.point, far.known, far.grid, far.box)
     column = _column(point)
     limit = refined(system, column, FIRST_REFINED)
     if limit is None or not limit[1]:
@@ -127,26 +134,19 @@ def _start(system: ChartSystem, point: Complex) -> _Start:
 
 
 def _first_grid(system: ChartSystem, point: acb_mat) -> int:
-    """The first grid on which the box around a solution may be narrow enough; on coarser ones it surely is not.
-
-    With Y the inverse of F' at the solution, let w be the norm of Y F'(X) - 1 over a box X there, relative to its
-    radii. The centre m is within half a unit, 1 / 8 of the radii, so that Y F'(m) = 1 + E with |E| <= w / 8, and with
-    the inverse at m the norm is w / (1 + w / 8) at least: more than 1 / 2, what it may be, if w > 0.54.
-    """
+    """The first grid that is tried for the box around a solution (``grids.first_grid``)."""
     equations = system.in_doubles
     with working_precision(FIRST_REFINED + GUARD_BITS):
         inverse = _inverse(system, point)
-        values = [_dyadic(value) for value in point.entries()]
-    exponents = _grids(system, values, FIRST_REFINED)
+        values = [dyadic(value) for value in point.entries()]
+    exponents = grid_exponents(system, values, FIRST_REFINED)
     if equations is None or inverse is None or min(exponents) < FIRST_REFINED - GRIDS[0]:
         return GRIDS[0]
     radii = np.array([RADIUS * 2.0 ** -exponents[index // 4] for index in system.support])
     is_real = max(abs(float(value.imag)) for value in point.entries()) < 2.0 ** -GRIDS[0]
     sizes = np.abs(inverse.real) if is_real else 2 * (np.abs(inverse.real) + np.abs(inverse.imag))
     width = float(np.max(sizes @ (equations.variations(radii[None])[0] @ radii) / radii))
-    if not isfinite(width):
-        return GRIDS[0]
-    return next((exponent for exponent in GRIDS if ldexp(width, FIRST_REFINED - exponent) <= WIDEST), GRIDS[-1])
+    return first_grid(width, FIRST_REFINED) if isfinite(width) else GRIDS[0]
 
 
 def _inverse(system: ChartSystem, point: acb_mat) -> Complex | None:
@@ -194,7 +194,7 @@ def refined(system: ChartSystem, point: Balls, exponent: int) -> tuple[Balls, bo
     Steps are halved until the next one, with the same matrix, is smaller (Deuflhard's natural monotonicity test): the
     iteration then follows the path from the point to its solution, however small the basin of the full method is.
     """
-    large = max(_exponent(_dyadic(value)) for value in point.entries())
+    large = max(size_exponent(dyadic(value)) for value in point.entries())
     with working_precision(2 * exponent + GUARD_BITS + max(0, large - exponent)):
         jacobian = system.jacobian(point)
         values = system.values(jacobian, point)
@@ -227,19 +227,11 @@ def refined(system: ChartSystem, point: Balls, exponent: int) -> tuple[Balls, bo
 
 def _is_settled(system: ChartSystem, step: Balls, point: Balls, exponent: int) -> bool:
     """Whether a step is far smaller than the units of the grids that the point will be rounded to."""
-    exponents = _grids(system, [_dyadic(value) for value in point.entries()], exponent)
+    exponents = grid_exponents(system, [dyadic(value) for value in point.entries()], exponent)
     return all(
         abs(value).mid() < arb(2) ** -(exponents[index // 4] + SETTLED_BITS)
         for index, value in zip(system.support, step.entries(), strict=True)
     )
-
-
-def _grids(system: ChartSystem, values: Sequence[Dyadic], exponent: int) -> tuple[int, int]:
-    """The exponents of the grids of e and f: that of f is coarser where f is larger."""
-    places = list(zip(system.support, values, strict=True))
-    # Turns about a point have no f.
-    halves = [max((_exponent(value) for index, value in places if index // 4 == half), default=0) for half in (0, 1)]
-    return exponent, max(0, exponent - max(0, halves[1] - halves[0]))
 
 
 def _approximate(jacobian: Balls, values: Balls) -> Balls | None:
@@ -252,40 +244,3 @@ def _approximate(jacobian: Balls, values: Balls) -> Balls | None:
 def _size(column: acb_mat) -> arb:
     """The largest entry in absolute value, roughly."""
     return max((abs(entry).mid() for entry in column.entries()), default=arb(0))
-
-
-def nearest_box(system: ChartSystem, point: acb_mat, exponent: int) -> Box:
-    """The box around the grid point nearest to a point; of it and its conjugate, the one whose first coordinate that is
-    not real has a positive imaginary part."""
-    values = {index: _dyadic(value) for index, value in zip(system.support, point.entries(), strict=True)}
-    exponents = _grids(system, list(values.values()), exponent)
-    centre = []
-    for index in range(8):
-        real, imaginary = values.get(index, ((0, 0), (0, 0)))
-        centre.append((_rounded(*real, exponents[index // 4]), _rounded(*imaginary, exponents[index // 4])))
-    sign = next((-1 if imaginary < 0 else 1 for _, imaginary in centre if imaginary), 1)
-    return Box(exponents, tuple((real, sign * imaginary) for real, imaginary in centre))
-
-
-def _dyadic(value: acb) -> Dyadic:
-    """The midpoints of real and imaginary part, exactly."""
-    parts = [part.mid().man_exp() for part in (value.real, value.imag)]
-    real, imaginary = [(int(mantissa), int(exponent)) for mantissa, exponent in parts]
-    return real, imaginary
-
-
-def _exponent(parts: Sequence[tuple[int, int]]) -> int:
-    """The binary exponent of a number's size, roughly; that of 0 is very small."""
-    sizes = [exponent + _lifted(abs(mantissa)).bit_length() for mantissa, exponent in parts if mantissa]
-    return max([-GRIDS[-1], *sizes])
-
-
-def _lifted(mantissa: int) -> int:
-    """A little more: what is a power of 2 counts as one, from whichever side it is approximated."""
-    return mantissa + (mantissa >> NEARLY_BITS)
-
-
-def _rounded(mantissa: int, power: int, exponent: int) -> int:
-    """The integer nearest to mantissa times 2^power, in units of 2^-exponent."""
-    shift = power + exponent
-    return mantissa << shift if shift >= 0 else ((mantissa >> (-shift - 1)) + 1) >> 1

@@ -36,8 +36,8 @@ def _is_proved(system: ChartSystem, box: Box) -> bool:
     if near is None:
         return False
     around = _moved_to_zero(system, box)
-    radii = [reach / ROOM for reach in _reaches(system, box)]
-    return is_inside(near, krawczyk(near, around), radii) and _is_motion(system, near.point + ROOM * around)
+    radii = [reach / ROOM for reach in reaches(system, box)]
+    return is_inside(near, krawczyk(near, around), radii) and is_motion(system, near.point + ROOM * around)
 
 
 def centre(system: ChartSystem, box: Box) -> Balls:
@@ -55,16 +55,16 @@ def enclosing_balls(system: ChartSystem, box: Box) -> Balls:
 
 
 def _moved_to_zero(system: ChartSystem, box: Box) -> Balls:
-    return box_around_zero(_reaches(system, box), arb_mat if box.is_real else acb_mat, real=box.is_real)
+    return box_around_zero(reaches(system, box), arb_mat if box.is_real else acb_mat, real=box.is_real)
 
 
-def _reaches(system: ChartSystem, box: Box) -> list[arb]:
+def reaches(system: ChartSystem, box: Box) -> list[arb]:
     """Half the widths of the box, exactly."""
     reaches = [RADIUS * arb(2) ** -exponent for exponent in box.exponents]
     return [reaches[index // 4] for index in system.support]
 
 
-def _is_motion(system: ChartSystem, around: Balls) -> bool:
+def is_motion(system: ChartSystem, around: Balls) -> bool:
     """Whether N(e) is not 0 anywhere in a column of balls."""
     metric = system.problem.metric
     norm: arb | acb = arb(0)

@@ -58,12 +58,11 @@ class ChartSystem:
         Each equation is divided by the power of 2 next to its largest coefficient: elimination takes the largest pivot,
         and among equations of very different sizes that is a bad one.
         """
-        rows = self._gradients.tolist()
+        rows = iter(self._gradients.tolist())
         scaled: list[list[arb]] = []
-        for start in range(0, len(rows), self.size):
-            block = rows[start : start + self.size]
-            power = -max(int(abs(value)).bit_length() for row in block for value in row)
-            scaled += [[arb((value, power)) for value in row] for row in block]
+        for quadric in self.quadrics:
+            power = -max(abs(value).bit_length() for value in quadric.values())
+            scaled += [[arb((value, power)) for value in next(rows)] for _ in range(self.size)]
         balls = arb_mat(scaled)
         return balls, acb_mat(balls)
 

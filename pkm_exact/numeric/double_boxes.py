@@ -42,6 +42,8 @@ SETTLED: Final = 2.0**-20
 """Those that are larger are followed by another one all the same: how far off a solution may be is in proportion."""
 ASTRAY: Final = 2.0**-16
 """Where Newton's method leads farther than this, relative to the point, it is not followed."""
+GREATEST_SHIFT: Final = 1000
+"""Numbers that are 0 count as smaller than others by so many bits."""
 GREATEST: Final = 2.0**52
 """Grid points, in units, that doubles hold exactly are smaller."""
 
@@ -141,8 +143,14 @@ def _grids(
     halves = np.array(equations.support) // 4
     largest = np.maximum(np.abs(points.real), np.abs(points.imag))
     sizes = [largest[:, halves == half].max(axis=1, initial=0) for half in (0, 1)]
+    # Turns about a point have no f; where there are f and they are 0, they are very small.
+    least = [-GREATEST_SHIFT if (halves == half).any() else 0 for half in (0, 1)]
     (e, also_e), (f, also_f) = (
-        [np.frexp(size * (1 + 2.0**-NEARLY_BITS) * factor)[1] for factor in (1 - DOUBT, 1 + DOUBT)] for size in sizes
+        [
+            np.where(size > 0, np.frexp(size * (1 + 2.0**-NEARLY_BITS) * factor)[1], smallest)
+            for factor in (1 - DOUBT, 1 + DOUBT)
+        ]
+        for size, smallest in zip(sizes, least, strict=True)
     )
     shifts = np.maximum(f - also_e, 0)
     is_sure = (shifts == np.maximum(also_f - e, 0)) & np.isfinite(largest).all(axis=1) & (sizes[0] > 0)

@@ -1,0 +1,106 @@
+"""Solutions far out: proved as by ball arithmetic alone, on the coarsest grids that bear a proof."""
+
+from __future__ import annotations
+
+from collections import Counter
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+from samples import model, shipped
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric import certification, far_solutions
+from pkm_exact.numeric.certified_boxes import centre, certified
+from pkm_exact.numeric.far_solutions import TRIED
+from pkm_exact.numeric.grids import GRIDS, first_grid
+from pkm_exact.numeric.poses import certified_solutions
+from pkm_exact.numeric.seeds import seeds
+from pkm_exact.poses.isolated_solutions import Box
+
+Patch = pytest.MonkeyPatch
+
+
+def _problem(number: int) -> ForwardProblem:
+    """Rolland's robot at lengths of its own."""
+    random, robot = Random(number), model("rolland-6-6")
+    lengths = [1250 + Fraction(random.randint(-15000, 15000), 100) for _ in range(6)]
+    return robot.problem([length * length for length in lengths])
+
+
+def _by_balls(problem: ForwardProblem, monkeypatch: Patch) -> Any:
+    """Every grid is tried, from the first one on."""
+    with monkeypatch.context() as changed:
+        changed.setattr(certification, "far_solutions", lambda _, points: [None] * len(points))
+        changed.setattr(certification, "_first_grid", lambda *_: GRIDS[0])
+        return certified_solutions(problem, seeds(problem))[1]
+
+
+def _grids(boxes: tuple[Box, ...]) -> Counter[int]:
+    return Counter(box.exponents[0] for box in boxes)
+
+
+@pytest.mark.parametrize("number", [1, *(pytest.param(n, marks=pytest.mark.slow) for n in range(2, 40))])
+def test_boxes_are_those_of_ball_arithmetic(number: int, monkeypatch: Patch) -> None:
+    problem = _problem(number)
+    isolated = certified_solutions(problem, seeds(problem))[1]
+    assert isolated == _by_balls(problem, monkeypatch)
+
+
+def test_most_are_proved_at_once(monkeypatch: Patch) -> None:
+    problem, asked = _problem(1), []
+
+    def counted(system: Any, boxes: list[Box]) -> list[bool]:
+        asked.extend(boxes)
+        return certified(system, boxes)
+
+    monkeypatch.setattr(certification, "certified", counted)
+    isolated = certified_solutions(problem, seeds(problem))[1]
+    grids = _grids(isolated.pairs)
+    assert sum(grids[grid] for grid in TRIED) >= 5
+    assert len(asked) <= 1
+
+
+def test_what_is_proved_is_proved_by_the_operator_alone() -> None:
+    problem = _problem(3)
+    system, isolated = certified_solutions(problem, seeds(problem))
+    far = [box for box in isolated.pairs if box.exponents[0] in TRIED]
+    assert far
+    assert all(certified(system, far))
+
+
+def test_points_that_are_no_solutions_prove_nothing() -> None:
+    """Points beside solutions lead to them or to nothing; those of no use to nothing."""
+    problem = _problem(1)
+    system, isolated = certified_solutions(problem, seeds(problem))
+    boxes = [box for box in isolated.pairs if box.exponents[0] in TRIED]
+    points = np.array([[complex(entry.mid()) for entry in centre(system, box).entries()] for box in boxes])
+    found = far_solutions.far_solutions(system, points)
+    assert [far and far.box for far in found] == boxes
+    assert [far and far.box for far in far_solutions.far_solutions(system, points.conj())] == boxes
+    random = np.random.default_rng(2)
+    for size in (1e-12, 1e-9, 1e-6, 1e-2):
+        moved = points * (1 + size * random.standard_normal(points.shape))
+        for far, box in zip(far_solutions.far_solutions(system, moved), boxes, strict=True):
+            assert far is None or far.box in (None, box)
+    for wrong in (0 * points, points * np.nan, points[:0]):
+        assert far_solutions.far_solutions(system, wrong) == [None] * len(wrong)
+
+
+@pytest.mark.parametrize(("bound", "value"), [("CLOSE", 0.0), ("SLACK", 3.0), ("TRIED", ()), ("TRIED", (72,))])
+def test_what_is_not_as_usual_is_left_to_others(bound: str, value: Any, monkeypatch: Patch) -> None:
+    problem = shipped("rolland-6-6")
+    expected = certified_solutions(problem, seeds(problem))[1]
+    monkeypatch.setattr(far_solutions, bound, value)
+    again = certified_solutions(problem, seeds(problem))[1]
+    if bound == "SLACK":
+        assert again.count == expected.count
+    else:
+        assert again == expected
+
+
+def test_the_first_grid_is_the_first_that_bears_the_width() -> None:
+    assert [first_grid(width, 44) for width in (0.55, 0.56, 0.5 * 2**28, 2**28, 2.0**-16 / 2)] == [44, 72, 72, 120, 28]
+    assert first_grid(float("inf"), 44) == GRIDS[-1]
