@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+import numpy as np
 from flint import acb, acb_mat, arb, fmpz_mat
 
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, pose_quadrics
 from pkm_exact.numeric.certified_boxes import GUARD_BITS
+from pkm_exact.numeric.double_rounding import gamma
 from pkm_exact.poses.isolated_solutions import RADIUS, Box
 from pkm_exact.precision import working_precision
 
@@ -27,7 +29,8 @@ def require_sound_boxes(isolated: IsolatedSolutions, problem: ForwardProblem) ->
     """
     require(all(box.is_real for box in isolated.real), "a box of a real solution is not real")
     for number, box in enumerate(isolated.pairs):
-        require(box.is_disjoint(box.conjugate()), "a box of a complex solution meets its conjugate", box=number)
+        is_apart = any(abs(imaginary) > RADIUS for _, imaginary in box.centre)
+        require(is_apart, "a box of a complex solution meets its conjugate", box=number)
     boxes = (*isolated.real, *isolated.pairs)
     _require_apart(boxes)
     if boxes:
@@ -54,9 +57,49 @@ def _reach(box: Box, finest: int) -> tuple[int, int]:
 
 def _require_room(boxes: Sequence[Box], chart: Sequence[int], problem: ForwardProblem) -> None:
     """A combination of legs and Study's condition, and the chart, can be satisfied in every box."""
+    combination = _combination(pose_quadrics(problem))
+    decided = _have_room(boxes, chart, combination)
+    rest = [place for place, has_room in enumerate(decided) if not has_room]
+    if rest:
+        _require_room_in_balls([boxes[place] for place in rest], chart, combination)
+
+
+def _have_room(boxes: Sequence[Box], chart: Sequence[int], combination: list[list[int]]) -> list[bool]:
+    """Where doubles tell that both can be satisfied; no more is lost by rounding than the width of a box.
+
+    A term of x^T M x has three factors, and data that are rounded: it is off by at most gamma(80) of itself in all, and
+    complex numbers count by the sum of their parts.
+    """
+    try:
+        matrix = np.array(combination, dtype=np.float64)
+    except OverflowError:
+        return [False] * len(boxes)
+    numbers = np.array([box.centre for box in boxes], dtype=object).astype(np.float64)
+    units = np.ldexp(1.0, -np.array([box.exponents for box in boxes])).repeat(4, axis=1)
+    is_real = np.array([box.is_real for box in boxes])[:, None]
+    x, radii = (numbers[..., 0] + 1j * numbers[..., 1]) * units, RADIUS * units
+    parts = np.where(is_real, 1, 2)
+    with np.errstate(all="ignore"):
+        gradients, sizes = x @ matrix, np.abs(x.real) + np.abs(x.imag)
+        slopes = np.abs(gradients.real) + np.abs(gradients.imag)
+        around = np.abs(matrix)
+        values = (x * gradients).sum(axis=1)
+        room = ((2 * slopes + parts * (radii @ around)) * radii).sum(axis=1)
+        lost = gamma(80) * ((sizes @ around) * (sizes + radii)).sum(axis=1)
+        at = x[:, :4] @ np.array(chart) - 1
+        beside = np.abs(np.array(chart)) @ radii[:, :4].T
+        are_small = lost < room / 4
+        fits = (np.abs(values.real) <= room) & (np.abs(values.imag) <= room)
+        fits &= (np.abs(at.real) <= beside) & (np.abs(at.imag) <= beside)
+        is_exact = (np.abs(numbers) < 2.0**53).all(axis=(1, 2))
+    found: list[bool] = (fits & are_small & is_exact).tolist()
+    return found
+
+
+def _require_room_in_balls(boxes: Sequence[Box], chart: Sequence[int], combination: list[list[int]]) -> None:
     with working_precision(2 * max(max(box.exponents) for box in boxes) + GUARD_BITS):
         points = [_balls(box) for box in boxes]
-        gradients = (acb_mat(points) * _combination(pose_quadrics(problem))).tolist()
+        gradients = (acb_mat(points) * acb_mat(fmpz_mat(combination))).tolist()
         for number, (x, gradient) in enumerate(zip(points, gradients, strict=True)):
             value = sum((a * b for a, b in zip(x[1:], gradient[1:], strict=True)), x[0] * gradient[0])
             require(value.contains(0), "a box has no room for a solution", box=number)
@@ -64,7 +107,7 @@ def _require_room(boxes: Sequence[Box], chart: Sequence[int], problem: ForwardPr
             require(total.contains(1), "a box is not in its chart", box=number)
 
 
-def _combination(quadrics: Sequence[Quadric]) -> acb_mat:
+def _combination(quadrics: Sequence[Quadric]) -> list[list[int]]:
     """The symmetric matrix of a combination of the forms, to which each contributes about as much."""
     sizes = [max(map(abs, quadric.values())) for quadric in quadrics]
     rows = [[0] * 8 for _ in range(8)]
@@ -73,7 +116,7 @@ def _combination(quadrics: Sequence[Quadric]) -> acb_mat:
         for (k, m), coefficient in quadric.items():
             rows[k][m] += factor * coefficient
             rows[m][k] += factor * coefficient
-    return acb_mat(fmpz_mat(rows))
+    return rows
 
 
 def _balls(box: Box) -> list[acb]:
