@@ -53,6 +53,10 @@ class SystemEquations:
         values = PointProducts(ring, [ring.polynomials(coordinate) for coordinate in point])
         return [integer_polynomial(values.evaluate(polynomial)) for polynomial in self.combinations]
 
+    def combined(self, values: list[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
+        """The values themselves."""
+        return values
+
     def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
         """The Jacobian matrix at a point."""
         values = PointProducts(ring, point)

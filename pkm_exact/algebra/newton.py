@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain, count
+from itertools import chain, count, zip_longest
 from typing import Protocol
 
 from flint import fmpz, fmpz_mod_poly, fmpz_poly, nmod_poly
@@ -27,7 +27,11 @@ class Equations(Protocol):
     """n equations in n unknowns that can be evaluated in a residue ring."""
 
     def values(self, ring: ResidueRing, point: Sequence[fmpz_poly]) -> list[fmpz_poly]:
-        """The left-hand sides at a point, as polynomials over Z, reduced or not."""
+        """Left-hand sides at a point, as polynomials over Z, reduced or not."""
+        ...
+
+    def combined(self, values: list[Element]) -> list[Element]:
+        """The combinations of them that are solved: as many as there are unknowns."""
         ...
 
     def jacobian(self, ring: ResidueRing, point: Sequence[Element]) -> list[list[Element]]:
@@ -109,7 +113,7 @@ def lift(
     prime = int(eliminant.modulus())
     reached = PadicRepresentation(prime, _integral(eliminant), tuple(map(_integral, coordinates_mod_p)))
     before, factored = 1, 0
-    quotients = [fmpz_poly()] * len(reached.point)
+    quotients: list[fmpz_poly] = []
     factors: _Factors | None = None
     for target, wanted in precision_schedule(limit):
         if factors is None or wanted > factored:
@@ -164,7 +168,7 @@ class _Step:
         """What is reached, and the quotients modulo the target."""
         ring, modulus, old = self.factors.ring, self.reached.modulus, self.reached.point
         residuals, quotients = self._residuals(quotients)
-        corrections = self.factors.solve(residuals)
+        corrections = self.factors.solve(self.equations.combined(residuals))
         # The form's value at the corrected point is T + shift; like the correction, the shift is a multiple of the old
         # modulus. Lifting the coefficients of the point has itself moved the form by such a multiple.
         value = self.wide.polynomials(combination(self.form, old) - fmpz_poly([0, 1]))
@@ -186,11 +190,11 @@ class _Step:
         relation, before, digits = self.reached.relation, self.before, self.target // self.before
         narrow = ResidueRing(digits, tuple(value % digits for value in self.reached.eliminant))
         residuals, further = [], []
-        for value, quotient in zip(self.equations.values(self.wide, self.reached.point), quotients, strict=True):
+        for value, quotient in zip_longest(self.equations.values(self.wide, self.reached.point), quotients):
             rest = value - quotient * relation if quotient else value
-            added, residual = divmod(_divided(rest, before, narrow), narrow.relation)
+            added, residual = narrow.divided(_divided(rest, before, narrow))
             residuals.append(_divided(integer_polynomial(residual), self.reached.modulus // before, self.factors.ring))
-            further.append(quotient + before * integer_polynomial(added))
+            further.append((quotient or 0) + before * integer_polynomial(added))
         return residuals, further
 
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Final, TypeVar
 
-from flint import fmpz_mod_ctx, fmpz_mod_poly, fmpz_mod_poly_ctx, fmpz_poly
+from flint import fmpz, fmpz_mod_ctx, fmpz_mod_poly, fmpz_mod_poly_ctx, fmpz_poly
 
 Polynomial = TypeVar("Polynomial", fmpz_poly, fmpz_mod_poly)
 
-_LEAST_DEGREE: Final = 12
-_LEAST_SIZE: Final = 1 << 17
+_LEAST_DEGREE: Final = 16
+_LEAST_SIZE: Final = 28000
 """Bits of an element from which a reduction by products is quicker."""
 
 
@@ -52,27 +52,28 @@ class ResidueRing:
         return self.polynomials([int(value) for value in coefficients])
 
     @cached_property
-    def _inverse(self) -> tuple[fmpz_poly, fmpz_poly]:
+    def _inverse(self) -> tuple[fmpz_mod_poly, fmpz_mod_poly]:
         """The power series 1 / (q reversed), and q without its leading term."""
         size = len(self.relation_coefficients) - 1
-        series = self.relation.reverse().inverse_series_trunc(size - 1)
-        return integer_polynomial(series), fmpz_poly(list(self.relation_coefficients[:size]))
+        return self.relation.reverse().inverse_series_trunc(size - 1), self.relation.truncate(size)
 
     def reduce(self, value: fmpz_mod_poly) -> fmpz_mod_poly:
-        """The remainder modulo q.
+        """The remainder modulo q."""
+        return self.divided(value)[1] if value.degree() >= len(self.relation_coefficients) - 1 else value
+
+    def divided(self, value: fmpz_mod_poly) -> tuple[fmpz_mod_poly, fmpz_mod_poly]:
+        """Quotient and remainder by q.
 
         The quotient by q reversed is that of power series: for long numbers two products are less than a division.
         """
         size = len(self.relation_coefficients) - 1
         excess = int(value.degree()) - size
-        if excess < 0:
-            return value
-        if size < _LEAST_DEGREE or excess > size - 2 or size * self.modulus.bit_length() < _LEAST_SIZE:
-            return value % self.relation
+        if not 0 <= excess <= size - 2 or size < _LEAST_DEGREE or size * self.modulus.bit_length() < _LEAST_SIZE:
+            return divmod(value, self.relation)
         inverse, low = self._inverse
-        high = integer_polynomial(value.right_shift(size).reverse(degree=size - 2))
-        quotient = self.polynomials(high.mul_low(inverse, size - 1)).reverse(degree=size - 2)
-        return value.truncate(size) - self.polynomials(integer_polynomial(quotient).mul_low(low, size))
+        high = value.right_shift(size).reverse(degree=size - 2)
+        quotient = high.mul_low(inverse, size - 1).reverse(degree=size - 2)
+        return quotient, value.truncate(size) - quotient.mul_low(low, size)
 
     def multiply(self, left: fmpz_mod_poly, right: fmpz_mod_poly) -> fmpz_mod_poly:
         """The reduced product."""
@@ -89,7 +90,7 @@ def integer_polynomial(value: fmpz_mod_poly) -> fmpz_poly:
     return fmpz_poly(coefficients(value))
 
 
-def combination(scalars: Sequence[int], values: Sequence[Polynomial]) -> Polynomial:
+def combination(scalars: Sequence[int | fmpz], values: Sequence[Polynomial]) -> Polynomial:
     """Integer linear combination; at least one value must be given."""
     total = values[0] * scalars[0]
     for scalar, value in zip(scalars[1:], values[1:], strict=True):

@@ -9,7 +9,7 @@ from random import Random
 
 from flint import fmpz, fmpz_mat, fmpz_mod_poly, fmpz_poly
 
-from pkm_exact.algebra.residue_ring import ResidueRing, integer_polynomial
+from pkm_exact.algebra.residue_ring import ResidueRing, combination, integer_polynomial
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, pose_quadrics, support
 from pkm_exact.poses.translation import LinearTranslation, linear_translation
@@ -66,11 +66,25 @@ class StudyEquations:
         return tuple(sorted({pair for form in self._forms for pair in form}))
 
     @cached_property
-    def coefficients(self) -> fmpz_mat:
-        """The combined quadratic forms, one a row, by their coefficients on the products."""
+    def _weights(self) -> fmpz_mat:
+        """Those of the forms in the combinations, one a row."""
         random = Random(self.seed)
-        weights = fmpz_mat([[random.randrange(1, 1 << 16) for _ in self._forms] for _ in self.free])
-        return weights * fmpz_mat([[form.get(pair, 0) for pair in self.products] for form in self._forms])
+        return fmpz_mat([[random.randrange(1, 1 << 16) for _ in self._forms] for _ in self.free])
+
+    @cached_property
+    def _given(self) -> fmpz_mat:
+        """The quadratic forms, one a row, by their coefficients on the products."""
+        return fmpz_mat([[form.get(pair, 0) for pair in self.products] for form in self._forms])
+
+    @cached_property
+    def coefficients(self) -> fmpz_mat:
+        """The combined quadratic forms."""
+        return self._weights * self._given
+
+    @property
+    def _combines_late(self) -> bool:
+        """Whether there are so few forms that it is less to combine what is left of their values."""
+        return len(self._forms) <= len(self.free)
 
     @cached_property
     def gradients(self) -> fmpz_mat:
@@ -90,7 +104,12 @@ class StudyEquations:
     def values(self, ring: ResidueRing, point: Sequence[fmpz_poly]) -> list[fmpz_poly]:  # noqa: ARG002  # exact
         """Left-hand sides at the free coordinates."""
         x = self._coordinates(point)
-        return _combined(self.coefficients.tolist(), [x[k] * x[m] for k, m in self.products])
+        forms = self._given if self._combines_late else self.coefficients
+        return _combined(forms.tolist(), [x[k] * x[m] for k, m in self.products])
+
+    def combined(self, values: list[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
+        """The combinations of the forms' values, if these are not combined yet."""
+        return [combination(row, values) for row in self._weights.tolist()] if self._combines_late else values
 
     def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
         """Partial derivatives by the free coordinates; linear in the coordinates."""

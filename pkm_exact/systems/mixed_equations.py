@@ -52,6 +52,10 @@ class MixedEquations:
         values = [products.value(polynomial) for polynomial in self.system.polynomials]
         return [integer_polynomial(combination(row, values)) for row in self.weights]
 
+    def combined(self, values: list[fmpz_mod_poly]) -> list[fmpz_mod_poly]:
+        """The values themselves."""
+        return values
+
     def jacobian(self, ring: ResidueRing, point: Sequence[fmpz_mod_poly]) -> list[list[fmpz_mod_poly]]:
         """The Jacobian matrix at a point."""
         products = PointProducts(ring, point)
