@@ -120,7 +120,29 @@ def _with_inverse(scale: int, number: int) -> Content:
     return {key: content[key] for key in KEYS}
 
 
+def _far_roots() -> Content:
+    """Two of four simple poses, at (0, y) and (0, -y), each called double: the gradients are 0 modulo all primes tried.
+
+    Those of the form with C1 are 0 modulo 2^643 - 1 as well, by h' = 8 T in all numerators. So large a bound is greater
+    than the sizes of the numerators alone; the parameters, which are as great, must enter it by their powers.
+    """
+    y = Fraction((1 << 643) - 1, 2)
+    poses = [Pose((1, 0, 0, 0), (0, 0, c, 0)) for c in (y, -y)]
+    large = prod(pure.good_primes([-(y.numerator**2), 0, 4]))
+    first, square, turn, beside = (
+        {4: large},
+        {0: large},
+        {7: 2 * large, 10: large},  # R11 = 1 or 3/5
+        {1: large, 2: 2 * large, 5: -2 * large},
+    )
+    forms = [poses[0].linear([form.get(k, int(k == 15)) for k in range(16)]) for form in (first, square, turn, beside)]
+    content = listing("planar", poses, forms, 2, 2, form=(0, 0, 0, 0, 0, 0, 1, 0))
+    steps = [[f"{i} {j}" for i in range(4) for j in range(3)]]
+    return content | {"claim": "complete", "completeness_route": "exact-elimination", "elimination": steps}
+
+
 MODULO: dict[str, Case] = {
+    "two of four poses as double ones, at parameters of 643 bits": (_far_roots, REJECTED),
     "parameters that are equal modulo 2^61 - 1": (partial(_congruent, (1 << 61) - 1), ACCEPTED),
     "a parameter without an inverse modulo 2^1399 - 1": (partial(_with_inverse, 1 << 17, 28875361), ACCEPTED),
     **{

@@ -8,6 +8,8 @@ from functools import partial
 
 from certificate_subjects import Content
 from forged_boxes import listed, on_grid
+from held_mechanisms import Pose
+from held_mechanisms import listing as _posed
 
 from pkm_exact.certify import pure
 
@@ -88,7 +90,34 @@ def _without_inverse() -> Content:
     return _robot(listed((1, 0, 0, 0), on_grid(((Fraction(1), Fraction(1, 2)), *[zero] * 7), K, K)), legs)
 
 
+FAR = ((-1, -2), (3, 1)), ((3, 2), (0, -2)), ((1, 1), (3, -3))
+"""Base and platform joints: coarsely rounded, the Jacobian at ``_far_off`` is singular."""
+
+
+def _far_off(units: Fraction) -> Content:
+    """A real solution with coordinates of 900 bits, e0 + e3 being 1, so many units of the grid beside its centre.
+
+    Matrices of fewer bits have no inverse there, and Newton's method does not leave the centre.
+    """
+    large, unit = Fraction(1 << 900), Fraction(1, 1 << 7)
+    e, f = (large, 1 - large), -large + units * unit
+    pose = Pose((e[0], 0, 0, e[1]), (0, f, f, 0))
+    legs = [pose.distance((*a, 0), (*b, 0)) for a, b in FAR]
+    zero = (Fraction(0), Fraction(0))
+    centre = ((e[0], zero[0]), zero, zero, (e[1], zero[0]), zero, *[(-large, zero[0])] * 2, zero)
+    content = listed((1, 0, 0, 1))
+    boxes = {**content["krawczyk"], "real": [on_grid(centre, 7, 7, real=True)]}
+    poses = [{**_posed("planar", [pose], legs)["poses"][0], "parameter": None, "multiplicity": 1}]
+    counts = dict.fromkeys(("complex_solutions", "distinct_solutions", "real_poses"), 1)
+    content = {**content, **counts, "krawczyk": boxes, "poses": poses, "box_exponent": 31}
+    return _robot(content, [pure.Leg(leg.base, leg.platform, leg.length_squared) for leg in legs])
+
+
 ISOTROPIC: dict[str, Case] = {
+    **{
+        f"coordinates of 900 bits, {units} units from the centre": (partial(_far_off, units), status)
+        for units, status in ((Fraction(2, 5), ACCEPTED), (Fraction(3, 5), REJECTED))
+    },
     **{
         f"N(e) is at the border of what is proved, {part}": (partial(_nearly_isotropic, part, grid), status)
         for part, grid, status in ((3, 4, REJECTED), (4, 5, REJECTED), (5, 5, ACCEPTED))

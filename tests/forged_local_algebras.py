@@ -131,6 +131,8 @@ def dear(degree: int, digits: int) -> Content:
     return made | complete("exact-elimination", 3 * degree, elimination=[])
 
 
+SECOND = ("x-y^2", "z-x", "x^2", "y^2*z")
+
 ROWS: dict[str, Row] = {
     **CONJUGATE,
     **{
@@ -140,6 +142,15 @@ ROWS: dict[str, Row] = {
         )
         for places in ((1, 2), (1, 2, 4, 5), (1, 2, 3, 4))
         for said in (3, 4, 5)
+    },
+    "three at 20, two at 1": (powers((ONE, 2), ((-20, 1), 3), multiplicities=[2, 3]), "accepted"),
+    **{
+        f"two variables of second order, multiplicity {said}": (
+            listed("x,y,z", SECOND, represented([(0,) * 3], (0, 1, 0)), multiplicities=said)
+            | complete("modular-rank", said),
+            "accepted" if said == 4 else "rejected",
+        )
+        for said in (3, 4)
     },
     "too dear for functionals": (dear(*TOO_DEAR), "accepted"),
     "a double solution, and two at infinity": (

@@ -1301,10 +1301,6 @@ class Interval:
         """Whether 0 is in the interval."""
         return self.low <= 0 <= self.high
 
-    def meets(self, other: Interval) -> bool:
-        """Whether there is a common number."""
-        return self.low <= other.high and other.low <= self.high
-
     def largest(self) -> int:
         """The largest absolute value, times 2^p."""
         return max(abs(self.low), abs(self.high))
@@ -2980,12 +2976,6 @@ class Rectangle:
         """The product with real numbers."""
         return Rectangle(factor * self.re, factor * self.im)
 
-    def over(self, other: Rectangle) -> Rectangle:
-        """The quotient by a rectangle without 0, or refused if that is too near to it."""
-        norm, product = other.re * other.re + other.im * other.im, self * other.conjugate()
-        require(not norm.contains_zero(), "boxes: N(e) is too near to 0")
-        return Rectangle(product.re.over(norm), product.im.over(norm))
-
     def contains_zero(self) -> bool:
         """Whether 0 is in the rectangle."""
         return self.re.contains_zero() and self.im.contains_zero()
@@ -2998,10 +2988,6 @@ class Rectangle:
     def conjugate(self) -> Rectangle:
         """The conjugate numbers."""
         return Rectangle(self.re, -1 * self.im)
-
-    def meets(self, other: Rectangle) -> bool:
-        """Whether there is a common number."""
-        return self.re.meets(other.re) and self.im.meets(other.im)
 
 
 def surrounding(value: Fraction, p: int) -> Interval:
@@ -3299,9 +3285,8 @@ class Neighbourhood:
         return [(max(v.re.largest(), v.im.largest()) >> unit) + 1 for v in values]
 
     def motion_in(self, widths: Sequence[int]) -> list[Rectangle]:
-        """Rotation and position on a box, in the new frames."""
-        values = self.family.quantities(self.around(widths), self.nothing)
-        return [value.over(values[0]) for value in values[1:13]]
+        """The quantities on a box, in the new frames."""
+        return self.family.quantities(self.around(widths), self.nothing)
 
 
 def less_than_one(bounds: Sequence[Sequence[int]], p: int) -> list[list[Gaussian]]:
@@ -3365,8 +3350,8 @@ def check_tolerances(certificate: ToleranceCertificate) -> Iterator[str]:
 
 
 def are_distinct(one: Sequence[Rectangle], other: Sequence[Rectangle]) -> bool:
-    """Whether the points of two boxes differ in some entry."""
-    return any(not a.meets(b) for a, b in zip(one, other, strict=True))
+    """Whether poses with these quantities q and r differ: N(q) r = N(r) q, entry by entry, for the same pose."""
+    return any(not (one[0] * b - other[0] * a).contains_zero() for a, b in zip(one, other, strict=True))
 
 
 def check_place(at: Neighbourhood, place: Place, core: Sequence[int], name: str) -> None:
@@ -3484,8 +3469,8 @@ def greatest_length(rows: Sequence[Sequence[Interval]], reaches: Sequence[int], 
 
 
 def is_angle_of(angle: Fraction, chord: Fraction, p: int) -> bool:
-    """Whether angle >= 4 arcsin(chord / 2), for a chord below 1: by the series of sin(angle / 4), ended below it."""
-    end = min(int(angle * (1 << p)) // 4, 1 << p)  # the sine increases up to 1, where it is above 1/2
+    """Whether angle >= 4 arcsin(chord / 2), for a chord up to 8/5: by the series of sin(angle / 4), ended below it."""
+    end = min(int(angle * (1 << p)) // 4, 1 << p)  # the sine increases up to 1, where it is above 4/5
     x = Interval(end, end, p)
     square, term, sine = x * x, x, x
     n = 1
@@ -3496,7 +3481,7 @@ def is_angle_of(angle: Fraction, chord: Fraction, p: int) -> bool:
             sine = sine + sign * term
             n += 2
     sine = sine - term
-    return chord < 1 and 2 * Fraction(sine.low, 1 << p) >= chord
+    return 2 * Fraction(sine.low, 1 << p) >= chord
 
 
 def check_nothing_else(at: Neighbourhood, box: PoseBox, name: str) -> None:
