@@ -82,13 +82,20 @@ def test_the_unit_ideal_is_seen() -> None:
 )
 def test_a_trace_gives_what_learning_gives(polynomials: PolynomialSystem) -> None:
     primes = primes_from(1, 62)
-    trace = _learn(polynomials, next(primes)).trace
+    basis = _learn(polynomials, next(primes))
+    trace, way = basis.trace, basis.way()
     assert trace is not None
+    assert way is not None
+    assert basis.course is not None
+    for one, other in zip(trace.steps, way.steps, strict=True):
+        reducers = {basis.course.known[index][0][0] + multiplier for index, multiplier in other.rows}
+        assert len(one.rows) == len(other.rows) == len(reducers) + len(other.new)
     for _ in range(2):
         prime = next(primes)
-        again = apply(trace, polynomials.modulo(prime), polynomials.monomials, prime)
         fresh = _learn(polynomials, prime)
-        assert again.elements == fresh.elements
+        for recorded in (trace, way):
+            again = apply(recorded, polynomials.modulo(prime), polynomials.monomials, prime)
+            assert again.elements == fresh.elements
 
 
 def test_a_prime_that_moves_a_pivot_is_unlucky() -> None:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
-from pkm_exact.algebra.reduction import Row, row_echelon, row_matrix
+from pkm_exact.algebra.reduction import Row, reducing_rows, row_echelon, row_matrix
 from pkm_exact.algebra.system import ModularPolynomial
+
+Chooser: TypeAlias = Callable[[Sequence[Row], Sequence[ModularPolynomial], int], list[Row]]
+"""Of rows, which are multiples of known polynomials modulo a prime, some with the same row space."""
 
 
 @dataclass(frozen=True)
@@ -46,11 +50,16 @@ class Course:
     generators: int
 
     def trace(self, basis: Sequence[int], prime: int) -> Trace:
-        """The rows that mattered (one more elimination a step), for the basis elements with these indices."""
+        """The first rows that mattered (one more elimination a step), for the basis elements with these indices."""
+        return self._trace(basis, prime, _spanning_rows)
+
+    def way(self, basis: Sequence[int], prime: int) -> Trace:
+        """The same with those rows that are least work to follow at another prime."""
+        return self._trace(basis, prime, reducing_rows)
+
+    def _trace(self, basis: Sequence[int], prime: int, chosen: Chooser) -> Trace:
         steps = (
-            Step(tuple(_spanning_rows(step.rows, self.known, prime)), step.leading, step.new)
-            for step in self.steps
-            if step.new
+            Step(tuple(chosen(step.rows, self.known, prime)), step.leading, step.new) for step in self.steps if step.new
         )
         start = tuple(element[0][0] for element in self.known[: self.generators])
         return Trace(start, tuple(steps), tuple(basis))

@@ -56,8 +56,16 @@ class GroebnerBasis:
         """The same with its trace."""
         if self.trace is not None or self.course is None:
             return self
-        place = {element[0][0]: index for index, element in enumerate(self.course.known)}
-        return replace(self, trace=self.course.trace([place[lead] for lead in self.leading_monomials], self.prime))
+        return replace(self, trace=self.course.trace(self._places(self.course), self.prime))
+
+    def way(self) -> Trace | None:
+        """What ``apply`` needs to find it at another prime, quicker than along the trace."""
+        return self.trace if self.course is None else self.course.way(self._places(self.course), self.prime)
+
+    def _places(self, course: Course) -> list[int]:
+        """Indices of the elements."""
+        place = {element[0][0]: index for index, element in enumerate(course.known)}
+        return [place[lead] for lead in self.leading_monomials]
 
     @property
     def leading_monomials(self) -> tuple[int, ...]:

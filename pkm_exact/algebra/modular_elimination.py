@@ -55,7 +55,7 @@ class Elimination:
     watch: Watch | None = field(default=None, repr=False, compare=False)
     _primes: Iterator[int] = field(init=False, repr=False)
     _digest: int = field(init=False, repr=False)
-    _trace: Trace | None = field(init=False, default=None, repr=False)
+    _way: Trace | None = field(init=False, default=None, repr=False)
     primes_used: list[int] = field(init=False, default_factory=list)
     primes_unlucky: list[int] = field(init=False, default_factory=list)
     learned: dict[int, groebner.GroebnerBasis] = field(init=False, default_factory=dict, repr=False, compare=False)
@@ -71,7 +71,7 @@ class Elimination:
         return self
 
     def image(self, *, record: bool = False) -> ModularImage:
-        """The image at the next prime, found from scratch; with ``record`` its trace is kept for ``following``.
+        """The image at the next prime, found from scratch; with ``record`` the way to it is kept for ``following``.
 
         Raises
         ------
@@ -79,9 +79,9 @@ class Elimination:
             If a limit of the policy is met, or there is no further prime of its size.
         """
         prime = self._next_prime()
-        basis = self._learned(prime, record=record)
+        basis = self._learned(prime, record=False)
         if record:
-            self._trace = basis.trace
+            self._way = basis.way()
         return self._finished(prime, basis)
 
     def trace(self) -> Trace | None:
@@ -96,7 +96,7 @@ class Elimination:
         return basis.trace if basis.is_zero_dimensional else None
 
     def following(self) -> ModularImage:
-        """The image at the next lucky prime, along the recorded trace; a trace that no prime follows is recorded anew.
+        """The image at the next lucky prime, the way that was recorded; one that no prime follows is recorded anew.
 
         Raises
         ------
@@ -104,11 +104,11 @@ class Elimination:
             As ``image``.
         """
         for _ in range(self.policy.attempts):
-            if self._trace is None:
+            if self._way is None:
                 break
             prime = self._next_prime()
             try:
-                basis = groebner.apply(self._trace, self.system.modulo(prime), self.system.monomials, prime)
+                basis = groebner.apply(self._way, self.system.modulo(prime), self.system.monomials, prime)
             except groebner.UnluckyPrimeError:
                 self.primes_unlucky.append(prime)
                 continue

@@ -38,17 +38,7 @@ def new_rows(rows: Sequence[Row], known: Sequence[ModularPolynomial], prime: int
     >>> new_rows([(0, 0), (1, 0), (2, 0)], [([3, 1], [1, 1]), ([3, 2], [1, 2]), ([2, 0], [1, 1])], 7)
     [([1, 0], [1, 2])]
     """
-    reducers: dict[int, Row] = {}
-    others = []
-    for row in rows:
-        lead = known[row[0]][0][0] + row[1]
-        if lead not in reducers:
-            reducers[lead] = row
-        elif len(known[row[0]][0]) < len(known[reducers[lead][0]][0]):
-            others.append(reducers[lead])
-            reducers[lead] = row
-        else:
-            others.append(row)
+    reducers, others = _split(rows, known)
     if not others:
         return []
     elimination = _Elimination(reducers, others, known, prime)
@@ -57,6 +47,20 @@ def new_rows(rows: Sequence[Row], known: Sequence[ModularPolynomial], prime: int
         if combined is None or len(found) + SPARE_COMBINATIONS <= combined.nrows():
             break
     return found
+
+
+def reducing_rows(rows: Sequence[Row], known: Sequence[ModularPolynomial], prime: int) -> list[Row]:
+    """As few of the rows as have the same row space: a reducer for every leading monomial, and what is new then.
+
+    Examples
+    --------
+    >>> reducing_rows([(0, 0), (1, 0), (2, 0)], [([3, 1], [1, 1]), ([3, 1], [1, 1]), ([2, 0], [1, 1])], 7)
+    [(0, 0), (2, 0)]
+    """
+    reducers, others = _split(rows, known)
+    left = _Elimination(reducers, others, known, prime).left(None) if others else None
+    independent = [] if left is None else row_echelon(left.transpose())[1]
+    return [*reducers.values(), *(others[place] for place in independent)]
 
 
 def row_echelon(matrix: nmod_mat) -> tuple[nmod_mat, list[int]]:
@@ -92,6 +96,22 @@ def read_row(matrix: nmod_mat, row: int, columns: Sequence[int], start: int) -> 
             monomials.append(columns[column])
             coefficients.append(value)
     return monomials, coefficients
+
+
+def _split(rows: Sequence[Row], known: Sequence[ModularPolynomial]) -> tuple[dict[int, Row], list[Row]]:
+    """The shortest row for every leading monomial, and all others."""
+    reducers: dict[int, Row] = {}
+    others = []
+    for row in rows:
+        lead = known[row[0]][0][0] + row[1]
+        if lead not in reducers:
+            reducers[lead] = row
+        elif len(known[row[0]][0]) < len(known[reducers[lead][0]][0]):
+            others.append(reducers[lead])
+            reducers[lead] = row
+        else:
+            others.append(row)
+    return reducers, others
 
 
 def _combinations(count: int, prime: int) -> Iterator[nmod_mat | None]:
@@ -137,6 +157,14 @@ class _Elimination:
 
     def reduced(self, combinations: nmod_mat | None) -> list[ModularPolynomial]:
         """What is left of the remaining rows, or of combinations of them, in reduced row echelon form."""
+        left = self.left(combinations)
+        if left is None:
+            return []
+        echelon, pivots = row_echelon(left)
+        return [read_row(echelon, row, self.columns, pivot) for row, pivot in enumerate(pivots)]
+
+    def left(self, combinations: nmod_mat | None) -> nmod_mat | None:
+        """What is left of the remaining rows, or of combinations of them, on ``columns``; None if that is nothing."""
         left = self.lower
         if combinations is not None:
             left = {number: combinations * block for number, block in left.items()}
@@ -149,8 +177,4 @@ class _Elimination:
                 if other > number:
                     product = factor * block
                     left[other] = left[other] - product if other in left else -product
-        last = len(self.upper)
-        if last not in left:
-            return []
-        echelon, pivots = row_echelon(left[last])
-        return [read_row(echelon, row, self.columns, pivot) for row, pivot in enumerate(pivots)]
+        return left.get(len(self.upper))

@@ -176,13 +176,13 @@ def _eliminations(
         elimination.knowing(known)
     traces: list[Trace | None] = []
     for _ in range(policy.attempts):
-        image = elimination.image(record=True)
-        trace = None if image.algebra is None else image.basis.trace
-        if trace in traces:
+        image = elimination.image()
+        basis = image.basis if image.algebra is None else image.basis.recorded()
+        if basis.trace in traces:
             return
-        traces.append(trace)
-        if trace is not None:
-            yield image.basis
+        traces.append(basis.trace)
+        if basis.trace is not None:
+            yield basis
 
 
 def _by_elimination(
