@@ -50,11 +50,11 @@ test-slow: $(VENV)/.installed-test
 mutations: $(VENV)/.installed-test
 	@$(BIN)/python tests/mutations.py $(MUTATIONS)
 
-# MUTANTS="--only krawczyk.py" for some; an interrupted run goes on where it was.
 # The journal in build/campaign knows what is done; CAMPAIGN=--again tries once more what failed.
 campaign: $(VENV)/.installed-test
 	@$(BIN)/python tests/campaign.py $(CAMPAIGN)
 
+# MUTANTS="--only krawczyk.py" for some, "--keep-hints" after a run of all; an interrupted run goes on where it was.
 checker-mutants: $(VENV)/.installed-test
 	@$(BIN)/python tests/checker_mutants.py $(MUTANTS)
 

@@ -12,14 +12,16 @@ import sys
 import time
 from array import array
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 from importlib.machinery import ModuleSpec
 from itertools import accumulate
 from math import inf
+from mmap import ACCESS_READ, mmap
 from pathlib import Path
-from types import CodeType, FrameType, FunctionType, ModuleType
+from tempfile import TemporaryFile
+from types import CodeType, FrameType, FunctionType, MappingProxyType, ModuleType
 from typing import Any
 from zipfile import ZipFile
 
@@ -36,16 +38,16 @@ MEMORY = 2 << 30
 """A mutant may take so many bytes more than the checker."""
 STATISTICS = Path("/proc/self/statm")
 """Where Linux tells how much that is."""
-PATIENCE = 1.0, 5.0
+PATIENCE = 0.4, 6.0
 """A mutant may take so many seconds of processor time, and so many times that of the checker, with a certificate."""
+FROM_OUTSIDE = frozenset((signal.SIGHUP, signal.SIGINT, signal.SIGKILL, signal.SIGTERM))
+"""Signals that are no fault of a mutant's."""
 
 HINTS = 5
 """So many certificates that told other mutants from the checker are tried first."""
 FIRST_LOOK = 1.0
 """Seconds of the checker's work: where so many certificates show nothing it is asked on which ones a mutant differs."""
 
-LARGE = 1 << 20
-"""Certificates of so many bytes are not kept in memory."""
 OFTEN = 500
 """Calls of a function that are traced for each certificate."""
 
@@ -65,24 +67,30 @@ class Example:
     archive: Path
     answer: Answer = ("", ())
     cost: float = 0.0
-    kept: bytes | None = None
 
     @property
     def data(self) -> bytes:
-        """The certificate; large ones are read when they are needed, so that memory is small and forks are quick."""
-        if self.kept is not None:
-            return self.kept
-        with ZipFile(self.archive) as archive:
-            return archive.read(self.name)
+        """The certificate."""
+        unpacked, places = _unpacked(self.archive)
+        return unpacked[places[self.name]]
+
+
+@cache
+def _unpacked(path: Path) -> tuple[mmap, dict[str, slice]]:
+    """What is in a ZIP file, in a file without a name, and where: a fork need not copy the memory it takes."""
+    places, start = {}, 0
+    with ZipFile(path) as archive, TemporaryFile(dir=path.parent) as stream:
+        for name in archive.namelist():
+            end = start + stream.write(archive.read(name))
+            places[name], start = slice(start, end), end
+        stream.flush()
+        return mmap(stream.fileno(), 0, access=ACCESS_READ), places
 
 
 def examples_in(path: Path) -> list[Example]:
     """The certificates in a ZIP file that ``checker_corpus`` wrote."""
     with ZipFile(path) as archive:
-        return [
-            Example(entry.filename, path, kept=archive.read(entry) if entry.file_size < LARGE else None)
-            for entry in archive.infolist()
-        ]
+        return [Example(name, path) for name in archive.namelist()]
 
 
 def check(checker: str) -> Callable[[bytes], Answer]:
@@ -146,7 +154,7 @@ def measured(checker: str, examples: Sequence[Example]) -> Reach:
         start = time.process_time()
         example.answer = answer(data)
         example.cost = time.process_time() - start
-        _forget(checker)
+        forget(checker)
         traces.append(_traced(partial(answer, data), files))
     seen: Counter[Any] = Counter()
     ranks = [0] * len(examples)
@@ -169,7 +177,7 @@ def _unlimited(checker: str) -> None:
     setattr(importlib.import_module(module), name, 1 << 60)
 
 
-def _forget(checker: str) -> None:
+def forget(checker: str) -> None:
     """Clear what is remembered from certificate to certificate: each one must reach what it needs."""
     for name in _module_names(checker):
         for value in vars(importlib.import_module(name)).values():
@@ -311,7 +319,10 @@ def outcome(mutant: Mutant, reach: Reach, first: Sequence[str] = (), most: float
     if how == "survives":
         return Outcome(None, f"{len(chosen)} of {len(reaching)} certificates")
     if not how:
-        how = "takes too long" if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGPROF else "crashes"
+        ended = os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
+        if ended in FROM_OUTSIDE:
+            raise RuntimeError(f"{mutant}: its process was ended by {signal.Signals(ended).name}, which says nothing")
+        how = "takes too long" if ended == signal.SIGPROF else "crashes"
     if number < 0:
         raise RuntimeError(f"{mutant}: {how} before a certificate is read")
     return Outcome(reach.examples[number].name, how)
@@ -361,23 +372,30 @@ def _difference(answer: Callable[[bytes], Answer], example: Example) -> str:
     return f"{example.answer[0]} became {found[0]}" if found[0] != example.answer[0] else "says something else"
 
 
+def ready(checker: str) -> None:
+    """Import a checker once, in this process, and keep what is in memory out of the way of forks."""
+    check(checker)
+    gc.collect()
+    gc.freeze()
+
+
 def outcomes(
-    chosen: Sequence[Mutant], reach: Reach, first: Callable[[Mutant], str | None] = lambda _: None, most: float = inf
+    chosen: Sequence[Mutant],
+    reach: Reach,
+    most: float = inf,
+    likely: Mapping[str, Sequence[str]] = MappingProxyType({}),
 ) -> Iterator[tuple[Mutant, Outcome]]:
     """What becomes of mutants: of most after a first look, of the others when it is known where they differ at all.
 
-    What told others of the same function, or of any, from the checker is tried first.
+    What told others of the same function, or of any, from the checker is tried first: ``likely`` has it by place.
     """
     for checker in {mutant.checker for mutant in chosen}:
-        check(checker)  # imported once, in this process
-    gc.collect()
-    gc.freeze()
-    hints: dict[str, list[str]] = defaultdict(list)
+        ready(checker)
+    hints = defaultdict(list, {place: [*names] for place, names in likely.items()})
     left = []
     for mutant in chosen:
-        known, names = first(mutant), (mutant.place, "")
-        likely = [*([] if known is None else [known]), *(name for place in names for name in hints[place])]
-        found = outcome(mutant, reach, likely, min(most, FIRST_LOOK))
+        names = mutant.place, ""
+        found = outcome(mutant, reach, [name for place in names for name in hints[place]], min(most, FIRST_LOOK))
         if found.killer is None and not found.is_complete and most > FIRST_LOOK:
             left.append(mutant)
             continue

@@ -1,12 +1,15 @@
 """Wrong versions of the checkers are made as they should, and found out by certificates that show the difference."""
 
 import ast
+import os
 from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
 from random import Random
+from signal import SIGTERM
 from zipfile import ZipFile
 
+import checker_mutants
 import checker_mutations
 import pytest
 from certificate_subjects import subject
@@ -15,6 +18,7 @@ from checker_mutants import equivalents
 from checker_mutations import CERTIFY, SOURCES, Mutant, mutants
 from forgeries import on_circle
 from limit_cases import cases
+from mutant_hints import read_hints, short, told_by_hints, write_hints
 from mutant_runs import Example, Reach, check, examples_in, measured, outcome
 
 from pkm_exact.certify.build import canonical_bytes, sealed
@@ -109,8 +113,8 @@ def reaches(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Reach]:
     content = [golden_bytes("3-rpr-triple"), *(canonical_bytes(sealed(content)) for content in contents), b"[]"]
     path = tmp_path_factory.mktemp("examples") / "corpus.zip"
     with ZipFile(path, "w") as archive:
-        for data in content:
-            archive.writestr(sha256(data).hexdigest(), data)
+        for number, data in enumerate(content):
+            archive.writestr(f"{sha256(data).hexdigest()[:16]} test_{number}", data)
     return {checker: measured(checker, examples_in(path)) for checker in SOURCES}
 
 
@@ -140,7 +144,8 @@ def test_a_difference_is_found(
     found = outcome(_named(checker, function, was, becomes), reaches[checker])
     assert not found.survives
     assert found.how.startswith(how)
-    again = outcome(_named(checker, function, was, becomes), reaches[checker], found.killer)
+    assert found.killer is not None
+    again = outcome(_named(checker, function, was, becomes), reaches[checker], [found.killer])
     assert again == found
 
 
@@ -151,12 +156,80 @@ def test_what_changes_no_verdict_survives(reaches: dict[str, Reach]) -> None:
     assert outcome(unreached, reaches["first"]).survives
 
 
+# Hints
+
+
+def _examples(reaches: dict[str, Reach], checker: str = "first") -> list[Example]:
+    """Certificates of which nothing is known yet."""
+    return [Example(example.name, example.archive) for example in reaches[checker].examples]
+
+
+COUNT = KILLED[0][:4]
+
+
+def test_a_hint_is_run_and_found_by_digest_or_test(reaches: dict[str, Reach]) -> None:
+    mutant = _named(*COUNT)
+    killer = outcome(mutant, reaches["first"]).killer
+    assert killer is not None
+    digest, _, test = killer.partition(" ")
+    for hint in (killer, f"{digest} another test", f"0123456789abcdef {test}"):
+        ((told, found),) = told_by_hints([mutant], _examples(reaches), {mutant.key: hint})
+        assert (told, found.killer, found.how) == (mutant, killer, "accepted became malformed")
+
+
+def test_what_told_another_of_the_same_function_is_asked(reaches: dict[str, Reach]) -> None:
+    mutant = _named(*COUNT)
+    other = next(m for m in mutants("first") if m.place == mutant.place and m.key != mutant.key)
+    killer = outcome(mutant, reaches["first"]).killer
+    assert killer is not None
+    ((_, found),) = told_by_hints([mutant], _examples(reaches), {other.key: killer})
+    assert found.killer == killer
+
+
+@pytest.mark.parametrize("hint", ["wrong", "unknown", "none"])
+def test_a_wrong_hint_leads_to_the_search_and_never_counts(
+    hint: str, reaches: dict[str, Reach], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    wrong = next(example.name for example in reaches["first"].examples if example.data == b"[]")
+    mutant = _named(*COUNT)
+    unseen = next(m for m in mutants("first") if m.function == "read_tolerances")
+    named = {"wrong": wrong, "unknown": "0123456789abcdef no such test"}
+    hints = dict.fromkeys((mutant, unseen), named[hint]) if hint in named else {}
+    monkeypatch.setattr(checker_mutants, "read_hints", lambda: {short(m): name for m, name in hints.items()})
+    monkeypatch.setattr(checker_mutants, "_reach", lambda *_: reaches["first"])
+    monkeypatch.setattr(checker_mutants, "equivalents", lambda _: ({}, []))
+    monkeypatch.setattr(checker_mutants, "mutants", lambda _: [mutant, unseen])
+    monkeypatch.setattr(checker_mutants, "BUILD", tmp_path)
+    assert list(told_by_hints([mutant, unseen], _examples(reaches), {m.key: hints[m] for m in hints})) == []
+    found = dict(checker_mutants.run("first", _examples(reaches), "", float("inf")))
+    assert found[mutant].how == "accepted became malformed"
+    assert found[mutant].killer not in (None, wrong)
+    assert found[unseen].survives
+
+
+def test_hints_are_kept(tmp_path: Path) -> None:
+    hints = {f"{number:08x}": f"{number % 3:016x} test_x[a b]" for number in range(40)}
+    path = tmp_path / "hints.txt"
+    assert read_hints(path) == {}
+    write_hints(hints, path)
+    assert read_hints(path) == hints
+    assert max(map(len, path.read_text().splitlines())) < 120
+
+
 def test_an_endless_loop_is_found_out(reaches: dict[str, Reach], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("mutant_runs.PATIENCE", (0.2, 1.0))
     mutant = next(m for m in mutants("plain") if m.function == "real_roots")
     monkeypatch.setattr(Mutant, "code", lambda _: compile(ENDLESS, "endless", "exec"))
     found = outcome(mutant, reaches["plain"])
     assert (found.how, found.survives) == ("takes too long", False)
+
+
+def test_a_process_that_is_ended_from_outside_says_nothing(
+    reaches: dict[str, Reach], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Mutant, "code", lambda _: os.kill(os.getpid(), SIGTERM))
+    with pytest.raises(RuntimeError, match="SIGTERM"):
+        outcome(_named(*COUNT), reaches["first"])
 
 
 ENDLESS = "def real_roots(h0):\n    while True:\n        pass"
