@@ -5,11 +5,17 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
 import pytest
+from tolerance_tools import exact_robot
 
 from pkm_exact.backends.msolve_program import find_msolve
+from pkm_exact.engine import solve
+from pkm_exact.geometry.reader import read_jointed_robot
+from pkm_exact.geometry.tolerances import Tolerances
 
 SCRIPTS = Path(__file__).parent.parent / "benchmarks"
 
@@ -114,13 +120,21 @@ def test_statics_are_measured(tmp_path: Path) -> None:
 
 
 def test_tolerances_are_measured(tmp_path: Path) -> None:
-    """What is proved ends before the first singular robot that is seen."""
-    model = str(Path(__file__).parent.parent / "models" / "3-rpr-merlet-p.toml")
-    done = _run("bench_tolerances.py", model, "--rays", "20", "--json", str(tmp_path / "rows.json"))
+    """What is proved ends before the first robot that is seen to have lost the pose, and there exact poses vanish."""
+    path = SCRIPTS.parent / "models" / "3-rpr-merlet-p.toml"
+    done = _run("bench_tolerances.py", str(path), "--rays", "20", "--poses", "2", "--json", str(tmp_path / "rows.json"))
     assert done.returncode == 0, done.stderr
     rows = json.loads((tmp_path / "rows.json").read_text())
-    assert [row["pose"] for row in rows] == [1, 2]
-    assert all(0 < row["proved"] < row["seen"] < 1 for row in rows)
+    assert [row["pose"] for row in rows] == [2]
+    robot = read_jointed_robot(path, "this test")
+    problem = robot.problem(robot.configuration())
+    for row in rows:
+        assert 0 < row["box"] < row["proved"] < row["directed"] <= row["random"] < 1
+        tolerance = Fraction(row["directed"]).limit_denominator(10**5)
+        errors = np.array(row["corner"], dtype=float).reshape(1, 3, 7)
+        for factor, count in ((Fraction(97, 100), 2), (Fraction(103, 100), 0)):
+            parts = errors[..., :3], errors[..., 3:6], errors[..., 6]
+            assert len(solve(exact_robot(problem, Tolerances.uniform(factor * tolerance), parts)).poses) == count
 
 
 @pytest.mark.slow

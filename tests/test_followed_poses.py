@@ -6,12 +6,14 @@ import json
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from flint import arb
+from numpy.typing import NDArray
 from samples import MODELS, solved
 from tolerance_tools import errors_of, poses_near, robots_with
 
@@ -21,13 +23,14 @@ from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.interactive.display import tolerance_html
 from pkm_exact.numeric.branch_bounds import branch_bounds
 from pkm_exact.numeric.branch_proof import faces, joins, outer_faces, proved_cells
-from pkm_exact.numeric.branch_regularity import CellErrors, is_definite
-from pkm_exact.numeric.branch_robot import BranchCell, BranchRobot, ProvedBranch, boxes_of
+from pkm_exact.numeric.branch_regularity import CellErrors, LegErrors, is_definite
+from pkm_exact.numeric.branch_robot import Box, BranchCell, BranchRobot, ProvedBranch, boxes_of
 from pkm_exact.numeric.branch_search import BranchSearch
 from pkm_exact.numeric.cell_proof import CellProof, places
 from pkm_exact.numeric.centred import centred_frames, centred_robot
 from pkm_exact.numeric.data_errors import DataErrors, data_errors
 from pkm_exact.numeric.enclosed_arrays import Enclosed, are_positive, exact, lengths, product
+from pkm_exact.numeric.followed_pose import grid_beyond
 from pkm_exact.numeric.linearisation import Linearisation
 from pkm_exact.numeric.nominal import certified_pose
 from pkm_exact.numeric.tolerance import tolerance_boxes
@@ -128,6 +131,33 @@ def test_a_hexapod_is_followed_farther_than_boxes_reach() -> None:
     assert box.fraction < Fraction(1, 3)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("pose", [1, 2])
+def test_what_is_followed_for_some_tolerances_is_followed_for_less(pose: int) -> None:
+    """The limit is the same point of the grid, from wherever it is looked for; anything below it is followed whole."""
+    solution = solved(NAME)
+
+    def followed(tolerance: Fraction) -> Fraction:
+        (box,) = tolerance_boxes(solution.problem, Tolerances.uniform(tolerance), solution, asked=[pose]).boxes
+        assert box.followed is not None
+        return box.followed.fraction * tolerance
+
+    limit = followed(Fraction(6, 100))
+    assert Fraction(4, 100) < limit == followed(Fraction(7, 100))
+    for part in (Fraction(999, 1000), Fraction(92, 100), Fraction(7, 10)):
+        assert followed(limit * part) == limit * part
+
+
+def test_points_of_the_grid_do_not_depend_on_what_is_asked() -> None:
+    every = set(grid_beyond(Fraction(1, 1000), Fraction(1)))
+    for tolerance in (Fraction(1, 7), Fraction(3), Fraction(10**9, 7)):
+        for fraction in (Fraction(1, 500), Fraction(1, 300), Fraction(1, 1000)):
+            points = grid_beyond(fraction / tolerance, 1 / tolerance)
+            assert points[0] > fraction / tolerance
+            assert {point * tolerance for point in points[: len(every) // 2]} <= every
+            assert all(1.08 < high / low < 1.1 for low, high in pairwise(points))
+
+
 def test_nothing_is_followed_through_a_singularity() -> None:
     # Random robots off by 0.06 are singular near the first pose.
     solution = solved(NAME)
@@ -182,6 +212,107 @@ def test_jacobians_of_sampled_robots_are_definite() -> None:
                     jacobian = metric @ (np.eye(len(metric)) + factor * (slopes + rows))
                     found.append(np.linalg.eigvalsh(jacobian + jacobian.T)[0] > 0)
             assert all(found) == expected
+
+
+def _cell(place: int) -> CellProof:
+    family, branch = _branch(1)
+    return CellProof(family, branch.cells[place], boxes_of(branch.reach, branch.cuts)[0][place])
+
+
+def _part(box: Box, leg: int) -> Box:
+    """The upper end of a leg, and halves of the others."""
+    low = [(low, (low + high) // 2) for low, high in box]
+    return (*low[:leg], (box[leg][1], box[leg][1]), *low[leg + 1 :])
+
+
+def _poses(cell: CellProof, s: NDArray[np.float64]) -> NDArray[np.float64]:
+    """y of the poses for some s, by Newton's method in floating point."""
+    family, basis = cell.family, cell.family.basis.mid
+    y = -(s - cell.middle.mid) @ cell.on_legs.mid.T
+    shift = np.zeros((len(s), len(family.quadrics.mid)))
+    shift[:, family.first :] = s
+    for _ in range(8):
+        x = cell.centre.mid + y @ basis.T
+        slopes = np.einsum("iab,sb->sia", family.quadrics.mid, x)
+        values = np.einsum("sia,sa->si", slopes, x) / 2 + shift
+        y = y - np.linalg.solve(slopes @ basis, values[..., None])[..., 0]
+    assert np.abs(values).max() < 1e-13
+    return y
+
+
+def _is_near(cell: CellProof, box: Box) -> tuple[float, float]:
+    """How far sampled poses of a part are from where they are proved to be, and how far they may be."""
+    random = np.random.default_rng(6)
+    centre, shifts, away = cell.poses_of(box)
+    t = random.uniform(-1, 1, (400, 3))
+    t[::2] = np.sign(t[::2])
+    middle, half = (value.mid for value in places(box))
+    x = cell.centre.mid + _poses(cell, middle + t * half) @ cell.family.basis.mid.T
+    there = np.linalg.lstsq(cell.family.basis.mid, (x - centre.mid).T, rcond=None)[0].T
+    return float(np.linalg.norm(there + t @ shifts.mid.T, axis=1).max()), away
+
+
+@pytest.mark.parametrize("place", [0, 1])
+def test_poses_of_a_part_of_a_cell_are_where_they_are_proved(place: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Much nearer to a parallelotope than those of the cell; farther if centre and shifts are not good, but proved."""
+    inverse = np.linalg.inv
+    with working_precision(256):
+        family, branch = _branch(1)
+        box = boxes_of(branch.reach, branch.cuts)[0][place]
+        cell = CellProof(family, branch.cells[place], box)
+        assert cell.distance > 0
+        for leg in range(3):
+            off, away = _is_near(cell, _part(box, leg))
+            assert off <= away < min(cell.distance / 2, 12 * off)
+        whole = cell.poses_of(tuple((high + 2**46, high + 2**46) for _, high in box))
+        assert whole[2] == cell.distance
+        with monkeypatch.context() as patched:
+            patched.setattr("pkm_exact.numeric.cell_proof.NEWTON", 0)
+            ends = tuple((high, high) for _, high in box)
+            off, away = _is_near(cell, ends)
+            assert 1e-6 < off <= away
+        with monkeypatch.context() as patched:
+            patched.setattr(np.linalg, "inv", lambda matrix: 1.05 * inverse(matrix))
+            off, away = _is_near(cell, _part(box, 0))
+            assert off <= away < 12 * off
+
+
+@pytest.mark.parametrize("place", [0, 1])
+def test_errors_of_legs_are_bounded_closely(place: int) -> None:
+    """Sampled errors at sampled poses of a cell, and as far from them as is allowed."""
+    random = np.random.default_rng(7)
+    with working_precision(256):
+        cell = _cell(place)
+        family = cell.family
+        for away in (0.0, 0.01):
+            greatest = LegErrors(family, cell.centre, cell.shifts, away).greatest
+            t = random.uniform(-1, 1, (2000, 3))
+            t[::2] = np.sign(t[::2])
+            beside = random.normal(size=(2000, len(cell.shifts.mid)))
+            y = t @ cell.shifts.mid.T + away * beside / np.linalg.norm(beside, axis=1)[:, None]
+            x = cell.centre.mid + y @ family.basis.mid.T
+            errors = np.abs(np.einsum("leab,sa,sb->sle", family.single.mid, x, x) / 2).sum(axis=2).max(axis=0)
+            rest = family.rest(product("kab,sa,sb->ks", family.motions, exact(x), exact(x)).half()).max()
+            assert (errors <= greatest).all()
+            assert (greatest < 1.02 * errors + rest).all() or away
+
+
+def test_images_of_a_parallelotope_are_bounded_closely() -> None:
+    random = np.random.default_rng(8)
+    with working_precision(256):
+        cell = _cell(0)
+        t = random.uniform(-1, 1, (4000, 3))
+        t[::2] = np.sign(t[::2])
+        for bent in (0.0, 1.0):
+            value, pairs = random.normal(size=3), bent * random.normal(size=(3, 3, 3))
+            found = np.linalg.norm(value + np.einsum("aij,vi,vj->va", pairs, t, t) / 2, axis=1).max()
+            bound = cell.image(exact(value), exact(pairs))
+            assert found <= bound < 1.6 * found
+        # Squares alone: from value to value + 3 / 2, all on a line.
+        squares = np.zeros((3, 3, 3))
+        squares[0] = np.eye(3)
+        for start, greatest in ((1.0, 2.5), (-0.75, 0.75), (-2.0, 2.0)):
+            assert greatest <= cell.image(exact([start, 0.0, 0.0]), exact(squares)) < 1.001 * greatest
 
 
 def test_cells_that_hold_other_poses_are_not_joined() -> None:

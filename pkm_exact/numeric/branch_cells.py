@@ -20,6 +20,8 @@ Real = NDArray[np.float64]
 SLACK: Final = 0.94
 """What is proved leaves a part of 1 to what doubles do not see."""
 NEWTON: Final = 12
+NEAR: Final = 0.3
+"""How far a centre may be moved, beside where the Jacobian may be singular."""
 WIDER: Final = 1.5
 """The box of s beside the errors of the equations at the nominal pose, at first."""
 
@@ -39,7 +41,7 @@ class BranchFamily:
     lengths : legs
     errors : three numbers
         Tolerances of base joints, platform joints, lengths.
-    wider : float
+    wider : legs
         The box of s beside the errors of the equations at the nominal pose, in times ``WIDER``.
     axes : int
         Along which joints can err.
@@ -53,7 +55,7 @@ class BranchFamily:
     platform: Real
     lengths: Real
     errors: tuple[float, float, float]
-    wider: float
+    wider: Real
     axes: int
 
     @property
@@ -117,7 +119,7 @@ class BranchFamily:
         return np.array(found)
 
 
-def branch_family(near: Linearisation, errors: DataErrors, wider: float = 1.0) -> BranchFamily:
+def branch_family(near: Linearisation, errors: DataErrors, wider: Real | None = None) -> BranchFamily:
     """The family around a real pose."""
     robot = near.robot
     motion = robot.problem.motion
@@ -137,7 +139,7 @@ def branch_family(near: Linearisation, errors: DataErrors, wider: float = 1.0) -
         np.array([[float(x.mid()) for x in joint] for joint in robot.legs.platform]),
         np.array([float(x.mid()) for x in robot.legs.lengths]),
         (float(errors.base.upper()), float(errors.platform.upper()), float(errors.lengths.upper())),
-        wider,
+        np.ones(len(robot.legs.lengths)) if wider is None else wider,
         2 if motion.is_planar else 3,
     )
 
@@ -172,13 +174,23 @@ class Cell:
         return np.asarray(family.changes(family.values(self.centre[:, None] - moves @ corners.T)).max(axis=1))
 
     def shape(self, basis: Real) -> CellShape:
-        """The second derivatives in the coordinates of a basis."""
-        family = self.family
+        """The second derivatives in the coordinates of a basis, at a centre from which poses differ least."""
+        family, bends = self.family, basis.T @ self.family.forms @ basis
         inverse: Real = np.linalg.inv(self.slope @ basis).astype(np.float64)
-        bend = np.tensordot(inverse, basis.T @ family.forms @ basis, 1)
-        flat = bend.reshape(len(bend), -1)
-        size = float(np.sqrt(np.linalg.eigvalsh(flat @ flat.T)[-1]))
-        return CellShape(family.vertices, inverse[:, family.first :], bend, size)
+        bend = np.tensordot(inverse, bends, 1)
+        shifts = inverse[:, family.first :] * self.half
+        moved = -np.einsum("pqr,qi,ri->p", bend, shifts, shifts) / 4
+        centre = self.centre
+        if np.linalg.norm(moved) * _norm(bend) < NEAR:
+            centre = centre + basis @ moved
+            inverse = np.linalg.inv(family.forms @ centre @ basis)
+            bend = np.tensordot(inverse, bends, 1)
+        return CellShape(family.vertices, centre, inverse[:, family.first :], bend, _norm(bend))
+
+
+def _norm(bend: Real) -> float:
+    flat = bend.reshape(len(bend), -1)
+    return float(np.sqrt(np.linalg.eigvalsh(flat @ flat.T)[-1]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,6 +200,7 @@ class CellShape:
     Attributes
     ----------
     vertices : corners x legs
+    centre : n
     on_legs : (n - 1) x legs
         What s of 1 adds to y.
     bend : (n - 1) x (n - 1) x (n - 1)
@@ -197,6 +210,7 @@ class CellShape:
     """
 
     vertices: Real
+    centre: Real
     on_legs: Real
     bend: Real
     size: float
@@ -208,8 +222,10 @@ class CellShape:
         at = np.tensordot(self.vertices, turns, (1, 1))
         slopes = np.abs(np.linalg.eigvalsh((at + np.swapaxes(at, -1, -2)) / 2)).max(axis=(0, 2))
         pairs = np.einsum("kipq,kqj->kpij", turns, shifts)
-        images = self.vertices @ pairs @ self.vertices.T
-        residuals = np.linalg.norm(images, axis=1).max(axis=(1, 2)) / 2
+        first, second = np.triu_indices(halves.shape[1], 1)
+        crossed = pairs[..., first, second] @ (self.vertices[:, first] * self.vertices[:, second]).T
+        squares = np.diagonal(pairs, axis1=2, axis2=3) @ np.concatenate([self.vertices, -self.vertices]).T / 4
+        residuals = np.linalg.norm(crossed[..., None] + squares[:, :, None], axis=1).max(axis=(1, 2))
         return [CellBounds(float(slope), self.size, float(off)) for slope, off in zip(slopes, residuals, strict=True)]
 
 

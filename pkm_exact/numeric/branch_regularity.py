@@ -18,9 +18,9 @@ import numpy as np
 
 from pkm_exact.numeric.branch_metric import CornerMatrices
 from pkm_exact.numeric.branch_robot import CLAIM_BITS, MARGIN, PLACE_BITS, WEIGHT_BITS, Box, BranchRobot, signs_of
-from pkm_exact.numeric.cell_proof import CellProof, places
+from pkm_exact.numeric.cell_proof import CellProof
 from pkm_exact.numeric.centred import NORM
-from pkm_exact.numeric.enclosed_arrays import Enclosed, Real, above, are_positive, exact, lengths, product
+from pkm_exact.numeric.enclosed_arrays import Enclosed, Real, above, are_positive, exact, join, lengths, product
 
 
 class LegErrors:
@@ -64,16 +64,31 @@ class LegErrors:
 
     @cached_property
     def greatest(self) -> Real:
-        """The greatest change of each leg's equation."""
-        family, bent = self.family, self.family.bent_cubes
+        """The greatest change of each leg's equation.
+
+        At y = sum of t_i times shift i, |t_i| <= 1, what errors at a corner of their cube add is c + sum of b_i t_i +
+        sum of q_ij t_i t_j. But for the squares, from 0 to 1, that is linear in each t_i, so greatest at a corner.
+        """
+        family, bent, shifts = self.family, self.family.bent_cubes, self.shifts
         rest = family.rest(product("ka,a->k", self.motions, self.surroundings).half())
         signs = signs_of(family.single.mid.shape[1])
-        values = product("ve,lea,a->vl", signs, self.rows, self.centre).most / 2
         line = product("ve,lep->vlp", signs, self.line)
-        away = product("vlpq,qi->vlpi", bent, self.shifts).most.sum(axis=3) + self.away * lengths(bent)
-        far = above(np.sqrt((self.shifts.most.sum(axis=1) ** 2).sum())) + self.away
-        reach = values + product("vlp,pi->vli", line, self.shifts).most.sum(axis=2) + self.away * lengths(line)
-        reach = reach + far * np.sqrt((away**2).sum(axis=2)) / 2
+        turned = product("vlpq,qi->vlpi", bent, shifts)
+        pairs = product("vlpi,pj->vlij", turned, shifts).half()
+        first, second = np.triu_indices(family.legs, 1)
+        value = product("ve,lea,a->vl", signs, self.rows, self.centre).half()[..., None]
+        mixed = pairs[..., first, second] + pairs[..., second, first]
+        terms = join(value, product("vlp,pi->vli", line, shifts), mixed, axis=2)
+        corners = signs_of(family.legs).mid
+        corners = np.concatenate([corners, -corners])
+        places = np.concatenate([np.ones((len(corners), 1)), corners, corners[:, first] * corners[:, second]], axis=1)
+        at = product("vlk,wk->vlw", terms, exact(places))
+        squares = pairs[..., range(family.legs), range(family.legs)]
+        upward = np.maximum(squares.mid + squares.rad, 0).sum(axis=2)
+        downward = np.maximum(squares.rad - squares.mid, 0).sum(axis=2)
+        reach = np.maximum((at.mid + at.rad).max(axis=2) + upward, (at.rad - at.mid).max(axis=2) + downward)
+        beside = np.sqrt(((turned.most.sum(axis=3) + self.away * lengths(bent)) ** 2).sum(axis=2))
+        reach = reach + self.away * (lengths(line) + beside)
         return np.asarray((reach.max(axis=0) + rest) * (1 + 2.0**-30))
 
 
@@ -86,10 +101,7 @@ class CellErrors:
 
     def on_part(self, box: Box) -> Real:
         """The greatest change of each leg's equation where s is in a part of the cell."""
-        cell, basis = self.cell, self.family.basis
-        middle, half = places(box)
-        centre = cell.centre + product("ap,p->a", basis, cell.start(middle))
-        return LegErrors(self.family, centre, product("ai,i->ai", cell.on_legs, half), self.away).greatest
+        return LegErrors(self.family, *self.cell.poses_of(box)).greatest
 
     def leaves(self, box: Box) -> bool:
         """Whether no robot has its s in a part of the cell."""

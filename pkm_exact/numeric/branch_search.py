@@ -24,8 +24,11 @@ from pkm_exact.numeric.linearisation import Linearisation
 LARGEST: Final = 1e6
 """More than the entries and the condition number of a basis."""
 METRIC_STEPS: Final = 150
-PASSES: Final = 4
+PASSES: Final = 6
 """Boxes of s that are tried, each wider."""
+NEARLY: Final = 0.985
+ROOM: Final = 1.03
+"""Where more than this part of the room to an end is filled, it is made wider, by more than was found."""
 APART: Final = 1.06
 """By how much s must exceed errors of a leg where it is left out, at first."""
 
@@ -70,18 +73,18 @@ class BranchSearch:
         if self.rows is None:
             return None
         robot = BranchRobot(self.near, errors, self.rows)
-        wider = 1.0
+        wider = np.ones((len(self.near.robot.legs.lengths), 2))
         for _ in range(PASSES):
-            family = branch_family(self.near, errors, wider)
+            family = branch_family(self.near, errors, wider.max(axis=1))
             if not family.is_bounded:
                 return None
             try:
                 tree = TreeSearch(family, robot, self._basis(family), self.metric, APART * wider).found()
             except np.linalg.LinAlgError:
                 return None
-            if tree is None or tree.filled < FULL:
+            if tree is None or (tree.filled < FULL).all():
                 return None if tree is None else (robot, tree)
-            wider *= max(tree.filled, 1) * 1.02
+            wider *= np.where(tree.filled < NEARLY, 1, np.maximum(tree.filled, 1) * ROOM)
         return None
 
     def proved(self, found: tuple[BranchRobot, BranchTree] | None) -> list[CellProof] | None:

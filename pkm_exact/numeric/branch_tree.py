@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from pkm_exact.numeric.branch_cells import SLACK, BranchFamily, Cell, CellBounds, Real
+from pkm_exact.numeric.branch_cells import SLACK, BranchFamily, Cell, CellBounds, CellShape, Real
 from pkm_exact.numeric.branch_metric import Metric, best_metric
 from pkm_exact.numeric.branch_regularity import CellErrors
 from pkm_exact.numeric.branch_robot import (
@@ -65,14 +65,14 @@ class BranchTree:
     reach : tuple of int
     cuts, cells
         As in ``branch_robot.ProvedBranch``.
-    filled : float
-        Greatest error of a leg at an end beyond which there should be no robots, of 1.
+    filled : legs x 2
+        Greatest error of a leg at its lower and upper ends beyond which there should be no robots, of 1.
     """
 
     reach: tuple[int, ...]
     cuts: tuple[Cut, ...]
     cells: tuple[BranchCell, ...]
-    filled: float
+    filled: Real
 
 
 class TreeSearch:
@@ -85,15 +85,15 @@ class TreeSearch:
     basis : n x (n - 1)
     metric : (n - 1) x (n - 1)
         To begin with in each cell.
-    apart : float
-        By how much s must exceed errors of a leg where it is left out.
+    apart : legs x 2
+        By how much s must exceed errors of a leg where it is left out, at lower and upper ends.
     """
 
-    def __init__(self, family: BranchFamily, robot: BranchRobot, basis: Real, metric: Real, apart: float) -> None:
+    def __init__(self, family: BranchFamily, robot: BranchRobot, basis: Real, metric: Real, apart: Real) -> None:
         self.family, self.robot, self.basis, self.metric, self.apart = family, robot, basis, metric, apart
         self.cuts: list[Cut] = []
         self.cells: list[BranchCell] = []
-        self.filled = 0.0
+        self.filled = np.zeros_like(apart)
 
     def found(self) -> BranchTree | None:
         """The tree; None if it has too many cells, or one without a pose."""
@@ -132,8 +132,9 @@ class TreeSearch:
                     return None
         legs = np.eye(len(node.box))
         halves = cell.half / (1 + np.concatenate([0 * legs[:1], legs]))
-        bounds, *parts = cell.shape(self.basis).bounds(halves)
-        if bounds.excess < SLACK and self._is_cell(node, cell, bounds):
+        shape = cell.shape(self.basis)
+        bounds, *parts = shape.bounds(halves)
+        if bounds.excess < SLACK and self._is_cell(node, shape, bounds):
             return todo
         leg = int(np.argmin([part.excess for part in parts]))
         place = (node.box[leg][0] + node.box[leg][1]) // 2
@@ -144,28 +145,29 @@ class TreeSearch:
 
     def _trimmed(self, node: Node, cell: Cell, todo: list[tuple[Node | None, float]]) -> Node | None:
         """What is left where robots may have s; None if nothing is."""
-        most = [int(np.ceil(bound)) for bound in self.apart * cell.errors(self.basis) * 2**PLACE_BITS]
-        for leg, bound in enumerate(most):
+        greatest = self.apart * cell.errors(self.basis)[:, None] * 2**PLACE_BITS
+        most = [(int(below), int(above)) for below, above in np.ceil(greatest)]
+        for leg, (below, above) in enumerate(most):
             low, high = node.box[leg]
-            if low >= bound or -high >= bound:
+            if low >= above or -high >= below:
                 return None
-        for leg, bound in enumerate(most):
+        for leg, (below, above) in enumerate(most):
             low, high = node.box[leg]
             worth = TRIMMED * (high - low)
-            if high - bound > worth:
-                self.cuts.append((leg + 1, bound))
+            if high - above > worth:
+                self.cuts.append((leg + 1, above))
                 todo.append((None, 0.0))
-                node = node.cut(leg, bound, 0)
+                node = node.cut(leg, above, 0)
                 node = replace(node, ends=node.ends | {(leg, 1)})
-            if -bound - low > worth:
-                self.cuts += [(leg + 1, -bound), LEFT_OUT]
-                node = node.cut(leg, -bound, 1)
+            if -below - low > worth:
+                self.cuts += [(leg + 1, -below), LEFT_OUT]
+                node = node.cut(leg, -below, 1)
                 node = replace(node, ends=node.ends | {(leg, 0)})
         return node
 
-    def _is_cell(self, node: Node, cell: Cell, bounds: CellBounds) -> bool:
+    def _is_cell(self, node: Node, shape: CellShape, bounds: CellBounds) -> bool:
         """Whether a metric is found in which the Jacobians are definite."""
-        proof = _proof(self.robot, node.box, cell, bounds)
+        proof = _proof(self.robot, node.box, shape.centre[self.family.kept], bounds)
         errors = CellErrors(proof)
         corners = errors.in_doubles()
         for steps in METRIC_STEPS:
@@ -185,22 +187,25 @@ class TreeSearch:
             if filled >= FULL:
                 part = (*node.box[:leg], (end, end), *node.box[leg + 1 :])
                 filled = errors.on_part(part)[leg] * 2**PLACE_BITS / abs(end)
-            self.filled = max(self.filled, float(filled))
+            self.filled[leg, side] = max(self.filled[leg, side], filled)
 
 
 def first_metric(robot: BranchRobot, root: Cell, basis: Real, steps: int) -> Real:
     """A metric for one cell with all errors, which should be small."""
-    whole = root.shape(basis).bounds(root.half[None])[0]
+    shape = root.shape(basis)
+    whole = shape.bounds(root.half[None])[0]
     start = np.eye(basis.shape[1])
     if not whole.radius:
         return start
-    return best_metric(CellErrors(_proof(robot, root.family.box, root, whole)).in_doubles(), start, steps).matrix
+    return best_metric(
+        CellErrors(_proof(robot, root.family.box, shape.centre[root.family.kept], whole)).in_doubles(), start, steps
+    ).matrix
 
 
-def _proof(robot: BranchRobot, box: Box, cell: Cell, bounds: CellBounds) -> CellProof:
+def _proof(robot: BranchRobot, box: Box, kept: Real, bounds: CellBounds) -> CellProof:
     """The proof of a cell, without its metric."""
     unit = 2**PLACE_BITS
-    centre = tuple(int(v) for v in np.rint(cell.centre[cell.family.kept] * unit))
+    centre = tuple(int(v) for v in np.rint(kept * unit))
     written = BranchCell(centre, int(bounds.radius * unit), claimed(bounds.slope), claimed(bounds.bend), (), ())
     return CellProof(robot, written, box)
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cached_property
+from typing import Final
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from pkm_exact.balls import ball
 from pkm_exact.numeric.branch_robot import CLAIM_BITS, MARGIN, PLACE_BITS, Box, BranchCell, BranchRobot, signs_of
 from pkm_exact.numeric.enclosed_arrays import (
     Enclosed,
+    Real,
     above,
     are_positive,
     enclosed,
@@ -29,6 +31,13 @@ from pkm_exact.numeric.enclosed_arrays import (
     lengths,
     product,
 )
+
+NEWTON: Final = 3
+
+
+def _span(shifts: Enclosed) -> float:
+    """At least the length of every sum of these columns, each at most once, with any signs."""
+    return above(np.sqrt((shifts.most.sum(axis=1) ** 2).sum()))
 
 
 def places(box: Box) -> tuple[Enclosed, Enclosed]:
@@ -77,9 +86,22 @@ class CellProof:
     def residual(self) -> float:
         """At least the greatest |f(z)|."""
         pairs = product("iaq,qj->aij", self.turned, self.shifts)
-        images = product("vi,aij,uj->vua", self.corners, pairs, self.corners)
-        at_centre = lengths(self.value(self.centre, self.middle))
-        return above(above(lengths(images)) / 2 + self.off * self.farthest + at_centre)
+        return above(self.image(self.value(self.centre, self.middle), pairs) + self.off * self.farthest)
+
+    def image(self, value: Enclosed, pairs: Enclosed) -> float:
+        """At least the length of a vector plus a half of the sum of t_i t_j times the pairs' vectors, all |t_i| <= 1.
+
+        With the squares of the t_i as numbers of their own, from 0 to 1, it is linear in each: greatest at a corner.
+        """
+        legs = range(self.family.legs)
+        squares = pairs[:, legs, legs].half().half()
+        first, second = np.triu_indices(len(legs), 1)
+        mixed = (pairs[:, first, second] + pairs[:, second, first]).half()
+        corners = self.corners.mid
+        crossed = product("ak,vk->va", mixed, exact(corners[:, first] * corners[:, second]))
+        turned = product("ai,ui->ua", squares, join(self.corners, -self.corners))
+        turned = turned + (value + product("ai,i->a", squares, exact(np.ones(len(legs)))))[None]
+        return above(lengths(crossed[:, None] + turned[None]))
 
     @cached_property
     def free(self) -> float:
@@ -109,6 +131,41 @@ class CellProof:
     def start(self, s: Enclosed) -> Enclosed:
         """z of s."""
         return -product("ai,i->a", self.on_legs, s - self.middle)
+
+    def poses_of(self, box: Box) -> tuple[Enclosed, Enclosed, float]:
+        """Of a part of the cell: a centre and shifts for each leg; poses are so far from that parallelotope at most.
+
+        With V near the inverse of F'(n) A at the centre n = m + A u let z' = u - V (s - b), b the part's middle:
+        f(z') = W (F(n) + b) + (W - W F'(n) A V) (s - b) + B(V (s - b)) V (s - b) / 2. If z' is in X, the pose is at
+        most |f(z')| / mu from it.
+        """
+        family = self.family
+        middle, half = places(box)
+        start = exact(self._approximate(middle))
+        centre = self.centre + product("ap,p->a", family.basis, start)
+        jacobian = product("iab,a,bq->iq", family.quadrics, centre, family.basis)
+        on_legs = exact(np.linalg.inv(jacobian.mid)[:, family.first :])
+        shifts = product("ai,i->ai", on_legs, half)
+        apart = above(lengths(start - self.start(middle))) + _span(product("ai,i->ai", self.on_legs - on_legs, half))
+        if not above(apart) < (1 - MARGIN) * self.radius:
+            middle = self.centre + product("ap,p->a", family.basis, self.start(middle))
+            return middle, product("ai,i->ai", self.on_legs, half), self.distance
+        left = self.on_legs - product("ai,iq,qj->aj", self.inverse, jacobian, on_legs)
+        pairs = product("apj,pi->aij", product("apq,qj->apj", self.bends, shifts), shifts)
+        residual = self.image(self.value(centre, middle), pairs) + _span(product("ai,i->ai", left, half))
+        return centre, shifts, above(above(residual) / self.free)
+
+    def _approximate(self, s: Enclosed) -> Real:
+        """About the pose at s, by Newton's method."""
+        family, basis = self.family, self.family.basis.mid
+        shift = np.zeros(len(family.quadrics.mid))
+        shift[family.first :] = s.mid
+        y = self.start(s).mid
+        for _ in range(NEWTON):
+            slope = family.quadrics.mid @ (self.centre.mid + basis @ y)
+            value = slope @ (self.centre.mid + basis @ y) / 2 + shift
+            y = y - np.linalg.solve(slope @ basis, value)
+        return np.asarray(y)
 
     def holds(self, x: Enclosed, s: Enclosed, off: float) -> bool:
         """Whether all within a distance ``off`` from x, in the coordinates y, is in the ball of the cell for s.

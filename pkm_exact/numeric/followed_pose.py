@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import cache
-from typing import Final
+from itertools import islice
+from typing import Final, TypeAlias
 
 from flint import arb
 
@@ -14,15 +14,18 @@ from pkm_exact.numeric.branch_bounds import branch_bounds
 from pkm_exact.numeric.branch_robot import BranchRobot
 from pkm_exact.numeric.branch_search import BranchSearch
 from pkm_exact.numeric.branch_tree import BranchTree
-from pkm_exact.numeric.data_errors import DataErrors, data_errors
+from pkm_exact.numeric.data_errors import data_errors
 from pkm_exact.numeric.linearisation import Linearisation
 from pkm_exact.numeric.tolerance_result import FollowedPose
 
-STEPS: Final = 16
-"""Fractions that are tried beyond that of the box: each greater by ``RATIO``."""
-RATIO: Final = Fraction(6, 5)
+Found: TypeAlias = tuple[BranchRobot, BranchTree]
+
+STEPS: Final = 36
+"""Tolerances that are tried beyond that of the box: they are on a grid of the robot's, eight to a factor of 2."""
+EIGHTHS: Final = (1000, 1091, 1189, 1297, 1414, 1542, 1682, 1834)
+"""1000 times the powers of 2^(1/8)."""
 TRIES: Final = 3
-"""Fractions whose proof is tried, from the greatest that doubles promise."""
+"""Tolerances whose proof is tried, from the greatest that doubles promise."""
 
 
 def followed_pose(
@@ -44,34 +47,48 @@ def followed_pose(
     """
     if not fraction:
         return None
-    ladder = [*(step for step in _ladder(fraction) if step < 1), Fraction(1)]
-
-    def errors(step: int) -> DataErrors:
-        return data_errors(near.robot, tolerances.scaled(ladder[step]))
-
     core = arb(2) ** -(exponent // 2)
-    search = BranchSearch(near, errors(0), core)
+    greatest = max(tolerances.base, tolerances.platform, tolerances.lengths)
+    found: list[tuple[Fraction, BranchSearch, Found]] = []
 
-    @cache
-    def found(step: int) -> tuple[BranchRobot, BranchTree] | None:
-        return search.found(errors(step))
+    def is_found(part: Fraction) -> bool:
+        errors = data_errors(near.robot, tolerances.scaled(part))
+        search = BranchSearch(near, errors, core)
+        tree = search.found(errors)
+        if tree is not None:
+            found.append((part, search, tree))
+        return tree is not None
 
-    low, high = -1, len(ladder)
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if found(middle) else (low, middle)
-    for step in range(low, max(low - TRIES, -1), -1):
-        cells = search.proved(found(step))
+    for part in grid_beyond(fraction, near.robot.frames.unit / greatest):
+        if not is_found(part):
+            break
+        if part > 1:
+            is_found(Fraction(1))
+        if part >= 1:
+            break
+    for part, search, tree in found[: -TRIES - 1 : -1]:
+        cells = search.proved(tree)
         bounds = None if cells is None else branch_bounds(near, cells, core, attained)
         if cells is not None and bounds is not None:
-            return FollowedPose(ladder[step], len(cells), bounds)
+            return FollowedPose(min(part, Fraction(1)), len(cells), bounds)
     return None
 
 
-def _ladder(fraction: Fraction) -> list[Fraction]:
-    """Fractions beyond one, to a few digits."""
-    found = []
-    for _ in range(STEPS):
-        fraction = (fraction * RATIO).limit_denominator(10000) or fraction
-        found.append(fraction)
-    return found
+def grid_beyond(fraction: Fraction, unit: Fraction) -> list[Fraction]:
+    """The points of the grid beyond a fraction: ``unit`` times powers of 2 and their ``EIGHTHS``.
+
+    As the grid is the same for all tolerances of the same ratios, and each of its points is tried before greater ones,
+    what is found for some tolerances is found for less.
+
+    Examples
+    --------
+    >>> [float(part) for part in grid_beyond(Fraction(1, 2), Fraction(1))[:3]]
+    [0.5455, 0.5945, 0.6485]
+    """
+    exponent = (fraction / unit).numerator.bit_length() - (fraction / unit).denominator.bit_length() - 1
+    points = (
+        unit * Fraction(2) ** (exponent + octave) * Fraction(eighth, 1000)
+        for octave in range(STEPS)
+        for eighth in EIGHTHS
+    )
+    return list(islice((point for point in points if point > fraction), STEPS))
