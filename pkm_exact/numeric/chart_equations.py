@@ -89,7 +89,8 @@ class ChartSystem:
         norm = motion_quadrics(self.problem.metric)[-1]
         try:
             weights = np.array([float(norm.get((k, k), 0)) for k in self.support])
-            return DoubleEquations(self.support, DoubleForms.of(polynomials), weights)
+            kinds = [*(index // 4 for index in self.support), 0]
+            return DoubleEquations(self.support, DoubleForms.of(polynomials, kinds), weights)
         except OverflowError:
             return None
 

@@ -26,6 +26,8 @@ from pkm_exact.roots.interval import Interval
 
 _FEW: Final = 10
 """Roundings in a row in products, quotients and roots here, and in sums of up to eight terms, at most."""
+STUDY_KINDS: Final = (0, 0, 0, 0, 1, 1, 1, 1, 0)
+"""The coordinates e and f are of sizes of their own."""
 NEAR: Final = 2.0**-NEAR_EXPONENT
 """Values that are as close to a grid point, in units, get the cells on both sides."""
 DOUBT: Final = 2.0**-42
@@ -118,7 +120,7 @@ def forms_at(forms: DoubleForms, slopes: Real, place: tuple[Real, Real, Real]) -
 def _motion_forms(metric: tuple[int, int, int]) -> tuple[DoubleForms, Real]:
     """C, R and N(e) as quadratic forms, and their second derivatives, (13, 8, 8)."""
     quadrics = motion_quadrics(metric)[4:]
-    return DoubleForms.of(quadrics), second_derivatives(quadrics)
+    return DoubleForms.of(quadrics, STUDY_KINDS), second_derivatives(quadrics)
 
 
 def second_derivatives(quadrics: Sequence[Quadric]) -> Real:

@@ -28,7 +28,7 @@ from pkm_exact.geometry.study import Quadric, motion_quadrics
 from pkm_exact.numeric.double_forms import DoubleForms
 from pkm_exact.numeric.double_jacobians import decided
 from pkm_exact.numeric.double_krawczyk import DoubleSolution
-from pkm_exact.numeric.double_poses import forms_at, second_derivatives, study_points
+from pkm_exact.numeric.double_poses import STUDY_KINDS, forms_at, second_derivatives, study_points
 from pkm_exact.numeric.double_rounding import LARGE, OUTWARD, SMALL, U, gamma, two_product, two_sum, twofold_sums
 from pkm_exact.numeric.quaternions import quaternion_product
 from pkm_exact.numeric.study_system import Real
@@ -83,7 +83,7 @@ def _forms() -> tuple[DoubleForms, Real]:
     motion = motion_quadrics((1, 1, 1))
     crosses = [_crossed(axis) for axis in range(3)]
     quadrics = [motion[16], *motion[4:16], *(crosses[k][i] for i in range(3) for k in range(3))]
-    return DoubleForms.of(quadrics), second_derivatives(quadrics)
+    return DoubleForms.of(quadrics, STUDY_KINDS), second_derivatives(quadrics)
 
 
 def _values(place: tuple[Real, Real, Real]) -> Twofold:
@@ -156,7 +156,7 @@ def _entries(coefficients: Twofold, values: Twofold, moving: list[int]) -> Twofo
     """(p, m, n) each: the Jacobians times N.
 
     With a the coefficients, a' their tails, and so on, a v = p + e exactly, and a term is p + (e + a v' + a' v): what
-    is left out or rounded is below 12 u^2 |p|, as in ``DoubleForms.at``.
+    is left out or rounded is below 12 u^2 |p|, for nine terms less than 12 u^2 sigma (``twofold_sums``).
     """
     places = _places()[0][moving]
     a, a_tail, a_off = (part[None, :, moving] for part in coefficients)
