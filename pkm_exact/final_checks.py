@@ -187,7 +187,9 @@ def _require_poses(solution: Solution) -> None:
         require_on_robot(poses, problem, solution.box_exponent, representation.chart, representation.separating_form)
         _require_all_roots(solution, representation.univariate.primitive_polynomial)
     elif solution.isolated is not None:
-        require_on_robot(poses, problem, solution.box_exponent, solution.isolated.chart)
+        from pkm_exact.numeric.pose_room import require_poses_on_robot
+
+        require_poses_on_robot(poses, problem, solution.box_exponent, solution.isolated.chart)
 
 
 def _require_all_roots(solution: Solution, h: fmpz_poly) -> None:

@@ -1,0 +1,126 @@
+"""Whether boxes of poses have room for poses of the robot: of all at once, in doubles.
+
+What ``poses.pose_consistency`` asks in ball arithmetic; where rounding could matter, it is left to that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.rotation import CYCLIC
+from pkm_exact.numeric.double_rounding import gamma
+from pkm_exact.numeric.study_system import Real
+from pkm_exact.poses.pose import Pose
+from pkm_exact.poses.pose_consistency import require_on_robot
+
+_FEW: Final = 16
+"""Roundings in a row, at most."""
+
+
+def require_poses_on_robot(poses: Sequence[Pose], problem: ForwardProblem, exponent: int, chart: Sequence[int]) -> None:
+    """Every box has room for a pose of the robot: legs, rotation, quaternion and chart.
+
+    Parameters
+    ----------
+    poses : sequence of Pose
+    problem : ForwardProblem
+    exponent : int
+        Of the grid of the boxes.
+    chart : sequence of 4 int
+        w: the quaternion has the sign for which w.e > 0.
+
+    Raises
+    ------
+    InternalContradictionError
+    """
+    left = list(poses)
+    if poses and problem.has_only_distances and not problem.motion.forms:
+        decided = _have_room(poses, problem, chart)
+        left = [pose for pose, has_room in zip(poses, decided.tolist(), strict=True) if not has_room]
+    require_on_robot(left, problem, exponent, chart)
+
+
+def _have_room(poses: Sequence[Pose], problem: ForwardProblem, chart: Sequence[int]) -> NDArray[np.bool_]:
+    """Where there is room, and rounding is far smaller than the boxes."""
+    try:
+        ends = np.array([_ends(pose) for pose in poses])
+        base, platform = (
+            np.array([[float(value) for value in getattr(leg, side)] for leg in problem.distances])
+            for side in ("base", "platform")
+        )
+        squares = np.array([float(leg.length_squared) for leg in problem.distances])
+    except OverflowError:
+        return np.zeros(len(poses), dtype=bool)
+    axes = np.sqrt(np.array(problem.metric, dtype=float))
+    with np.errstate(all="ignore"):
+        middle, radius = (ends[..., 1] + ends[..., 0]) / 2, (ends[..., 1] - ends[..., 0]) / 2
+        parts = [
+            _reach(middle, radius, base * axes, platform * axes, squares),
+            _are_turns(middle, radius),
+            _have_sign(middle, radius, chart, axes),
+        ]
+    found: NDArray[np.bool_] = np.logical_and.reduce(parts)
+    return found
+
+
+def _ends(pose: Pose) -> list[tuple[float, float]]:
+    """Those of position, rotation and quaternion."""
+    intervals = (*pose.position, *pose.rotation[0], *pose.rotation[1], *pose.rotation[2], *pose.quaternion)
+    return [(x.lo.numerator / x.lo.denominator, x.hi.numerator / x.hi.denominator) for x in intervals]
+
+
+def _fits(value: Real, radius: Real, size: Real) -> NDArray[np.bool_]:
+    """For each pose whether all values can be 0 within the radius, and roundings, of sums of this size, are small."""
+    are_small = (np.abs(value) <= radius) & (gamma(_FEW) * size < radius / 16)
+    return np.asarray(are_small.all(axis=1), dtype=np.bool_)
+
+
+def _reach(middle: Real, radius: Real, base: Real, platform: Real, squares: Real) -> NDArray[np.bool_]:
+    """Whether |C + R B - A|^2 = l^2 is possible for every leg."""
+    turn, wide = (part[:, 3:12].reshape(-1, 3, 3) for part in (middle, radius))
+    place, around = middle[:, None, :3], np.abs(platform) @ wide.transpose(0, 2, 1) + radius[:, None, :3]
+    leg = place + platform @ turn.transpose(0, 2, 1) - base
+    sizes = np.abs(place) + np.abs(platform) @ np.abs(turn).transpose(0, 2, 1) + np.abs(base)
+    reach = (around * (2 * np.abs(leg) + around)).sum(axis=2)
+    size = (sizes * (2 * np.abs(leg) + gamma(_FEW) * sizes)).sum(axis=2) + squares
+    return _fits((leg * leg).sum(axis=2) - squares, reach, size)
+
+
+def _are_turns(middle: Real, radius: Real) -> NDArray[np.bool_]:
+    """Whether the matrix can be that of the unit quaternion."""
+    q, around = middle[:, 12:], radius[:, 12:]
+    products = (q[:, :, None] * q[:, None, :]).reshape(-1, 16)
+    sizes = np.abs(q)
+    wide = (sizes + around)[:, :, None] * (sizes + around)[:, None, :] - sizes[:, :, None] * sizes[:, None, :]
+    table = _turn_forms()
+    values = products @ table.T
+    values[:, :9] -= middle[:, 3:12]
+    values[:, 9] -= 1
+    reach = wide.reshape(-1, 16) @ np.abs(table).T
+    reach[:, :9] += radius[:, 3:12]
+    return _fits(values, reach, np.full(values.shape, 8.0))
+
+
+@cache
+def _turn_forms() -> Real:
+    """(10, 16): matrix of a unit quaternion, by rows, and square of its norm, in products of its entries."""
+    table = np.zeros((10, 4, 4))
+    for i, j, k in CYCLIC:
+        table[4 * i, range(4), range(4)] = [1 if axis in (0, 1 + i) else -1 for axis in range(4)]
+        for row, sign in ((3 * k + j, 1), (3 * j + k, -1)):
+            table[row, 1 + j, 1 + k], table[row, 0, 1 + i] = 2, 2 * sign
+    table[9, range(4), range(4)] = 1
+    return table.reshape(10, 16)
+
+
+def _have_sign(middle: Real, radius: Real, chart: Sequence[int], axes: Real) -> NDArray[np.bool_]:
+    """Whether w.e > 0 is possible, by more than roundings."""
+    weights = np.array(chart) / np.concatenate([[np.prod(axes)], axes])
+    found: NDArray[np.bool_] = np.greater(middle[:, 12:] @ weights, -(radius[:, 12:] / 2) @ np.abs(weights))
+    return found
