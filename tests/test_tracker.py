@@ -16,8 +16,8 @@ from pkm_exact.constraints.distance import Distance
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion import Motion
 from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
-from pkm_exact.numeric.nearby import from_home, nearby_start
-from pkm_exact.numeric.poses import approximations
+from pkm_exact.numeric.nearby import _count, from_home, nearby_start
+from pkm_exact.numeric.poses import approximations, certified_solutions
 from pkm_exact.numeric.start import StartSection, find_start, generic_start
 from pkm_exact.numeric.study_system import (
     leg_forms,
@@ -143,7 +143,7 @@ def test_solutions_of_neighbours_follow_from_those_at_home_or_not_at_all() -> No
             continue
         values = np.einsum("kij,pi,pj->pk", found.section.quadrics, found.points, found.points)
         assert np.abs(values).max() < 1e-12
-        overlaps = np.abs(found.points.conj() @ found.points.T) - np.eye(6)
+        overlaps = np.abs(found.points.conj() @ found.points.T) - np.eye(len(found.points))
         assert np.abs(overlaps).max() < 1 - 1e-6
     assert from_home(problem, replace(start, home=None)) is None
 
@@ -199,3 +199,19 @@ def test_numbers_beyond_floating_point_are_an_error_of_their_own() -> None:
     huge = with_lengths(problem, [Fraction(10) ** 400] * 6)
     with pytest.raises(OverflowError):
         approximations(huge)
+
+
+def test_one_of_two_conjugates_stands_for_both() -> None:
+    """Solutions at home are two real ones and two pairs; a point beside its own conjugate is no pair."""
+    problem = shipped("3-rpr-merlet-p")
+    start = nearby_start(problem)
+    assert start is not None
+    assert start.home is not None
+    assert len(start.home) == 4
+    assert _count(start.home) == 6
+    assert _count(np.concatenate([start.home, start.home.conj()])) == 0
+    found = from_home(problem, start)
+    assert found is not None
+    assert certified_solutions(problem, found)[1].count == 6
+    twice = replace(start, home=np.concatenate([start.home, start.home.conj()]))
+    assert from_home(problem, twice) is None

@@ -7,7 +7,7 @@ time only: what is proved lies on fixed grids, so that the answer has the same b
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final
 
@@ -15,13 +15,15 @@ import numpy as np
 
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.numeric.nearby import nearby_start
+from pkm_exact.numeric.nearby import from_home, nearby_start
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.numeric_engine import solve_exactly_instead, solve_krawczyk
 from pkm_exact.policy import Policy
 from pkm_exact.solution import Solution
 
 METHODS: Final = ("krawczyk", "exact")
+SOME: Final = 5
+"""Rows that tell whether they are near enough to each other."""
 SHARED_START: Final = 3
 """Rows from which a start section of their own pays."""
 
@@ -60,6 +62,8 @@ class RowSolver:
             start = nearby_start(middle, policy.seed)
         except OverflowError:
             return cls(method, width, policy)
+        if start is not None and not _leads_on(start, problems):
+            start = replace(start, home=None)
         # A robot with fewer solutions for all lengths: their number will not prove any list complete.
         return cls(method, width, policy, start, is_numeric=start is not None)
 
@@ -76,6 +80,15 @@ class RowSolver:
         if self.is_numeric:
             return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start)
         return solve_exactly_instead(problem, width=self.width, policy=self.policy)
+
+
+def _leads_on(start: StartSection, problems: Sequence[ForwardProblem]) -> bool:
+    """Whether Newton's method leads from the solutions at home to those of most of a few rows."""
+    few = problems[:: max(1, len(problems) // SOME)][:SOME]
+    try:
+        return 2 * sum(from_home(problem, start) is not None for problem in few) > len(few)
+    except OverflowError:
+        return False
 
 
 def _middle(problems: Sequence[ForwardProblem]) -> ForwardProblem | None:

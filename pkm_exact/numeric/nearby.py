@@ -29,6 +29,8 @@ GREATEST_CHANGE: Final = 1e-5
 """An end point that Newton's method still moves by more than this is not taken for a solution."""
 HOME_STEPS: Final = 6
 """Newton steps from the solutions at home."""
+ENOUGH: Final = 1e-8
+"""Corrections of this size are the last ones."""
 LONG: Final = 12
 """Steps of a path, near singular poses, that take longer than an elimination template."""
 
@@ -77,6 +79,7 @@ def nearby_start(problem: ForwardProblem, seed: int = 0) -> StartSection | None:
             home = _all_different(ends, section.quadrics)
             if home is None and has_seeds(problem):
                 home = _all_different(seeds(problem).points, section.quadrics)
+            home = None if home is None else _without_conjugates(home)
             return StartSection(legs, solutions, section.frames, home, len(steps) > LONG)
     return None
 
@@ -93,13 +96,27 @@ def from_home(problem: ForwardProblem, start: StartSection) -> Approximations | 
         return None
     section = numeric_section(problem, start.frames)
     points = _all_different(start.home, section.quadrics)
-    return None if points is None or len(points) < problem.solution_bound else Approximations(section, points)
+    return None if points is None or _count(points) < problem.solution_bound else Approximations(section, points)
 
 
 def _all_different(points: Complex, quadrics: Complex) -> Complex | None:
     """Where Newton's method leads from the points; None if it does not come to rest, or twice at the same place."""
     with np.errstate(all="ignore"):
-        found, change = polished(points, quadrics, HOME_STEPS)
+        found, change = polished(points, quadrics, HOME_STEPS, ENOUGH)
         overlaps = np.abs(found.conj() @ found.T)
     np.fill_diagonal(overlaps, 0)
     return found if bool((change < GREATEST_CHANGE).all() and (overlaps < 1 - SAME).all()) else None
+
+
+def _without_conjugates(points: Complex) -> Complex:
+    """The projective points without those that are conjugate to an earlier one."""
+    overlaps = np.triu(np.abs(points @ points.T), 1)
+    rest: Complex = points[~(overlaps > 1 - SAME).any(axis=0)]
+    return rest
+
+
+def _count(points: Complex) -> int:
+    """How many they are with their conjugates; 0 if one is the conjugate of another."""
+    overlaps = np.abs(points @ points.T) > 1 - SAME
+    alone = int(np.count_nonzero(overlaps.diagonal()))
+    return 2 * len(points) - alone if np.count_nonzero(overlaps) == alone else 0

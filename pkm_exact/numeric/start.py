@@ -42,7 +42,7 @@ class StartSection:
     frames : Frames or None
         Those of the robot for which the section was made: of a robot that is tracked from here, they are used as well.
     home : (p, n) complex array or None
-        All solutions of this robot itself, in these frames, if they were found.
+        All solutions of this robot itself, in these frames, if they were found; of two that are conjugate, one.
     has_long_paths : bool
         Whether paths to this robot take so many steps that other ways are tried before them.
     """

@@ -112,13 +112,18 @@ def normalised(points: Complex) -> Complex:
     return unit
 
 
-def polished(points: Complex, quadrics: Complex, steps: int = 3) -> tuple[Complex, Real]:
-    """The points after Newton steps, of norm 1, and the relative size of the last correction of each."""
+def polished(points: Complex, quadrics: Complex, steps: int = 3, enough: float = 0.0) -> tuple[Complex, Real]:
+    """The points after Newton steps, of norm 1, and the relative size of the last correction of each.
+
+    If corrections are smaller than what is enough, all of them, no further steps are made.
+    """
     x = normalised(points)
     change = np.full(len(x), np.inf)
     for _ in range(steps):
         x, change = _newton(x, _gradients(x, quadrics))
         x = normalised(x)
+        if change.max(initial=0) < enough:
+            break
     return x, change
 
 
