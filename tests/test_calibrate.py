@@ -6,20 +6,23 @@ import re
 import tomllib
 from collections.abc import Callable
 from dataclasses import replace
-from math import cos, hypot, radians, sin
+from math import cos, hypot, pi, radians, sin
 from pathlib import Path
 from random import Random
 
+import numpy as np
 import pytest
+from samples import model
 
 from pkm_exact.cli.main import main
+from pkm_exact.geometry.inverse import distance_squared
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.identification.calibration_doubts import doubts
+from pkm_exact.identification.calibration_doubts import _radians, doubts
 from pkm_exact.identification.calibration_fit import fitted_legs
 from pkm_exact.identification.measured_poses import identifiable, measured_poses_from_csv
 
-pytest.importorskip("scipy")
+Rotation = pytest.importorskip("scipy.spatial.transform").Rotation
 
 MODEL = Path(__file__).parent.parent / "models" / "3-rpr-merlet-p.toml"
 HEADER = "x,y,theta,l1,l2,l3"
@@ -180,6 +183,36 @@ def test_exchanged_columns_are_said(tmp_path: Path, capsys: Capture) -> None:
     assert "warning" not in capsys.readouterr().err
     assert _judged(_columns(table, lambda found: [found[1], found[0], found[2]]), tmp_path, "--force")[0] == 3
     assert "columns of lengths look exchanged: with l2 for leg 1, l1 for leg 2" in capsys.readouterr().err
+
+
+def test_angles_in_radians_are_said(tmp_path: Path, capsys: Capture) -> None:
+    head, *rows = _table(_true(read_robot(MODEL), 4), 12).splitlines()
+    cells = [row.split(",") for row in rows]
+    turned = [",".join([*row[:2], f"{radians(float(row[2])):.12f}", *row[3:]]) for row in cells]
+    assert _judged("\n".join([head, *turned]) + "\n", tmp_path, "--no-offsets")[0] == 3
+    assert "the angles look like radians: taken so the model is off by " in capsys.readouterr().err
+
+
+def test_roll_pitch_and_yaw_in_radians_are_said() -> None:
+    """Of a hexapod, with lengths by another program's rotations."""
+    robot, rows = model("rolland-6-6"), []
+    base, platform = (np.array(joints, float) for joints in (robot.base_joints, robot.platform_joints))
+    random = np.random.default_rng(1)
+    for _ in range(8):
+        place, angles = np.array([0, 0, 700]) + random.uniform(-50, 50, 3), random.uniform(-25, 25, 3)
+        turned = platform @ Rotation.from_euler("xyz", angles, degrees=True).as_matrix().T
+        rows.append([*place, *angles, *np.linalg.norm(place + turned - base, axis=1)])
+    head = "x,y,z,roll,pitch,yaw,l1,l2,l3,l4,l5,l6"
+    for factor, said in ((pi / 180, 1), (1, 0)):
+        changed = [[*row[:3], *(factor * x for x in row[3:6]), *row[6:]] for row in rows]
+        text = "\n".join([head, *(",".join(f"{x:.12f}" for x in row) for row in changed)])
+        measured = measured_poses_from_csv(text, robot)
+        of_model = [
+            [float(distance_squared(a, b, pose.position, pose.rotation)) ** 0.5 for pose in measured]
+            for a, b in zip(robot.base_joints, robot.platform_joints, strict=True)
+        ]
+        found = list(_radians(robot, measured, of_model))
+        assert len(found) == said
 
 
 def test_a_fit_that_runs_away_is_no_success(tmp_path: Path, capsys: Capture) -> None:

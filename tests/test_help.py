@@ -72,6 +72,7 @@ def test_every_example_of_a_help_works(
         shutil.copytree(ROOT / folder, tmp_path / folder)
     for file in ("path.csv", "lengths.csv"):
         (tmp_path / file).write_text(PATH)
+    (tmp_path / "angles.csv").write_text("h1,h2,h3\n10deg,0deg,1/4\n")
     (tmp_path / "plan.csv").write_text("x,y,half_tangent\n5,4,0\n6,3,1/3\n2,9,-1/2\n7,7,2\n")
     (tmp_path / "cube.toml").write_text(CUBE)
     (tmp_path / "poses.csv").write_text(POSES)

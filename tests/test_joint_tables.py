@@ -56,6 +56,16 @@ def test_floats_are_taken_exactly_only_if_that_is_said() -> None:
         Robot.from_arrays(base, platform)
     with pytest.raises(InputError, match="not a finite number"):
         Robot.from_arrays([[math.nan, 0, 0], *base[1:]], platform, digits=3)
+    with pytest.raises(InputError, match=r"base\[1\]: 0\.5 is a binary float"):
+        Robot.from_arrays(np.full((6, 3), 0.5), platform)
+    with pytest.raises(InputError, match="give one of the two"):
+        Robot.from_arrays(base, platform, digits=3, doubles_are_exact=True)
+    for digits in (-1, 3.5):
+        with pytest.raises(InputError, match="give an integer from 0 to 30"):
+            Robot.from_arrays(base, platform, digits=digits)  # type: ignore[arg-type]
+    for wrong in (None, "abc", [1, 2, 3]):
+        with pytest.raises(InputError, match=r"is no array; give a row of coordinates for each joint"):
+            Robot.from_arrays(base, wrong, digits=3)  # type: ignore[arg-type]
     with pytest.raises(InputError, match="4 numbers; give 2 or 3"):
         Robot.from_arrays([[1, 2, 3, 4], *base[1:]], platform, digits=3)
 

@@ -33,6 +33,7 @@ from pkm_exact.cli.main import main
 from pkm_exact.cli.sweep import _Shown
 from pkm_exact.errors import PkmExactError
 from pkm_exact.geometry.path_reader import joint_names
+from pkm_exact.poses.pose_names import pose_names
 from pkm_exact.poses.roll_pitch_yaw import roll_pitch_yaw
 from pkm_exact.roots.interval import Interval, decimal
 from pkm_exact.solution import Solution
@@ -366,6 +367,17 @@ def test_cranks_are_swept_by_joint_values(tmp_path: Path, capsys: Capture) -> No
     assert "exclude each other" in capsys.readouterr().err
 
 
+def test_the_pose_that_is_meant_is_marked(tmp_path: Path) -> None:
+    model = tmp_path / "meant.toml"
+    model.write_text(FILES["3-rpr-merlet-p"].read_text() + "\n[nominal]\nposition = [5, 5]\ndegrees = 0\n")
+    rows = written(tmp_path / "rows.csv", ["7.1,5.1,5", "7.2,5.1,5.1", "1,1,1"])
+    assert [run(model, rows, tmp_path / out) for out in ("out.jsonl", "out.csv")] == [0, 0]
+    assert [record["nearest_to_nominal"] for record in records(tmp_path / "out.jsonl")] == [[2], [2], []]
+    with (tmp_path / "out.csv").open(newline="", encoding="utf-8") as stream:
+        table = [(line["row"], line["pose"], line["nearest"]) for line in csv.DictReader(stream)]
+    assert table == [("1", "1", ""), ("1", "2", "yes"), ("2", "1", ""), ("2", "2", "yes"), ("3", "", "")]
+
+
 @pytest.mark.parametrize(
     ("name", "given"), [("3-rpr-merlet-p", ["7.1", "5.1", "5"]), ("3-rps", ["13/10", "4/3", "1.25"])]
 )
@@ -395,6 +407,9 @@ def test_a_table_has_a_line_for_each_pose(tmp_path: Path, name: str, given: list
             unit = Fraction(1, 10 ** len(line[key].partition(".")[2]))
             assert angle.lo - unit <= Fraction(line[key]) <= angle.hi + unit
         assert (line["det_sign"], line["multiplicity"]) == (str(pose["det_sign"]), str(pose["multiplicity"]))
+    found = robot.solve(lengths=given, method="krawczyk")
+    assert [line["name"] for line in poses] == list(pose_names(found.poses, robot.motion))
+    assert {line["nearest"] for line in table} == {""}
     (without,) = [line for line in table if line["row"] == "2"]
     assert (without["claim"], without["real_poses"], without["pose"], without["x"]) == (empty["claim"], "0", "", "")
     (refused,) = [line for line in table if line["row"] == "3"]

@@ -476,7 +476,7 @@ def test_only_the_nearest_pose_is_asked_about(tmp_path: Path, capsys: Capture) -
     path, words = tmp_path / "one.json", ["solve", str(PLANAR), "--method", "krawczyk", "--tolerance", "0.01"]
     assert main([*words, "--near", "6.2,-3.8,-8", "--nearest", "-o", str(path)]) == 0
     text = capsys.readouterr().out
-    assert "1 of 1 poses have a box for every robot within tolerance; 5 other poses were not asked about" in text
+    assert "1 of 1 pose has a box for every robot within tolerance; 5 other poses were not asked about" in text
     content = json.loads(path.read_text())
     assert [box["pose"] for box in content["boxes"]] == [3]
     assert content["unproved"] == [1, 2, 4, 5, 6]

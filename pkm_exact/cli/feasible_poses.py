@@ -76,7 +76,7 @@ class ShownPoses:
         found = [together(verdict.values()) for verdict in verdicts]
         kept = [place for place, verdict in enumerate(found) if verdict is LimitVerdict.YES]
         left_out = _left_out(found.count(LimitVerdict.NO), found.count(LimitVerdict.UNDECIDED))
-        return replace(shown._at(kept), notes=(left_out,))
+        return replace(shown._at(kept), notes=(left_out,) if found else ())
 
     def named(self, found: CarriedNames) -> ShownPoses:
         """With names that were carried from a certificate."""
@@ -174,9 +174,11 @@ def _nearest(robot: Machine, solution: Solution) -> tuple[int, ...]:
 def _left_out(broken: int, undecided: int) -> str:
     """How many poses are not listed.
 
-    >>> _left_out(3, 1)
-    'not listed: 3 poses that break a limit, and 1 on or too near a limit to be decided'
+    >>> _left_out(3, 1), _left_out(0, 0)
+    ('not listed: 3 poses that break a limit, and 1 on or too near a limit to be decided', 'all poses keep all limits')
     """
+    if not broken and not undecided:
+        return "all poses keep all limits"
     poses = "pose that breaks" if broken == 1 else "poses that break"
     rest = f", and {undecided} on or too near a limit to be decided" if undecided else ""
     return f"not listed: {broken} {poses} a limit{rest}"

@@ -116,6 +116,7 @@ def sweep(
       certify-poses sweep models/rolland-6-6.toml lengths.csv -o poses.jsonl
       certify-poses sweep models/rolland-6-6.toml lengths.csv -o poses.jsonl --certificates certificates
       certify-poses sweep models/rolland-6-6.toml lengths.csv -o poses.jsonl --index condition --limits length=100
+      certify-poses sweep models/3-rrr.toml angles.csv -o poses.csv --joints
       certify-poses sweep models/rolland-6-6.toml lengths.csv -o poses.jsonl --scheduler tcp://10.0.0.1:8786
     """
     if workers is not None and scheduler is not None:

@@ -13,7 +13,7 @@ from pkm_exact.geometry.chains import CosSin, Crank, JointValue, cosine_and_sine
 from pkm_exact.geometry.mechanism import LockedValues, Mechanism
 from pkm_exact.geometry.rational import NumberText, finite_decimal, parse_rational
 from pkm_exact.geometry.robot import Configuration, Robot
-from pkm_exact.wording import shown
+from pkm_exact.wording import counted, shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -78,9 +78,18 @@ def joint_configuration(
             (_number(word, f"{where}, {name}"), None) if weight is None else _angle(word, f"{where}, {name}", weight)
             for word, name, weight in zip(words, actuated, crank_weights(robot), strict=True)
         ]
-        stand_ins = tuple(note for _, note in found if note is not None)
+        stand_ins = _together([note for _, note in found if note is not None])
         locked = replace(robot.lock(NAME, [value for value, _ in found]), stand_ins=stand_ins)
     return replace(robot, configurations=(*robot.configurations, locked)), NAME
+
+
+def _together(notes: Sequence[StandIn | str]) -> tuple[StandIn | str, ...]:
+    """What is to be known of joint values; that half tangents are large once for all of them."""
+    large = [note for note in notes if isinstance(note, str)]
+    others = [note for note in notes if not isinstance(note, str)]
+    if len(large) > 1:
+        large = [f"{large[0]}; so of {counted(len(large) - 1, 'other joint')}"]
+    return (*large, *others)
 
 
 def crank_weights(robot: Machine) -> tuple[int | None, ...]:
@@ -137,7 +146,7 @@ def _of_mechanism(robot: Mechanism, words: Sequence[JointWord], where: str) -> t
         if is_length and number <= 0:
             raise InputError(f"{place}: {number} is no length; give one greater than 0")
         values.append(number * number if is_length else number)
-    locked = LockedValues(NAME, tuple(values), tuple(stand_ins))
+    locked = LockedValues(NAME, tuple(values), _together(stand_ins))
     return replace(robot, configurations=(*robot.configurations, locked)), NAME
 
 

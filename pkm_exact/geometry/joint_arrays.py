@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from math import isfinite
+from numbers import Integral
 from pathlib import Path
 from typing import Any, Final
 
@@ -17,7 +18,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.geometry.csv_fields import exact_number, is_header, numbered_rows
 from pkm_exact.geometry.kinds import Joints
 from pkm_exact.geometry.rational import NumberText, parse_rational
-from pkm_exact.wording import printable
+from pkm_exact.wording import printable, shown
 
 MOST_DIGITS: Final = 30
 MOST_ROWS: Final = 64
@@ -51,10 +52,13 @@ def exact_joints(
     >>> exact_joints([[0.1, 2]], "base", 3, doubles_are_exact=False)
     ((Fraction(1, 10), Fraction(2, 1), Fraction(0, 1)),)
     """
-    if digits is not None and not 0 <= digits <= MOST_DIGITS:
-        raise InputError(f"digits: {digits} is out of range; give 0 to {MOST_DIGITS}")
+    if digits is not None and (not isinstance(digits, Integral) or not 0 <= digits <= MOST_DIGITS):
+        raise InputError(f"digits: {digits} is out of range; give an integer from 0 to {MOST_DIGITS}")
+    if digits is not None and doubles_are_exact:
+        raise InputError("digits, doubles_are_exact: numbers are rounded or exact; give one of the two")
+    table = [_numbers_of(row, f"{where}[{i}]") for i, row in enumerate(_numbers_of(rows, where), 1)]
     found: list[Vector] = []
-    for i, row in enumerate(rows, 1):
+    for i, row in enumerate(table, 1):
         values = [_exact(value, f"{where}[{i}]", digits, doubles_are_exact) for value in row]
         if len(values) not in (2, 3):
             raise InputError(f"{where}[{i}]: {len(values)} numbers; give 2 or 3 coordinates")
@@ -62,10 +66,17 @@ def exact_joints(
     return tuple(found)
 
 
+def _numbers_of(entries: Any, where: str) -> list[Any]:
+    if isinstance(entries, str) or not isinstance(entries, Iterable):
+        raise InputError(f"{where}: {shown(entries)} is no array; give a row of coordinates for each joint")
+    return list(entries)
+
+
 def _exact(value: Any, where: str, digits: int | None, doubles_are_exact: bool) -> Fraction:
     if not isinstance(value, str | int | float | Fraction) and getattr(value, "shape", None) == ():
         value = value.item()  # a number of numpy's
     if isinstance(value, float):
+        value = float(value)  # numpy's are shown as such
         if not isfinite(value):
             raise InputError(f"{where}: {value!r} is not a finite number; give one")
         if digits is None and not doubles_are_exact:

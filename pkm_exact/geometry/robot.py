@@ -170,7 +170,8 @@ class Robot(Machine):
         if not isinstance(locked, Configuration):
             if self.chains:
                 raise InputError(
-                    f"lengths: the rods of a {self.kind} robot have fixed lengths; choose a configuration instead"
+                    f"lengths: the rods of a {self.kind} robot have fixed lengths; give joint values (--joints) or a "
+                    "configuration instead"
                 )
             self._require_one_per_leg(locked, "lengths_squared")
             values = _squares(locked, "lengths_squared")

@@ -1,10 +1,10 @@
-"""What speaks against a calibration: tables in another unit, exchanged columns, fits that run away. Floating point."""
+"""What speaks against a calibration: other units, radians, exchanged columns, fits that run away. Floating point."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from math import dist, sqrt
+from math import asin, atan2, cos, degrees, dist, sin, sqrt
 from statistics import median
 from typing import TYPE_CHECKING, Final
 
@@ -28,7 +28,8 @@ def doubts(robot: Robot, measured: Sequence[MeasuredPose], fits: Sequence[LegFit
         [length + off for length, off in zip(lengths, fit.before, strict=True)]
         for lengths, fit in zip(read, fits, strict=True)
     ]
-    return (*_units(robot, read, of_model), *_columns(read, of_model), *_run_away(robot, fits))
+    tables = (*_units(robot, read, of_model), *_columns(read, of_model), *_radians(robot, measured, of_model))
+    return (*tables, *_run_away(robot, fits))
 
 
 def _units(robot: Robot, read: list[list[float]], of_model: list[list[float]]) -> Iterator[str]:
@@ -58,6 +59,42 @@ def _columns(read: list[list[float]], of_model: list[list[float]]) -> Iterator[s
             f"the columns of lengths look exchanged: with {', '.join(moved)} the model is off by "
             f"{sqrt(best / count):.2g} instead of {sqrt(given / count):.2g} (root of the mean square)"
         )
+
+
+def _radians(robot: Robot, measured: Sequence[MeasuredPose], of_model: list[list[float]]) -> Iterator[str]:
+    """Whether the model fits much better if the angles, taken as degrees, are radians."""
+    given = better = 0.0
+    for k, pose in enumerate(measured):
+        turned = _rotation([degrees(angle) for angle in _angles([[float(x) for x in row] for row in pose.rotation])])
+        place = [float(x) for x in pose.position]
+        for leg, (base, joint) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True)):
+            at = [
+                c + sum(r * float(b) for r, b in zip(row, joint, strict=True))
+                for c, row in zip(place, turned, strict=True)
+            ]
+            read = float(pose.lengths[leg])
+            given += (of_model[leg][k] - read) ** 2
+            better += (dist(at, [float(a) for a in base]) - read) ** 2
+    if better * _BETTER < given:
+        count = len(measured) * len(of_model)
+        yield (
+            f"the angles look like radians: taken so the model is off by {sqrt(better / count):.2g} instead of "
+            f"{sqrt(given / count):.2g} (root of the mean square); give them in degrees"
+        )
+
+
+def _angles(r: Sequence[Sequence[float]]) -> tuple[float, float, float]:
+    """Roll, pitch and yaw in radians, R = Rz(yaw) Ry(pitch) Rx(roll)."""
+    return atan2(r[2][1], r[2][2]), asin(max(-1.0, min(1.0, -r[2][0]))), atan2(r[1][0], r[0][0])
+
+
+def _rotation(angles: Sequence[float]) -> list[list[float]]:
+    (a, b, c), (u, v, w) = map(cos, angles), map(sin, angles)
+    return [
+        [c * b, c * v * u - w * a, c * v * a + w * u],
+        [w * b, w * v * u + c * a, w * v * a - c * u],
+        [-v, b * u, b * a],
+    ]
 
 
 def _run_away(robot: Robot, fits: Sequence[LegFit]) -> Iterator[str]:

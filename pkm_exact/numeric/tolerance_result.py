@@ -9,6 +9,7 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.tolerances import Tolerances
 from pkm_exact.numeric.centred import CentredFrames, Chart
 from pkm_exact.numeric.deviations import Influence, PoseBounds
+from pkm_exact.wording import counted
 
 
 @dataclass(frozen=True)
@@ -160,4 +161,5 @@ class ToleranceResult:
             claim = f"{followed} more without a box {verb} followed over all of them; {claim}"
         if not count:
             return f"no pose of the nominal robot is listed; {claim}"
-        return f"{proved} of {count} poses have a box for every robot within tolerance; {claim}"
+        have = "has" if proved == 1 else "have"
+        return f"{proved} of {counted(count, 'pose')} {have} a box for every robot within tolerance; {claim}"

@@ -54,7 +54,18 @@ def pose_table(job: SweepJob, lines: Iterable[bytes]) -> Iterator[bytes]:
     indices = [index.name for index in shown_in(Output.SWEEP)] + ["multiplicity"]
     asked = () if job.indices is None else job.indices.names
     joints = [f"joint_{name}" for name in job.names]
-    header = ["row", *joints, *_ROW, "pose", *(_PLANAR if planar else _SPATIAL), *indices, *asked, "notes"]
+    header = [
+        "row",
+        *joints,
+        *_ROW,
+        "pose",
+        "name",
+        "nearest",
+        *(_PLANAR if planar else _SPATIAL),
+        *indices,
+        *asked,
+        "notes",
+    ]
     yield _spelled(header)
     for record in map(json.loads, lines):
         first = [record["row"], *_joints(record["lengths"], len(joints))]
@@ -62,7 +73,8 @@ def pose_table(job: SweepJob, lines: Iterable[bytes]) -> Iterator[bytes]:
         said = record["error"] if "error" in record else " ".join(f"{note}." for note in record["notes"])
         first += [record.get(key) for key in _ROW]
         for number, pose in enumerate(poses, 1):
-            values = [*_coordinates(pose, planar), *(pose[name] for name in indices)]
+            near = "yes" if record.get("nearest_to_nominal") == [number] else ""
+            values = [pose["name"], near, *_coordinates(pose, planar), *(pose[name] for name in indices)]
             yield _spelled([*first, number, *values, *(pose["indices"][name] for name in asked), said])
         if not poses:
             yield _spelled([*first, *[None] * (len(header) - len(first) - 1), said])

@@ -10,7 +10,9 @@ from pkm_exact.geometry.machine import Machine
 from pkm_exact.indices.index import Index, Output
 from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.interactive.answer_notes import answer_notes
+from pkm_exact.poses.nearest_pose import nearest_pose
 from pkm_exact.poses.pose import Pose
+from pkm_exact.poses.pose_names import pose_names
 from pkm_exact.poses.pose_spelling import pose_decimals
 from pkm_exact.poses.roll_pitch_yaw import roll_pitch_yaw
 from pkm_exact.roots.interval import Interval, decimal
@@ -30,7 +32,9 @@ def solution_line(
     degrees: bool = False,
 ) -> bytes:
     """What was found for a row, with the digest of its certificate, and of each pose indices and angles if asked."""
-    poses, notes = list(map(_pose, solution.poses)), list(answer_notes(robot, configuration, solution))
+    names = pose_names(solution.poses, solution.problem.motion)
+    poses = [{"name": name, **_pose(pose)} for name, pose in zip(names, solution.poses, strict=True)]
+    notes = list(answer_notes(robot, configuration, solution))
     if degrees:
         poses = [{**entry, "degrees": _degrees(robot, pose)} for entry, pose in zip(poses, solution.poses, strict=True)]
     if asked is not None:
@@ -47,6 +51,7 @@ def solution_line(
             "distinct_solutions": solution.distinct_solutions,
             "real_poses": len(solution.poses),
             "poses": poses,
+            **_nearest(robot, solution),
             "notes": notes,
             "certificate_sha256": sha256(certificate).hexdigest(),
         },
@@ -72,6 +77,14 @@ def _pose(pose: Pose) -> dict[str, Any]:
         **{index.name: _short(index, pose) for index in shown_in(Output.SWEEP)},
         "multiplicity": pose.multiplicity,
     }
+
+
+def _nearest(robot: Machine, solution: Solution) -> dict[str, list[int]]:
+    """The pose nearest to the nominal one, as ``solve`` writes it, if the model has that."""
+    if robot.nominal is None:
+        return {}
+    found = nearest_pose(solution.poses, robot.nominal)
+    return {"nearest_to_nominal": [] if found is None else list(found.numbers)}
 
 
 def _degrees(robot: Machine, pose: Pose) -> list[str | None]:
