@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from fractions import Fraction
 from math import isfinite
-from numbers import Integral
 from pathlib import Path
 from typing import Any, Final
 
@@ -52,7 +51,7 @@ def exact_joints(
     >>> exact_joints([[0.1, 2]], "base", 3, doubles_are_exact=False)
     ((Fraction(1, 10), Fraction(2, 1), Fraction(0, 1)),)
     """
-    if digits is not None and (not isinstance(digits, Integral) or not 0 <= digits <= MOST_DIGITS):
+    if digits is not None and digits not in range(MOST_DIGITS + 1):
         raise InputError(f"digits: {digits} is out of range; give an integer from 0 to {MOST_DIGITS}")
     if digits is not None and doubles_are_exact:
         raise InputError("digits, doubles_are_exact: numbers are rounded or exact; give one of the two")
