@@ -1,5 +1,6 @@
 """Mechanisms of bodies and joints from URDF files, their loops closed."""
 
+import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -149,3 +150,96 @@ def test_the_command(tmp_path: Path, capsys: Capture) -> None:
     assert main(["new", "--urdf", str(path)]) == 2
     assert main(["new", "--kind", "6-6", "--platform", "top", "-o", "-"]) == 2
     assert "--platform: belongs to --urdf" in capsys.readouterr().err
+
+
+LOOP = SARRUS[SARRUS.index("  <loop_joint") : SARRUS.index("  <transmission")]
+TIP = """  <link name="tip"/><joint name="D" type="revolute"><parent link="right 2"/><child link="tip"/>
+    <origin xyz="0 0.2 0.2"/><axis xyz="1 0 0"/></joint>
+  <link name="corner"/><joint name="there" type="fixed"><parent link="top"/><child link="corner"/>
+    <origin xyz="0.3 -0.3 0" rpy="0 0 1.5708"/></joint>
+"""
+OPENED = SARRUS.replace(LOOP, TIP).replace(SARRUS[SARRUS.index("  <transmission") : SARRUS.index("</robot>")], "")
+YAML = "closed_loop: [['tip', there]]\ntype: ['6d']\nname_mot: [A]\njoint_name: []\njoint_type: []\n"
+
+
+def _closed(folder: Path, yaml: str, *words: str) -> tuple[int, Path]:
+    path, output = written(folder, OPENED), folder / "model.toml"
+    (folder / "robot.yaml").write_text(yaml, encoding="utf-8")
+    loops = str(folder / "robot.yaml")
+    return main(["new", "--urdf", str(path), "--loops", loops, "--platform", "top", "-o", str(output), *words]), output
+
+
+def test_loops_are_closed_by_a_yaml_file(tmp_path: Path) -> None:
+    """The same mechanism as with a loop_joint: the tip of the second chain is the platform."""
+    wanted = read_urdf(written(tmp_path, SARRUS)).linkage
+    code, output = _closed(tmp_path, YAML)
+    assert code == 0
+    found = read_linkage(output)
+    assert (found.bodies, found.base, found.platform) == (wanted.bodies, "ground", "top")
+    assert found.actuated == wanted.actuated == ("A",)
+    places = [{joint.name: (joint.type, joint.geometry) for joint in linkage.joints} for linkage in (found, wanted)]
+    assert places[0] == places[1]
+
+
+def test_types_and_origins_of_a_yaml_file(tmp_path: Path) -> None:
+    yaml = "closed_loop: [[tip, there]]\ntype: [3D]\njoint_name: [B, F, E]\njoint_type: [SPHERICAL, UJOINT_YZ, FIXED]\n"
+    code, output = _closed(tmp_path, yaml)
+    assert code == 0
+    found = {joint.name: joint for joint in read_linkage(output).joints}
+    assert {name: joint.type for name, joint in found.items()} == {
+        "A": "R",
+        "B": "S",
+        "C": "R",
+        "F": "U",
+        "D": "R",
+        "tip, there": "S",
+    }
+    assert found["F"].geometry.axes == ((-1, 0, 0), (0, 0, 1)), "y and z of a frame turned by a right angle"
+    assert found["tip, there"].bodies == ("tip", "top")
+
+
+@pytest.mark.parametrize(
+    ("yaml", "said"),
+    [
+        ("", "has no keys"),
+        ("[1, 2]", "has no keys"),
+        ("closed_loop: [[tip", "is not YAML"),
+        ("a: " + "[" * 5000, "is not YAML"),
+        (" " * (1 << 16) + "# x", "has more than 65536 bytes"),
+        ("closed_lop: []", "unknown key 'closed_lop'; the known keys are: closed_loop"),
+        ("closed_loop: [[tip, 3]]", "closed_loop: is no list of pairs of names"),
+        ("closed_loop: [[tip, nowhere]]", "closed_loop: 'nowhere' is the name of neither a link nor a joint"),
+        ("closed_loop: [[tip, base]]", "are 0.4 apart, so that the loop is open"),
+        ("closed_loop: [[tip, top]]", "are 0.3 apart, so that the loop is open"),
+        ("closed_loop: [[corner, right 2]]", "0.2 apart"),
+        (
+            "closed_loop: [[left 1, A]]\njoint_name: [A]\njoint_type: [UJOINT_XY]",
+            "closed_loop: 'left 1' and 'A' are of one body",
+        ),
+        ("closed_loop: [[tip, there]]\ntype: [5d]", "type: '5d' is unknown; use 3d or 6d"),
+        ("closed_loop: [[tip, there]]\ntype: [3d, 3d]", "type: 2 given; give 1"),
+        ("name_mot: [Z]", "name_mot: 'Z' is not the name of a joint"),
+        ("name_mot: [there]", "the joint 'there' neither turns nor slides"),
+        ("name_mot: A", "name_mot: is no list of names"),
+        ("joint_name: [A]", "joint_type: 0 types for 1 names"),
+        ("joint_name: [A]\njoint_type: [ROUND]", "joint_type: 'ROUND' is unknown; use one of: SPHERICAL"),
+        ("joint_name: [Z]\njoint_type: [FIXED]", "joint_name: 'Z' is not the name of a joint"),
+    ],
+)
+def test_a_yaml_file_that_does_not_fit_gives_one_sentence(
+    yaml: str, said: str, tmp_path: Path, capsys: Capture
+) -> None:
+    code, output = _closed(tmp_path, yaml)
+    out, err = capsys.readouterr()
+    assert (code, out, err.count("\n"), output.exists()) == (2, "", 1, False)
+    assert said in err
+
+
+def test_loops_belong_to_urdf_and_need_a_package(
+    tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert main(["new", "--kind", "6-6", "--loops", "x.yaml", "-o", "-"]) == 2
+    assert "--loops: belongs to --urdf" in capsys.readouterr().err
+    monkeypatch.setitem(sys.modules, "yaml", None)
+    assert _closed(tmp_path, YAML)[0] == 2
+    assert 'pip install "pkm_exact[urdf]"' in capsys.readouterr().err

@@ -81,6 +81,13 @@ CHAIN_NAMES: Final = ("3-PPRR", "Sarrus", "seven-link", "5-RRR(RR)", "3-PRRR", "
     "(UPS, SPS or PUS) if it is one, otherwise as a mechanism of bodies and joints for mobility, all joint values 0.",
 )
 @click.option(
+    "--loops",
+    type=arguments.FilePath(),
+    metavar="ROBOT.yaml",
+    help="With --urdf: a YAML file that closes its loops: closed_loop: [[frame, frame], ..], type: [6d, 3d, ..], "
+    "name_mot: [joint, ..].",
+)
+@click.option(
     "--platform",
     metavar="LINK",
     help="With --urdf: the link that is asked about.  [default: where six joints end, otherwise the last one]",
@@ -127,6 +134,7 @@ def new(
     csv: str | None,
     dimensions: tuple[str, ...],
     urdf: str | None,
+    loops: str | None,
     chains: str | None,
     platform: str | None,
     bodies: bool,
@@ -148,11 +156,11 @@ def new(
       certify-poses new --chains 3-UPU --dimension height=100 -o three-rods.toml
     """
     _checked_output(output, force)
-    if urdf is None and (bodies or platform is not None):
-        raise click.UsageError(f"--{'bodies' if bodies else 'platform'}: belongs to --urdf, give that as well.")
-    written = _from_elsewhere(
-        output, name, given, csv=csv, urdf=urdf, chains=chains, platform=platform, bodies=bodies, words=dimensions
-    )
+    of_urdf = {"loops": loops, "platform": platform, "bodies": bodies}
+    alone = next((option for option, value in of_urdf.items() if value), None)
+    if urdf is None and alone is not None:
+        raise click.UsageError(f"--{alone}: belongs to --urdf, give that as well.")
+    written = _from_elsewhere(output, name, given, csv=csv, urdf=urdf, chains=chains, of_urdf=of_urdf, words=dimensions)
     if written is not None:
         return written
     if given["kind"] in MACHINES:
@@ -195,8 +203,7 @@ def _from_elsewhere(
     csv: str | None,
     urdf: str | None,
     chains: str | None,
-    platform: str | None,
-    bodies: bool,
+    of_urdf: dict[str, Any],
     words: tuple[str, ...],
 ) -> int | None:
     """The model of a file or of a template of bodies and joints, if one is named."""
@@ -204,7 +211,7 @@ def _from_elsewhere(
         from pkm_exact.cli.new_from_urdf import write_from_urdf
 
         others = {"csv": csv, "chains": chains, "name": name, "dimension": words}
-        return write_from_urdf(urdf, output, platform, given | others, bodies=bodies)
+        return write_from_urdf(urdf, output, given=given | others, **of_urdf)
     if chains is not None:
         from pkm_exact.cli.new_chains import write_chains
 

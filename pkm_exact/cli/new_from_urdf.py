@@ -16,10 +16,19 @@ from pkm_exact.wording import printable, shown
 
 if TYPE_CHECKING:
     from pkm_exact.geometry.robot import Robot
+    from pkm_exact.geometry.urdf_closures import Closures
     from pkm_exact.geometry.urdf_reader import UrdfMechanism
 
 
-def write_from_urdf(path: str, output: str | None, platform: str | None, given: dict[str, Any], *, bodies: bool) -> int:
+def write_from_urdf(
+    path: str,
+    output: str | None,
+    *,
+    given: dict[str, Any],
+    loops: str | None,
+    platform: str | None,
+    bodies: bool,
+) -> int:
     """Write the model of the mechanism in a URDF file: a robot with six legs if it is one, otherwise bodies and joints.
 
     Raises
@@ -29,6 +38,7 @@ def write_from_urdf(path: str, output: str | None, platform: str | None, given: 
     """
     from pkm_exact.geometry.linkage_text import linkage_text
     from pkm_exact.geometry.model_writer import robot_text
+    from pkm_exact.geometry.urdf_closures import read_closures
     from pkm_exact.geometry.urdf_reader import read_urdf
 
     for key, value in given.items():
@@ -36,9 +46,10 @@ def write_from_urdf(path: str, output: str | None, platform: str | None, given: 
             raise click.UsageError(f"--urdf and --{key.replace('_', '-')} exclude each other.")
     if output is None:
         raise click.UsageError("--urdf: give -o MODEL.toml as well, or -o - for stdout.")
+    closures = None if loops is None else read_closures(loops)
     try:
-        found = read_urdf(path, platform)
-        legged, words = (None, ()) if bodies else _legged(path, found, platform)
+        found = read_urdf(path, platform, closures)
+        legged, words = (None, ()) if bodies else _legged(path, found, platform, closures)
     except InputError as error:
         text = str(error)
         raise InputError(text if text.startswith(path) else f"{path}: {text}") from None
@@ -49,6 +60,8 @@ def write_from_urdf(path: str, output: str | None, platform: str | None, given: 
         sys.stdout.write(text)
         return ExitCode.DONE
     arguments.require_other_file(Path(output), path, "-o")
+    if loops is not None:
+        arguments.require_other_file(Path(output), loops, "-o")
     arguments.write_output(output, text.encode("utf-8"))
     linkage, file = found.linkage, printable(shlex.quote(output))
     if legged is None:
@@ -60,7 +73,9 @@ def write_from_urdf(path: str, output: str | None, platform: str | None, given: 
     return ExitCode.DONE
 
 
-def _legged(path: str, found: UrdfMechanism, platform: str | None) -> tuple[Robot | None, tuple[str, ...]]:
+def _legged(
+    path: str, found: UrdfMechanism, platform: str | None, closures: Closures | None
+) -> tuple[Robot | None, tuple[str, ...]]:
     """The robot with six legs that the mechanism is, if it is one, and what is to be said of that."""
     from pkm_exact.geometry.urdf_reader import read_urdf
     from pkm_exact.templates.legs_of_bodies import NoLegsError, legged_robot, platform_of_legs
@@ -69,7 +84,7 @@ def _legged(path: str, found: UrdfMechanism, platform: str | None) -> tuple[Robo
         body = platform_of_legs(found.linkage)
         if body is None:
             return None, ()
-        found = read_urdf(path, body)
+        found = read_urdf(path, body, closures)
     try:
         robot, off = legged_robot(found.linkage, found.origin)
     except NoLegsError as error:

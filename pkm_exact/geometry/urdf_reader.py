@@ -1,9 +1,10 @@
 """Mechanisms of bodies and joints from URDF files, with the loops that some writers add to them.
 
 URDF describes trees: a joint has a parent, a child, a frame by translation and roll, pitch, yaw in radians, and an axis
-in that frame. Loops are closed by elements ``loop_joint``, with a frame in each of two links (as Drake reads them). All
-joint values are 0. Lengths are metres, and decimals the numbers that they spell. An angle within the last digit written
-of a multiple of a right angle is that multiple; others are not rational turns, and one next to them stands in.
+in that frame. Loops are closed by elements ``loop_joint``, with a frame in each of two links (as Drake reads them), or
+by a YAML file beside it (``urdf_closures``). All joint values are 0. Lengths are metres, and decimals the numbers that
+they spell. An angle within the last digit written of a multiple of a right angle is that multiple; others are not
+rational turns, and one next to them stands in.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from pkm_exact.geometry.joint_types import JointGeometry
 from pkm_exact.geometry.linkage import Joint, Linkage
 from pkm_exact.geometry.rational import NumberText, parse_rational
 from pkm_exact.geometry.rotation_degrees import NEAREST_TURN, quaternion_of_angles
+from pkm_exact.geometry.urdf_closures import JOINT_TYPES, UNIVERSAL, Closures
 from pkm_exact.geometry.written_digits import finest_digit
 from pkm_exact.wording import shown
 
@@ -43,6 +45,7 @@ _TYPES: Final = {
     "ball": "S",
     "planar": "screw",
     "floating": "screw",
+    **dict.fromkeys(UNIVERSAL, "U"),
 }
 _FIXED: Final = "fixed"
 _UNTURNED: Final = rotation_of((Fraction(1), Fraction(0), Fraction(0), Fraction(0)))
@@ -91,7 +94,7 @@ class UrdfMechanism:
     origin: Vector = _ZERO
 
 
-def read_urdf(path: str | Path, platform: str | None = None) -> UrdfMechanism:
+def read_urdf(path: str | Path, platform: str | None = None, closures: Closures | None = None) -> UrdfMechanism:
     """The mechanism of a URDF file at joint values 0.
 
     Parameters
@@ -99,6 +102,8 @@ def read_urdf(path: str | Path, platform: str | None = None) -> UrdfMechanism:
     path : str or Path
     platform : str, optional
         The link that is asked about; by default the last one of the file.
+    closures : Closures, optional
+        What closes its loops, of a YAML file.
 
     Raises
     ------
@@ -117,7 +122,7 @@ def read_urdf(path: str | Path, platform: str | None = None) -> UrdfMechanism:
     [['1', '0', '0'], ('1 angle is taken as the multiple of a right angle within its last digit',)]
     """
     root = _root(Path(path))
-    reader = _Reader(root)
+    reader = _Reader(root, closures or Closures())
     linkage = reader.linkage(Path(path).name, platform)
     return UrdfMechanism(linkage, tuple(reader.notes()), reader.origin)
 
@@ -152,13 +157,14 @@ def _root(path: Path) -> Element:
 class _Reader:
     """Links and joints of a file, and what was taken instead of what stands there."""
 
-    def __init__(self, root: Element) -> None:
-        self.root = root
+    def __init__(self, root: Element, closures: Closures) -> None:
+        self.root, self.closures = root, closures
         self.right, self.near, self.noise, self.open, self.origin = 0, 0, 0, Fraction(0), _ZERO
         self.links = [_name(link, "link") for link in root.findall("link")]
         if not 2 <= len(self.links) <= MOST_ELEMENTS or len(set(self.links)) < len(self.links):
             raise InputError(f"link: {len(self.links)} given; give 2 to {MOST_ELEMENTS} with different names")
         self.driven = {joint.get("name") for each in root.findall("transmission") for joint in each.findall("joint")}
+        self._take_types()
 
     def notes(self) -> Iterator[str]:
         """What was taken instead of what stands there, in words."""
@@ -182,6 +188,7 @@ class _Reader:
         if len(elements) > MOST_ELEMENTS:
             raise InputError(f"joint: {len(elements)} given; give at most {MOST_ELEMENTS}")
         base, frames, bodies = self._tree(elements)
+        bodies = self._welded(frames, bodies, base)
         joints = [
             self._joint(
                 element,
@@ -192,6 +199,7 @@ class _Reader:
             if element.get("type") != _FIXED
         ]
         joints += [self._loop(element, frames, bodies) for element in self.root.findall("loop_joint")]
+        joints += [self._ball(*loop[:2], frames, bodies) for loop in self.closures.loops if loop[2]]
         names = tuple(link for link in self.links if bodies[link] == link)
         last = self.links[-1] if platform is None else platform
         if last not in bodies:
@@ -199,6 +207,61 @@ class _Reader:
         self.origin = frames[last].point
         name = self.root.get("name") or source
         return Linkage(name, "m", f"URDF file {source}", names, tuple(joints), base, bodies[last])
+
+    def _take_types(self) -> None:
+        """Types and actuators as the closures have them."""
+        joints = {element.get("name"): element for element in self.root.findall("joint")}
+        for key, names in (("joint_name", tuple(self.closures.types)), ("name_mot", self.closures.actuated)):
+            missing = next((name for name in names if name not in joints), None)
+            if missing is not None:
+                raise InputError(f"{key}: {shown(missing)} is not the name of a joint; name one that is")
+        for name, kind in self.closures.types.items():
+            joints[name].set("type", JOINT_TYPES[kind])
+        for name in self.closures.actuated:
+            if _TYPES.get(joints[name].get("type", "")) not in ("R", "P"):
+                raise InputError(f"name_mot: the joint {shown(name)} neither turns nor slides; name one that does")
+        self.driven |= set(self.closures.actuated)
+
+    def _placed(self, name: str, frames: dict[str, _Frame]) -> tuple[_Frame, str]:
+        """A frame by the name of its link, or of the joint that bears it, and that link."""
+        children = {element.get("name"): element for element in self.root.findall("joint")}
+        link = name if name in frames else self._link(children[name], "child") if name in children else None
+        if link is None:
+            raise InputError(f"closed_loop: {shown(name)} is the name of neither a link nor a joint; name one that is")
+        return frames[link], link
+
+    def _require_closed(self, first: str, second: str, frames: tuple[_Frame, _Frame], *, only_origins: bool) -> None:
+        one, other = frames
+        apart = max(abs(a - b) for a, b in zip(one.point, other.point, strict=True))
+        pairs = [pair for rows in zip(one.rotation, other.rotation, strict=True) for pair in zip(*rows, strict=True)]
+        turned = Fraction(0) if only_origins else max(abs(a - b) for a, b in pairs)
+        if apart > _OPEN or turned > _OPEN:
+            how = f"{float(apart):.3g} apart" if apart > _OPEN else "turned against each other"
+            raise InputError(
+                f"closed_loop: with all joint values 0 the frames {shown(first)} and {shown(second)} are {how}, so "
+                "that the loop is open; give the files in a configuration in which it is closed"
+            )
+        self.open = max(self.open, apart)
+
+    def _welded(self, frames: dict[str, _Frame], bodies: dict[str, str], base: str) -> dict[str, str]:
+        """The bodies, those whose frames are one by a closure made one: the base, or the first in the file."""
+        found = dict(bodies)
+        for first, second, only_origins in self.closures.loops:
+            (one, link), (other, another) = self._placed(first, frames), self._placed(second, frames)
+            if found[link] == found[another]:
+                raise InputError(f"closed_loop: {shown(first)} and {shown(second)} are of one body; leave the pair out")
+            self._require_closed(first, second, (one, other), only_origins=only_origins)
+            if not only_origins:
+                order = [base, *self.links]
+                kept, lost = sorted((found[link], found[another]), key=order.index)
+                found = {name: kept if body == lost else body for name, body in found.items()}
+        return found
+
+    def _ball(self, first: str, second: str, frames: dict[str, _Frame], bodies: dict[str, str]) -> Joint:
+        """The joint of two frames whose origins are one."""
+        (one, link), (_, another) = self._placed(first, frames), self._placed(second, frames)
+        geometry = JointGeometry(point=one.point)
+        return Joint(f"{first}, {second}"[:100], "S", (bodies[link], bodies[another]), geometry, ())
 
     def _tree(self, elements: list[Element]) -> tuple[str, dict[str, _Frame], dict[str, str]]:
         """The base, the frame of every link, and to which body it belongs: links at fixed joints are one."""
@@ -310,9 +373,12 @@ class _Reader:
 def _geometry(kind: str, frame: _Frame, along: Vector) -> JointGeometry:
     """Where a joint of a type is, with its frame and the axis in that."""
     axis = frame.moved(along)
+    if kind in UNIVERSAL:
+        units = [tuple(Fraction(int(i == k)) for i in range(3)) for k in UNIVERSAL[kind]]
+        return JointGeometry(point=frame.point, axes=tuple(frame.moved((x, y, z)) for x, y, z in units))
     if kind == "floating":
-        units = tuple(tuple(Fraction(int(i == k)) for i in range(6)) for k in range(6))
-        return JointGeometry(screws=units)
+        screws = tuple(tuple(Fraction(int(i == k)) for i in range(6)) for k in range(6))
+        return JointGeometry(screws=screws)
     if kind == "planar":
         first, second = _across(axis)
         return JointGeometry(screws=((*_ZERO, *first), (*_ZERO, *second), (*axis, *cross(frame.point, axis))))
