@@ -10,9 +10,10 @@ from samples import images, katsura, random_quadrics, shipped, solved, system
 from pkm_exact.algebra.equations import SystemEquations
 from pkm_exact.algebra.lifting import lift_by_newton, lift_by_primes
 from pkm_exact.algebra.modular_elimination import Elimination
-from pkm_exact.algebra.representation import UnivariateRepresentation, are_coprime, satisfies
+from pkm_exact.algebra.representation import UnivariateRepresentation, are_coprime
 from pkm_exact.algebra.rur import ModularRepresentation, modular_representation
 from pkm_exact.algebra.system import PolynomialSystem
+from pkm_exact.algebra.vanishing import satisfies
 from pkm_exact.errors import ReconstructionError
 from pkm_exact.policy import Policy
 from pkm_exact.poses.study_equations import StudyEquations

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import gcd
 
-from flint import fmpz_mpoly, fmpz_poly, nmod_poly
+from flint import fmpz_poly, nmod_poly
 
 from pkm_exact.algebra.primes import primes_from
-from pkm_exact.algebra.system import PolynomialSystem
 from pkm_exact.digests import digest
 
 
@@ -141,37 +140,3 @@ def _trimmed(values: Sequence[int]) -> tuple[int, ...]:
     while size and not values[size - 1]:
         size -= 1
     return tuple(values[:size])
-
-
-def satisfies(representation: UnivariateRepresentation, system: PolynomialSystem) -> bool:
-    """Whether every polynomial of the system vanishes, exactly, at every solution of the representation."""
-    denominator = representation.polynomial.derivative()
-    evaluate = homogeneous_evaluator(representation.numerator_polynomials, denominator)
-    return all(representation.vanishes(evaluate(polynomial)) for polynomial in system.polynomials)
-
-
-def homogeneous_evaluator(numerators: Sequence[fmpz_poly], denominator: fmpz_poly) -> Callable[[fmpz_mpoly], fmpz_poly]:
-    """A function that gives denominator^deg(F) F(numerators / denominator); products are kept between calls."""
-    values: dict[tuple[int, ...], fmpz_poly] = {(0,) * len(numerators): fmpz_poly([1])}
-    powers = [fmpz_poly([1])]
-
-    def monomial(exponents: tuple[int, ...]) -> fmpz_poly:
-        if exponents not in values:
-            index = next(i for i, exponent in enumerate(exponents) if exponent)
-            smaller = (*exponents[:index], exponents[index] - 1, *exponents[index + 1 :])
-            values[exponents] = monomial(smaller) * numerators[index]
-        return values[exponents]
-
-    def evaluate(polynomial: fmpz_mpoly) -> fmpz_poly:
-        degree = int(polynomial.total_degree())
-        by_degree = [fmpz_poly() for _ in range(degree + 1)]
-        for exponents, coefficient in polynomial.to_dict().items():
-            key = tuple(map(int, exponents))
-            by_degree[sum(key)] += coefficient * monomial(key)
-        while len(powers) <= degree:
-            powers.append(powers[-1] * denominator)
-        return sum(
-            (part * power for part, power in zip(by_degree, reversed(powers[: degree + 1]), strict=True)), fmpz_poly()
-        )
-
-    return evaluate

@@ -18,6 +18,8 @@ from pkm_exact.algebra.rur import ModularRepresentation, distinct_values, modula
 
 RANDOM_FORMS = 6
 """Forms with random coefficients that are tried after the unknowns themselves."""
+SMALL_FORMS = 2
+"""Of these, those with different coefficients, up to the number of unknowns."""
 _LARGEST = 99
 
 
@@ -45,9 +47,14 @@ def separated(algebra: QuotientAlgebra, seed: int) -> SeparatedSolutions | None:
 
 
 def candidate_forms(size: int, seed: int) -> Iterator[tuple[int, ...]]:
-    """Linear forms to try: the last unknown, .., the first one, and then random ones."""
+    """Linear forms to try: the last unknown, .., the first one, and then random ones, small ones first.
+
+    The coefficients of what is lifted are as long as the values of the form at all solutions together.
+    """
     yield from (tuple(int(place == index) for place in range(size)) for index in reversed(range(size)))
     random = Random(seed)
+    for _ in range(SMALL_FORMS):
+        yield tuple(random.choice((-1, 1)) * weight for weight in random.sample(range(1, size + 1), size))
     while True:
         yield tuple(random.randrange(1, _LARGEST) for _ in range(size))
 

@@ -14,9 +14,10 @@ from typing import Final
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.lifting import lift_by_newton, lift_by_primes
 from pkm_exact.algebra.modular_elimination import Elimination, ModularImage
-from pkm_exact.algebra.representation import UnivariateRepresentation, satisfies, union
+from pkm_exact.algebra.representation import UnivariateRepresentation, union
 from pkm_exact.algebra.rur import ModularRepresentation
 from pkm_exact.algebra.system import PolynomialSystem
+from pkm_exact.algebra.vanishing import satisfies
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.policy import Policy
 from pkm_exact.stages import Amount, Stages

@@ -39,7 +39,7 @@ class RealRoot:
         self._h = h
         self._size = int(h.length()), limbs(int(h.height_bits()))
         self._slope = h.derivative()
-        charge(3 * value_cost(*self._size, _words(low) + _words(high)))
+        charge(2 * value_cost(*self._size, _words(low)))
         self._rises = bool((h(low) or self._slope(low)) < 0)
         self._bits = GUARD
         self._guess = (low + high) / 2

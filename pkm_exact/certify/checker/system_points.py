@@ -101,7 +101,9 @@ class _Values:
             parts[total] += value * self._monomial(monomial)
         result = fmpz_poly()
         for low, part in enumerate(parts):
-            if part:
+            if part and low == most:
+                result += part
+            elif part:
                 self._charge(most, limbs(int(part.height_bits())))
                 result += part * self.powers[most - low]
         return result
@@ -123,4 +125,4 @@ class _Values:
 
     def _charge(self, factors: int, words: int = 0) -> None:
         """For a product with so many factors in all."""
-        charge(polynomials_cost((factors + 1) * self.terms, max(words, (factors + 1) * self.words)))
+        charge(polynomials_cost(factors * self.terms, max(words, factors * self.words)))
