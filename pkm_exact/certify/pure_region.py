@@ -1193,7 +1193,7 @@ def is_regular(matrix: Matrix, part: Part) -> bool:
 def spend_on_column(tables: Sequence[Table]) -> None:
     """The work of making the tables of a column multiples of one number, and of looking at them for every row."""
     words = sum(table.denominator.bit_length() + table.exponent for table in tables) // 64 + 1
-    pure.spend(len(tables) * sum(map(cost_of, tables)) * size_factor(words // 8, 1))
+    pure.spend(len(tables) * sum(map(cost_of, tables)) * size_factor(words // 8, 1) // 2)
 
 
 def spend_on_inverse(columns: Sequence[tuple[list[list[int]], list[list[int]], int]]) -> None:
@@ -1201,7 +1201,7 @@ def spend_on_inverse(columns: Sequence[tuple[list[list[int]], list[list[int]], i
     size = len(columns)
     longest = max(scale.bit_length() + max(map(pure.most_bits, (*low, *high))) for low, high, scale in columns)
     words = size * longest // 64 + 1
-    pure.spend(100 * size**3 * size_factor(words, words))
+    pure.spend(40 * size**3 * size_factor(words, words))
 
 
 def column_of(

@@ -97,7 +97,8 @@ class MatrixTable:
 
     def halved(self, variable: int) -> tuple[MatrixTable, MatrixTable]:
         """Those on the lower and on the upper half along a variable."""
-        charge_looks(self.columns, 3 + max(max(column.values.shape[2:]) for column in self.columns))
+        for column in self.columns:
+            charge_looks(column, 3 + column.values.shape[2 + variable])
         halves = [_halved(column, 2 + variable) for column in self.columns]
         first, second = (MatrixTable(self.roots, tuple(pair[side] for pair in halves)) for side in (0, 1))
         return first, second
@@ -108,40 +109,42 @@ class MatrixTable:
 
     def is_regular(self, ends: Ends) -> bool:
         """Whether the matrix is proved to be regular all over the part; ``ends`` are bounds of the roots there."""
-        size = len(self.roots)
-        charge_looks(self.columns, 6 * size)
+        for column in self.columns:
+            charge_looks(column, 5)
         units = [_unit(ends, root) for root in self.roots]
         bounds = [self._bounds(column, ends, units) for column in self.columns]
-        scales = [column.denominator << column.exponent for column in self.columns]
-        middle = fmpz_mat([[fmpz(min(low[k]) + max(high[k])) for low, high in bounds] for k in range(size)])
+        middles = [[min(low) + max(high) for low, high in zip(*both, strict=True)] for both in bounds]
         charge_inverse(self.columns, units)
-        if middle.det() == 0:
+        inverse = _inverse([list(row) for row in zip(*middles, strict=True)])
+        if inverse is None:
             return False
-        inverse = middle.inv()
+        scales = [column.denominator << column.exponent for column in self.columns]
+        weights = _weights(*inverse, scales, units)
+        words = number_words(*(w for row, _ in weights for w in row))
+        far = []
+        for column, (low, high) in zip(self.columns, bounds, strict=True):
+            charge_product(column, words + number_words(*units))
+            far.append(_combined([row for row, _ in weights], low, high))
         rows = []
-        for i, scale in enumerate(scales):
-            near = [
-                _leading(Fraction(int(x.p), int(x.q)) * 2 * scale * unit) / unit
-                for x, unit in zip(_row(inverse, i), units, strict=True)
-            ]
-            common = lcm(*(x.denominator for x in near))
-            weights = [int(x * common) for x in near]
-            row = []
-            for j, (low, high) in enumerate(bounds):
-                whole = common * scales[j] * (i == j)
-                far = _farthest(weights, low, high, whole)
-                row.append(whole - far)
-            rows.append(row)
+        for i, (_, common) in enumerate(weights):
+            wholes = [common * scale * (i == j) for j, scale in enumerate(scales)]
+            rows.append(
+                [
+                    whole - max(abs(whole - least), abs(whole - most))
+                    for whole, (least, most) in zip(wholes, (ranges[i] for ranges in far), strict=True)
+                ]
+            )
         return _has_positive_minors(rows)
 
-    def _bounds(self, column: _Column, ends: Ends, units: Sequence[int]) -> tuple[Any, Any]:
+    def _bounds(self, column: _Column, ends: Ends, units: Sequence[int]) -> tuple[list[list[fmpz]], list[list[fmpz]]]:
         """By rows the lesser and the greater of the coefficients at both ends of the row's root, times its unit."""
-        flat = column.values.reshape(len(self.roots), 2, -1)
-        low, high = flat[:, 0].copy(), flat[:, 0].copy()
+        layers = column.values.reshape(len(self.roots), column.values.shape[1], -1)
+        low = [row[0].tolist() for row in layers]
+        high = list(low)
         for k, (root, unit) in enumerate(zip(self.roots, units, strict=True)):
             if root is not None:
-                one, other = (flat[k, 0] * unit + flat[k, 1] * int(end * unit) for end in ends[root])
-                low[k], high[k] = np.minimum(one, other), np.maximum(one, other)
+                one, other = (layers[k, 0] * unit + layers[k, 1] * int(end * unit) for end in ends[root])
+                low[k], high[k] = np.minimum(one, other).tolist(), np.maximum(one, other).tolist()
         return low, high
 
 
@@ -150,36 +153,76 @@ def _unit(ends: Ends, root: int | None) -> int:
     return lcm(*(end.denominator for end in (() if root is None else ends[root])))
 
 
-def _row(matrix: Any, i: int) -> list[Any]:
-    return [matrix[i, k] for k in range(matrix.ncols())]
+def _inverse(rows: Sequence[Sequence[fmpz]]) -> tuple[list[list[int]], int] | None:
+    """The inverse of a matrix: integers, and what they are divided by; None if it is singular."""
+    size = len(rows)
+    table = [[*row, *(fmpz(int(i == k)) for k in range(size))] for i, row in enumerate(rows)]
+    found, divisor, _ = fmpz_mat(table).rref()
+    if found[size - 1, size - 1] == 0:
+        return None
+    sign = -1 if divisor < 0 else 1
+    return [[sign * int(found[i, size + k]) for k in range(size)] for i in range(size)], abs(int(divisor))
+
+
+def _weights(
+    inverse: Sequence[Sequence[int]], below: int, scales: Sequence[int], units: Sequence[int]
+) -> list[tuple[list[int], int]]:
+    """By rows the entries of the approximate inverse times something positive, and that."""
+    together = lcm(*units)
+    found = []
+    for i, scale in enumerate(scales):
+        digits = [_first_digits(2 * scale * unit * inverse[i][k], below) for k, unit in enumerate(units)]
+        power = max(0, *(power for _, power in digits))
+        row = [(x << (power - own)) * (together // unit) for (x, own), unit in zip(digits, units, strict=True)]
+        found.append((row, together << power))
+    return found
 
 
 def _has_positive_minors(rows: list[list[int]]) -> bool:
-    """Whether the determinants of the first 1, 2, .. rows and columns are positive: by elimination without division."""
+    """Whether the determinants of the first 1, 2, .. rows and columns are positive: the pivots of Bareiss."""
+    divisor = 1
     while rows:
         (pivot, *upper), *lower = rows
         if pivot <= 0:
             return False
-        rows = [[pivot * x - first * y for x, y in zip(rest, upper, strict=True)] for first, *rest in lower]
+        rows = [
+            [(pivot * x - first * y) // divisor for x, y in zip(rest, upper, strict=True)] for first, *rest in lower
+        ]
+        divisor = pivot
     return True
 
 
-def _farthest(weights: Sequence[int], low: Any, high: Any, whole: int) -> int:
-    """The greatest absolute value of a number less the combinations of what is between bounds."""
-    least = sum(w * (a if w == abs(w) else b) for w, a, b in zip(weights, low, high, strict=True))
-    greatest = sum(w * (b if w == abs(w) else a) for w, a, b in zip(weights, low, high, strict=True))
-    return int(max(abs(whole - min(least)), abs(whole - max(greatest))))
+def _combined(weights: Sequence[Sequence[int]], low: list[list[fmpz]], high: list[list[fmpz]]) -> list[tuple[int, int]]:
+    """For each row of weights between what its combinations of what is between bounds lie."""
+    size, places = len(low), len(low[0])
+    lower = fmpz_mat(size, places, [x for row in low for x in row])
+    if all(a is b for a, b in zip(low, high, strict=True)):
+        least = most = (fmpz_mat(weights) * lower).entries()
+    else:
+        upper = fmpz_mat(size, places, [x for row in high for x in row])
+        positive, negative = (fmpz_mat([[part(w, 0) for w in row] for row in weights]) for part in (max, min))
+        least = (positive * lower + negative * upper).entries()
+        most = (positive * upper + negative * lower).entries()
+    return [
+        (int(min(least[start : start + places])), int(max(most[start : start + places])))
+        for start in range(0, len(weights) * places, places)
+    ]
 
 
-def _leading(value: Fraction) -> Fraction:
-    """A number without its binary digits after the first ``DIGITS``."""
-    size = value.numerator.bit_length() - value.denominator.bit_length()
-    power = DIGITS - size if abs(value) < Fraction(2) ** size else DIGITS - 1 - size
-    unit = Fraction(2) ** power
-    return Fraction(int(value * unit)) / unit
+def _first_digits(numerator: int, denominator: int) -> tuple[int, int]:
+    """A quotient with its first ``DIGITS`` binary digits only: an integer, and the power of 2 that divides it."""
+    if not numerator:
+        return 0, 0
+    power = DIGITS - (numerator.bit_length() - denominator.bit_length())
+    found = (abs(numerator) << max(power, 0)) // (denominator << max(-power, 0))
+    if found.bit_length() > DIGITS:
+        found, power = found >> 1, power - 1
+    return (found if numerator > 0 else -found), power
 
 
 def _halved(column: _Column, axis: int) -> tuple[_Column, _Column]:
+    if column.values.shape[axis] == 1:
+        return column, column
     level = np.moveaxis(column.values, axis, 0)
     degree = len(level) - 1
     low, high = [level[0] << degree], [level[-1] << degree]
@@ -204,7 +247,7 @@ def _column(entries: Sequence[Any], roots: Sequence[int | None], box: Box) -> _C
     count = len(box)
     monomials = [exponents for entry in entries for exponents in entry.monoms()]
     degrees = [max((int(exponents[k]) for exponents in monomials), default=0) for k in range(count)]
-    shape = (len(entries), 2, *(degree + 1 for degree in degrees))
+    shape = (len(entries), 1 + any(root is not None for root in roots), *(degree + 1 for degree in degrees))
     charge_column(entries, degrees, box)
     values = np.full(shape, Fraction(0), dtype=object)
     for k, (entry, root) in enumerate(zip(entries, roots, strict=True)):
@@ -216,14 +259,19 @@ def _column(entries: Sequence[Any], roots: Sequence[int | None], box: Box) -> _C
         turned = np.tensordot(_to_bernstein(degrees[variable], low, high - low), values, axes=(1, axis))
         values = np.moveaxis(turned, 0, axis)
     denominator = lcm(*(x.denominator for x in values.flat))
-    whole = np.array([int(x * denominator) for x in values.flat], dtype=object).reshape(shape)
+    whole = np.array([fmpz(int(x * denominator)) for x in values.flat], dtype=object).reshape(shape)
     return _Column(whole, denominator, max(abs(x).bit_length() for x in whole.flat))
 
 
-def charge_looks(columns: Sequence[_Column], times: int) -> None:
-    """Work that looks so often at every coefficient."""
-    for column in columns:
-        charge(1000 + 5 * times * column.values.size * (4 + (column.bits + column.exponent) // 64))
+def charge_looks(column: _Column, times: int) -> None:
+    """Work that looks so often at every coefficient of a column."""
+    charge(1000 + 5 * times * column.values.size * (4 + (column.bits + column.exponent) // 64))
+
+
+def charge_product(column: _Column, words: int) -> None:
+    """The work of combining the rows of a column in as many ways, by weights of so many words."""
+    own = (column.bits + column.exponent) // 64 + 1
+    charge(1000 + 20 * len(column.values) * column.values.size * size_factor(own, words))
 
 
 def charge_value(polynomial: Any, point: Sequence[Fraction]) -> None:
@@ -238,7 +286,7 @@ def charge_inverse(columns: Sequence[_Column], units: Sequence[int]) -> None:
     size = len(columns)
     sizes = (column.bits + column.exponent + column.denominator.bit_length() for column in columns)
     words = size * (1 + max(sizes) // 64 + number_words(*units))
-    charge(20_000 + 10 * size**3 * size_factor(words, words))
+    charge(20_000 + 4 * size**3 * size_factor(words, words))
 
 
 def charge_column(entries: Sequence[Any], degrees: Sequence[int], box: Box) -> None:
