@@ -29,6 +29,7 @@ from pkm_exact.regions.paving import (
     spliced,
     truths_at,
 )
+from pkm_exact.regions.paving_tree import PavingTree
 from pkm_exact.regions.region_conditions import Asked, asked_of
 from pkm_exact.regions.region_legs import RegionMachine
 from pkm_exact.regions.region_matrices import MOST_OF_DETERMINANT
@@ -93,10 +94,7 @@ class RegionAnswer:
     @cached_property
     def shares(self) -> dict[str, Fraction]:
         """The same as shares of the box of the chart, exactly."""
-        found = dict.fromkeys(_NAMES.values(), Fraction(0))
-        for letter, part in leaves(self.word, self.axes, len(self.question.chart.variables)):
-            found[_NAMES[letter]] += Fraction(1, 1 << part.depth)
-        return found
+        return dict(zip(_NAMES.values(), PavingTree(self.word).shares(tuple(_NAMES)), strict=True))
 
     @property
     def measures(self) -> tuple[Fraction, Fraction] | None:
