@@ -71,8 +71,23 @@ def double_coordinates(
         middles = np.concatenate([factors * quotients, quaternion], axis=1)
         bounds = np.concatenate([factors * quotients_off, quaternion_off], axis=1)
         bounds = (bounds + gamma(_FEW) * np.abs(middles)) * OUTWARD + SMALL
+    for places, value in zip(_constants(metric, tuple(support)), (0.0, 1.0), strict=True):
+        middles[:, places], bounds[:, places] = value, 0.0
     bounds[~(np.abs(part) < 1 / 4)[:, 0] | ~(norm > 0)[:, 0]] = np.nan
     return DoubleCoordinates(middles, bounds)
+
+
+@lru_cache(maxsize=32)
+def _constants(metric: tuple[int, int, int], support: tuple[int, ...]) -> tuple[list[int], list[int]]:
+    """Which coordinates are 0, and which are 1, for all motions with this support: entries of rotations among them."""
+    quadrics = [
+        {place: value for place, value in quadric.items() if set(place) <= set(support)}
+        for quadric in motion_quadrics(metric)[4:]
+    ]
+    zeros, ones = (
+        [place for place, quadric in enumerate(quadrics[:-1]) if quadric == other] for other in ({}, quadrics[-1])
+    )
+    return zeros + [12 + index for index in range(4) if index not in support], ones
 
 
 def study_points(solutions: Sequence[DoubleSolution], support: Sequence[int]) -> tuple[Real, Real, Real]:

@@ -12,8 +12,10 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from pkm_exact.constraints.form import SIZE
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
+from pkm_exact.motions.motion import Motion
 from pkm_exact.numeric.double_rounding import gamma
 from pkm_exact.numeric.study_system import Real
 from pkm_exact.poses.pose import Pose
@@ -40,7 +42,7 @@ def require_poses_on_robot(poses: Sequence[Pose], problem: ForwardProblem, expon
     InternalContradictionError
     """
     left = list(poses)
-    if poses and problem.has_only_distances and not problem.motion.forms:
+    if poses and problem.has_only_distances:
         decided = _have_room(poses, problem, chart)
         left = [pose for pose, has_room in zip(poses, decided.tolist(), strict=True) if not has_room]
     require_on_robot(left, problem, exponent, chart)
@@ -62,6 +64,7 @@ def _have_room(poses: Sequence[Pose], problem: ForwardProblem, chart: Sequence[i
         middle, radius = (ends[..., 1] + ends[..., 0]) / 2, (ends[..., 1] - ends[..., 0]) / 2
         parts = [
             _reach(middle, radius, base * axes, platform * axes, squares),
+            _moves(middle, radius, problem.motion, axes),
             _are_turns(middle, radius),
             _have_sign(middle, radius, chart, axes),
         ]
@@ -90,6 +93,26 @@ def _reach(middle: Real, radius: Real, base: Real, platform: Real, squares: Real
     reach = (around * (2 * np.abs(leg) + around)).sum(axis=2)
     size = (sizes * (2 * np.abs(leg) + gamma(_FEW) * sizes)).sum(axis=2) + squares
     return _fits((leg * leg).sum(axis=2) - squares, reach, size)
+
+
+def _moves(middle: Real, radius: Real, motion: Motion, axes: Real) -> NDArray[np.bool_]:
+    """Whether the forms that vanish on all motions can be 0; where |C|^2 is in them, it is not said."""
+    forms = np.array(motion.forms, dtype=float).reshape(-1, SIZE)
+    if forms[:, 0].any():
+        return np.zeros(len(middle), dtype=np.bool_)
+    rotation = forms[:, 7:16] * (axes[None, :] / axes[:, None]).ravel()
+    rows = np.concatenate([forms[:, 1:4] / axes, forms[:, 4:7] / axes, rotation], axis=1)
+    turned, sizes, around = (_turned_back(part) for part in (middle, np.abs(middle), np.abs(middle) + radius))
+    values = np.concatenate([turned, middle[:, :12]], axis=1) @ rows.T + forms[:, 16]
+    reach = np.concatenate([around - sizes, radius[:, :12]], axis=1) @ np.abs(rows).T
+    size = np.concatenate([sizes, np.abs(middle[:, :12])], axis=1) @ np.abs(rows).T + np.abs(forms[:, 16])
+    return _fits(values, reach, size)
+
+
+def _turned_back(pose: Real) -> Real:
+    """u = R^T C."""
+    turned: Real = (pose[:, :3, None] * pose[:, 3:12].reshape(-1, 3, 3)).sum(axis=1)
+    return turned
 
 
 def _are_turns(middle: Real, radius: Real) -> NDArray[np.bool_]:
