@@ -15,13 +15,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache, partial
-from math import isqrt, ldexp
+from math import isqrt
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.constraints.form import Form
+from pkm_exact.constraints.form import SIZE, Form
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.geometry.study import Quadric, motion_quadrics
@@ -124,32 +124,40 @@ def _places() -> tuple[NDArray[np.intp], NDArray[np.intp], Real]:
 
 
 def _coefficients(problem: ForwardProblem, length: Fraction) -> Twofold:
-    """(m, 6, 9) each: what the values are multiplied with."""
+    """(m, 6, 9) each: what the values are multiplied with.
+
+    Integers n, in units of 2^-b, are rounded to two doubles, which is off by u^2 of them; they were rounded down twice.
+    """
     scales = [scale for found in problem.constraints for scale in found.scales(problem.metric, length)]
-    tables = np.array([_scaled(form, scale, length) for form, scale in zip(problem.forms, scales, strict=True)])
+    rows, shifts = zip(
+        *(_scaled(form, scale, length) for form, scale in zip(problem.forms, scales, strict=True)), strict=True
+    )
+    heads = [[float(value) for value in row] for row in rows]
+    tails = [
+        [float(value - int(head)) if value else 0.0 for value, head in zip(*pair, strict=True)]
+        for pair in zip(rows, heads, strict=True)
+    ]
+    tables = np.ldexp(np.array([heads, tails, np.full(np.shape(heads), 2.0)]), -np.array(shifts)[:, None])
+    tables[2] += 2 * U * U * np.abs(tables[0])
     _, places, factors = _places()
-    heads, tails, bounds = (tables[:, :, np.arange(6)[:, None] // 3, places] * factors).transpose(1, 0, 2, 3)
-    return heads, tails, np.abs(bounds)
+    chosen = tables[:, :, np.arange(6)[:, None] // 3 * (SIZE - 1) + places] * factors
+    return chosen[0], chosen[1], np.abs(chosen[2])
 
 
-def _scaled(form: Form, scale: Fraction, length: Fraction) -> list[list[list[float]]]:
-    """(3, 2, 16): coefficients divided by the root of the scale, and by the length too; heads, tails and bounds.
+def _scaled(form: Form, scale: Fraction, length: Fraction) -> tuple[list[int], int]:
+    """The coefficients divided by the root of the scale, and then by the length too, times 2^b, as integers; b.
 
-    With T = 2^b / root, rounded down, T c is rounded down to an integer, and this to two doubles: that is off by u^2
-    of itself and by 1.
+    With T = 2^b / root, rounded down, T c is rounded down; 0 stands for what no entry is made of.
     """
     shift = BITS + max(0, scale.numerator.bit_length() - scale.denominator.bit_length()) // 2
     root = isqrt((scale.denominator << 2 * shift) // scale.numerator)
-    heads, tails, bounds = [], [], []
-    for factor in (root, root * length.denominator // length.numerator):
-        if factor.bit_length() < LEAST_BITS:
-            raise OverflowError("numbers of very different sizes")
-        exact = [value.numerator * factor // value.denominator for value in form[:-1]]
-        near = [float(value) for value in exact]
-        heads.append([ldexp(value, -shift) for value in near])
-        tails.append([ldexp(value - int(head), -shift) for value, head in zip(exact, near, strict=True)])
-        bounds.append([ldexp(2 * U * U * abs(head) + 2, -shift) for head in near])
-    return [heads, tails, bounds]
+    turning = root * length.denominator // length.numerator
+    if min(root, turning).bit_length() < LEAST_BITS:
+        raise OverflowError("numbers of very different sizes")
+    numbers = [(value.numerator, value.denominator) for value in form[:-1]]
+    force = [a * root // b for a, b in numbers[:7]]
+    moment = [a * turning // b for a, b in (*numbers[1:4], *numbers[7:])]
+    return [*force, *[0] * 9, 0, *moment[:3], *[0] * 3, *moment[3:]], shift
 
 
 def _entries(coefficients: Twofold, values: Twofold, moving: list[int]) -> Twofold:
