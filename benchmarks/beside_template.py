@@ -24,8 +24,11 @@ import numpy as np
 from agreement import random_robot
 
 from pkm_exact import read_robot
+from pkm_exact.constraints.distance import _form_of_joints
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import _pose_quadrics
 from pkm_exact.numeric_engine import solve_krawczyk
+from pkm_exact.poses.jacobian import _spread
 
 MODELS = Path(__file__).parent.parent / "models"
 ROBOTS = ("rolland-6-6", "dietmaier", "mourrain-l")
@@ -68,9 +71,10 @@ def _fksgp(folder: Path) -> Callable[..., Any]:
 
 def _both(problem: ForwardProblem, solver: Callable[..., Any]) -> tuple[float, float, int, int]:
     """Processor seconds, and numbers of solutions, of both."""
-    problem = ForwardProblem(
-        problem.constraints, problem.metric, problem.motion
-    )  # nothing is known from an earlier run
+    # Nothing is known of the robot from an earlier run.
+    problem = ForwardProblem(problem.constraints, problem.metric, problem.motion)
+    for known in (_pose_quadrics, _form_of_joints, _spread):
+        known.cache_clear()
     scales = np.sqrt(np.array(problem.metric, dtype=float))
     base, platform = (
         np.array([[float(value) for value in getattr(leg, side)] for leg in problem.distances]) * scales

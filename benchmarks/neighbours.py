@@ -1,8 +1,9 @@
 """Rows of a sweep beside solves of their own, by the numeric engine: in turn, in one process.
 
 Rows share what is found once for all of them (``batch.row_solver``); that their boxes are those of solves of their own
-is checked. Lengths differ from those of the model by 0.4 percent at most. Processor time, which a loaded machine
-changes little; threads of numpy's linear algebra are one.
+is checked. What a sweep makes of a row beside its solution, its certificate with the digest and its line, is the third
+time. Lengths differ from those of the model by 0.4 percent at most. Processor time, which a loaded machine changes
+little; threads of numpy's linear algebra are one.
 """
 
 from __future__ import annotations
@@ -33,28 +34,36 @@ def main() -> int:
     for library in ("OPENBLAS", "MKL", "OMP"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     print(f"load {os.getloadavg()[0]:.1f}\n")
-    print("| robot | solve of its own, ms | row, ms | ratio |\n| --- | --- | --- | --- |")
+    print("| robot | solve of its own, ms | row, ms | ratio | with certificate and line, ms | ratio |")
+    print("| --- | --- | --- | --- | --- | --- |")
     for name in ROBOTS:
-        own, rows = _measured(name, arguments.rows)
-        cells = [f"{1000 * median(t):.1f} ({1000 * min(t):.1f} to {1000 * max(t):.1f})" for t in (own, rows)]
-        print(f"| {name} | {' | '.join(cells)} | {median(rows) / median(own):.2f} |", flush=True)
+        own, rows, rest = _measured(name, arguments.rows)
+        whole = [a + b for a, b in zip(rows, rest, strict=True)]
+        cells = [f"{1000 * median(t):.1f} ({1000 * min(t):.1f} to {1000 * max(t):.1f})" for t in (own, rows, whole)]
+        ratios = [f"{median(t) / median(own):.2f}" for t in (rows, whole)]
+        print(f"| {name} | {cells[0]} | {cells[1]} | {ratios[0]} | {cells[2]} | {ratios[1]} |", flush=True)
     return 0
 
 
-def _measured(name: str, count: int) -> tuple[list[float], list[float]]:
-    """Processor seconds of solves of their own, and of rows."""
+def _measured(name: str, count: int) -> tuple[list[float], list[float], list[float]]:
+    """Processor seconds of solves of their own, of rows, and of their certificates and lines."""
     # Numpy reads the number of threads when it is loaded.
+    from pkm_exact import read_robot
     from pkm_exact.batch.row_solver import RowSolver
+    from pkm_exact.certify.build import certificate_bytes
     from pkm_exact.numeric_engine import solve_krawczyk
     from pkm_exact.policy import Policy
     from pkm_exact.poses.boxes import DEFAULT_WIDTH
+    from pkm_exact.sweep.lengths import LengthRow
+    from pkm_exact.sweep.record import solution_line
 
+    robot = read_robot(MODELS / f"{name}.toml")
     problems = _problems(name, count + 1)
     solver = RowSolver.of(problems, DEFAULT_WIDTH, Policy())
-    times: tuple[list[float], list[float]] = ([], [])
+    times: tuple[list[float], list[float], list[float]] = ([], [], [])
     for number, problem in enumerate(problems):
         found = []
-        for solve, values in zip((solve_krawczyk, solver.solution), times, strict=True):
+        for solve, values in zip((solve_krawczyk, solver.solution), times[:2], strict=True):
             fresh = type(problem)(problem.constraints, problem.metric, problem.motion)
             begun = process_time()
             found.append(solve(fresh))
@@ -62,6 +71,12 @@ def _measured(name: str, count: int) -> tuple[list[float], list[float]]:
                 values.append(process_time() - begun)
         if found[0].poses != found[1].poses or found[0].isolated != found[1].isolated:
             raise SystemExit(f"{name}, row {number}: the boxes are not those of a solve of its own")
+        begun = process_time()
+        solution_line(
+            LengthRow(number, number, ()), robot, None, found[1], certificate_bytes(robot, None, found[1]), None
+        )
+        if number:
+            times[2].append(process_time() - begun)
     return times
 
 
