@@ -168,12 +168,14 @@ def _limit(system: ChartSystem, start: _Start, exponent: int) -> _Start | None:
 
 def _without_conjugates(points: Complex) -> Complex:
     """The points without those that are clearly complex and the conjugate of an earlier one: a box stands for both."""
-    apart = points[:, None] - points[None].conj()
-    distances = np.sqrt((apart.real**2 + apart.imag**2).max(axis=2))
     sizes = np.abs(points).max(axis=1, initial=0)
-    complex_ones = np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes
-    paired = np.triu(distances <= SAME * sizes, 1).any(axis=0)
-    rest: Complex = points[~(paired & complex_ones)]
+    complex_ones = np.flatnonzero(np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes)
+    first = points[complex_ones, 0]
+    # Few pairs have the first coordinate in common.
+    i, j = np.nonzero(np.abs(first[:, None] - first[None].conj()) <= SAME * sizes[complex_ones])
+    i, j = complex_ones[i[i < j]], complex_ones[j[i < j]]
+    paired = np.abs(points[i] - points[j].conj()).max(axis=1, initial=0) <= SAME * sizes[j]
+    rest: Complex = np.delete(points, j[paired], axis=0)
     return rest
 
 

@@ -17,6 +17,8 @@ from pkm_exact.numeric.study_system import QUANTITIES, Complex, Real, motion_for
 from pkm_exact.numeric.template import motion_seeds
 from pkm_exact.numeric.tracker import polished
 
+ENOUGH = 1e-8
+"""Corrections of this size are the last ones."""
 SMALL = 1e-14
 """Relative singular values below which directions of f are taken for undetermined."""
 
@@ -40,7 +42,7 @@ def seeds(problem: ForwardProblem) -> Approximations:
             points = study_points(motion_seeds(section.legs.real))
         except np.linalg.LinAlgError:
             points = np.zeros((0, 8), dtype=complex)
-        points, change = polished(points[np.isfinite(points).all(axis=1)], section.quadrics)
+        points, change = polished(points[np.isfinite(points).all(axis=1)], section.quadrics, enough=ENOUGH)
     return Approximations(section, points[change < GREATEST_CHANGE])
 
 
