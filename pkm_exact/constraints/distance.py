@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from math import lcm
 from types import MappingProxyType
 from typing import ClassVar
 
@@ -21,13 +22,15 @@ from pkm_exact.constraints.form import Form, Vector, form, outer, scaled
 @lru_cache(maxsize=64)
 def _form_of_joints(metric: tuple[int, int, int], base: Vector, platform: Vector) -> Form:
     """The form without the length: many robots differ in that alone."""
-    squares = sum((g * (a * a + b * b) for g, a, b in zip(metric, base, platform, strict=True)), Fraction(0))
+    # In integers, over one denominator: far fewer fractions are reduced.
+    unit = lcm(*(value.denominator for value in (*base, *platform)))
+    a, b = ([value.numerator * (unit // value.denominator) for value in side] for side in (base, platform))
     return form(
         Fraction(1),
         scaled(metric, platform, 2),
         scaled(metric, base, -2),
         outer(metric, base, platform, -2),
-        squares,
+        Fraction(sum(g * (m * m + n * n) for g, m, n in zip(metric, a, b, strict=True)), unit * unit),
     )
 
 
