@@ -269,7 +269,7 @@ def test_a_model_is_no_certificate(options: list[str], capsys: Capture) -> None:
     path = str(Path(__file__).parent.parent / "models" / "3-rrr.toml")
     assert main(["check", path, *options]) == 2
     lines = capsys.readouterr().out.splitlines()
-    assert lines[-2:] == [f"{path}: give a certificate, as solve MODEL -o CERT.json writes one", f"{path}: malformed"]
+    assert lines[-2:] == [f"{path}: give a certificate, as it is written with -o CERT.json", f"{path}: malformed"]
 
 
 def test_an_engine_that_gives_up_has_exit_code_4(

@@ -10,7 +10,7 @@ import pytest
 from following_tools import Array, precise_pose, values_at
 from samples import solved
 
-from pkm_exact import Robot, read_robot
+from pkm_exact import Robot, read_robot, solve_many
 from pkm_exact.cli.main import main
 from pkm_exact.files import write_all
 from pkm_exact.following.c_files import c_files
@@ -86,6 +86,43 @@ def test_the_code_says_what_python_says(name: str, tmp_path: Path) -> None:
             assert library.r_inverse(pose.position, pose.quaternion, _doubles(values), again) == 0
             assert np.array(again) == pytest.approx(values, abs=1e-6 * unit)
     assert 2 in claims
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    ("name", "count"),
+    [
+        ("3-rpr-merlet-p", 40),
+        ("rolland-6-6", 10),
+        pytest.param("3-rpr-merlet-p", 10_000, marks=pytest.mark.slow),
+        pytest.param("rolland-6-6", 1_000, marks=pytest.mark.slow),
+    ],
+)
+def test_the_code_meets_one_certified_box_at_random_lengths(name: str, count: int, tmp_path: Path) -> None:
+    """Of all poses certified for the very doubles one box, and no other, is within the bounds of what the code says."""
+    robot = Robot.load(MODELS / f"{name}.toml")
+    home = robot.follow(joint_values(robot, robot.configuration()), solved(name).poses[-1])
+    library = _library(tmp_path, robot, home)
+    pose = _pose_type(len(home.values), len(home.point))()
+    rows = home.values * (1 + 0.002 * np.random.default_rng(count).uniform(-1, 1, (count, len(home.values))))
+    certified = solve_many(robot, rows, doubles_are_exact=True)
+    start = [_doubles(x) for x in (home.values, home.position, home.quaternion)]
+    proved, sign = 0, precise_pose(robot, home.values, home.position, home.quaternion)[2]
+    for row, values in enumerate(rows):
+        assert library.r_start(*start, ctypes.byref(pose))
+        claim = library.r_follow(_doubles(values), ctypes.byref(pose))
+        if not claim:
+            continue
+        proved += 1
+        boxes = certified.poses[certified.poses["row"] == row]
+        met = np.ones(len(boxes), bool)
+        for key, bound in (("position", pose.position_bound), ("rotation", pose.rotation_bound)):
+            said = np.array(getattr(pose, key)).reshape(boxes[key].shape[1:])
+            off = np.abs(boxes[key] - said) - boxes[f"{key}_half_width"] - bound
+            met &= off.reshape(len(boxes), -1).max(axis=1) <= 1e-15 * np.abs(said).max()
+        assert met.sum() == 1
+        assert claim == 1 or boxes["det_sign"][met][0] == sign
+    assert proved > count // 2
 
 
 @needs_compiler

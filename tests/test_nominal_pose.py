@@ -14,6 +14,7 @@ from samples import model, solved
 from pkm_exact.cli.main import main
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.nominal_pose import NominalPose, nominal_from_numbers
+from pkm_exact.geometry.pose_reader import read_pose
 from pkm_exact.geometry.reader import robot_from_toml
 from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.poses.meant_lengths import farthest_note, meant_notes
@@ -212,6 +213,37 @@ def test_exchanged_joints_are_recognised_though_there_are_poses() -> None:
     assert meant_notes(robot.problem(robot.configuration()), robot.nominal, "mm") == ()
     far = robot.problem_at([Fraction(10) ** 399] * 6, squared=True)
     assert meant_notes(far, robot.nominal, "mm") == farthest_note(far, robot.nominal, "mm") == ()
+
+
+def test_a_rotation_may_be_a_matrix_as_it_was_recorded() -> None:
+    rows = [["0.866", "-0.5", "0"], ["0.5", "0.866", "0"], ["0", "0", "1"]]
+    pose: dict[str, object] = {"position": [1, 2, 3], "matrix": rows}
+    with pytest.raises(
+        InputError, match=r"pose\.matrix: is no rotation, the next one differs by up to 0.0000191; give"
+    ):
+        read_pose(pose, "pose", SPATIAL, (1, 1, 1))
+    with pytest.raises(InputError, match=r"is no rotation, the next one differs"):
+        read_pose(pose | {"nearest": "0.00001"}, "pose", SPATIAL, (1, 1, 1))
+    _, turned = read_pose(pose | {"nearest": "0.001"}, "pose", SPATIAL, (1, 1, 1))
+    assert abs(turned[0][0] - Fraction("0.866")) < Fraction(1, 10**4)
+    assert sum(x * x for x in turned[0]) == 1
+    exact = [["3/5", "-4/5", 0], ["4/5", "3/5", 0], [0, 0, 1]]
+    assert read_pose(pose | {"matrix": exact}, "pose", SPATIAL, (1, 1, 1))[1][1][0] == Fraction(4, 5)
+    for wrong, part in (
+        ([[0, 1, 0], [1, 0, 0], [0, 0, 1]], "is not even nearly a rotation"),
+        ([[1, 0, 0], [0, 1, 0]], "2 rows; give 3"),
+        ([[1, 0], [0, 1], [0, 0]], "matrix"),
+    ):
+        with pytest.raises(InputError, match=part):
+            read_pose(pose | {"matrix": wrong}, "pose", SPATIAL, (1, 1, 1))
+    with pytest.raises(InputError, match="in a metric give a quaternion"):
+        read_pose(pose, "pose", SPATIAL, (1, 3, 1))
+    with pytest.raises(InputError, match="unknown key 'nearest'"):
+        read_pose({"position": [1, 2, 3], "quaternion": [1, 0, 0, 0], "nearest": 1}, "pose", SPATIAL, (1, 1, 1))
+    numbers = [Fraction(str(n)) for n in (1, 2, 3, *(entry for row in rows for entry in row))]
+    assert abs(nominal_from_numbers(numbers, "--near", SPATIAL).rotation[1][0] - Fraction(1, 2)) < Fraction(1, 10**4)
+    with pytest.raises(InputError, match="--near: is not even nearly a rotation"):
+        nominal_from_numbers([Fraction(1)] * 12, "--near", SPATIAL)
 
 
 def test_a_path_begins_at_the_nominal_pose(tmp_path: Path, capsys: Capture) -> None:

@@ -85,6 +85,8 @@ def test_exit_codes_follow_the_claim(system: str, code: int, words: str, tmp_pat
         ("x,y\n0\nx,,y\n", "polynomial 2: ends where a number, a name or a bracket is expected"),
         ("x,y\n0\nx-x\n", "polynomials: all are 0, and every point is a solution"),
         ("x\n0\nx^65\n", "polynomial 1: an exponent of 65; at most 64 is possible"),
+        ("x\n0\nx^99999999\n", "polynomial 1: an exponent of 99999999; at most 64 is possible"),
+        ('{\n "claim": "complete",\n "x": 1\n}', "is JSON, as certificates are; use check for it"),
         ("x\n0\n" + "(" * 60 + "x" + ")" * 60 + "\n", "brackets are nested more than 50 deep"),
         ("x\n0\n" + "9" * 5000 + "*x\n", "is too long; use at most 4000 digits"),
         ("x\n0\n__import__('os').system('x')\n", "cannot be read; use numbers, names and"),

@@ -70,7 +70,7 @@ def near_option(what: str, default: str = "the model's nominal pose") -> Callabl
         "--near",
         callback=near,
         metavar="X,Y,Z,R,P,Y",
-        help=f"{what}: position, and roll, pitch, yaw in degrees or a quaternion. X,Y,DEGREES if planar.  "
+        help=f"{what}: position, and roll, pitch, yaw in degrees, a quaternion or a matrix. X,Y,DEGREES if planar.  "
         f"[default: {default}]",
     )
 

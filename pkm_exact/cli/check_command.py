@@ -103,7 +103,7 @@ def _check(path: Path, *, pure: bool, before_output: Callable[[], None]) -> Exit
     for line in lines:
         sys.stdout.write(f"{name}: {printable(line)}\n")
     if status == "malformed" and not data.lstrip().startswith(b"{"):
-        sys.stdout.write(f"{name}: give a certificate, as solve MODEL -o CERT.json writes one\n")
+        sys.stdout.write(f"{name}: give a certificate, as it is written with -o CERT.json\n")
     sys.stdout.write(f"{name}: {status}\n")
     sys.stdout.flush()
     if status == "accepted":

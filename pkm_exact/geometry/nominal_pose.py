@@ -61,8 +61,8 @@ def nominal_from_numbers(numbers: Sequence[Fraction], where: str, motion: Motion
     Parameters
     ----------
     numbers : sequence of Fraction
-        Position with roll, pitch and yaw in degrees (6), or with a quaternion of any norm (7); in the plane x, y and
-        degrees.
+        Position with roll, pitch and yaw in degrees (6), with a quaternion of any norm (7), or with a matrix
+        that is nearly a rotation (12); in the plane x, y and degrees.
     where : str
         How messages call them.
 
@@ -80,13 +80,18 @@ def nominal_from_numbers(numbers: Sequence[Fraction], where: str, motion: Motion
     if motion.is_planar and len(numbers) == 3:
         angle = checked_degrees(numbers[2], where)
         return NominalPose((numbers[0], numbers[1], _ZERO), rotation_of(quaternion_of_angles(_ZERO, _ZERO, angle)))
-    if motion.is_planar or len(numbers) not in (6, 7):
-        wanted = "X,Y,DEGREES" if motion.is_planar else "X,Y,Z and ROLL,PITCH,YAW in degrees, or X,Y,Z and a quaternion"
+    if motion.is_planar or len(numbers) not in (6, 7, 12):
+        turns = "ROLL,PITCH,YAW in degrees, or X,Y,Z and a quaternion or a matrix row by row"
+        wanted = "X,Y,DEGREES" if motion.is_planar else f"X,Y,Z and {turns}"
         raise InputError(f"{where}: {len(numbers)} numbers; give {wanted}")
     x, y, z, *turn = numbers
     if len(turn) == 3:
         roll, pitch, yaw = (checked_degrees(angle, where) for angle in turn)
         return NominalPose((x, y, z), rotation_of(quaternion_of_angles(roll, pitch, yaw)))
+    if len(turn) == 9:
+        from pkm_exact.geometry.nearest_rotation import nearest_rotation
+
+        return NominalPose((x, y, z), rotation_of(nearest_rotation((turn[:3], turn[3:6], turn[6:]), where)[0]))
     e0, e1, e2, e3 = turn
     if not any(turn):
         raise InputError(f"{where}: all four numbers of the quaternion are 0; give one that is not")

@@ -147,7 +147,8 @@ class _Parser:
             raise InputError(f"{self.where}: {shown(token)} is not an exponent; write digits after ^")
         exponent = int(token) if len(token) < 6 else 10**6
         if exponent > self.limits.degree:
-            raise InputError(f"{self.where}: an exponent of {token[:6]}; at most {self.limits.degree} is possible")
+            written = token if len(token) <= 20 else f"{token[:20]}.."
+            raise InputError(f"{self.where}: an exponent of {written}; at most {self.limits.degree} is possible")
         total = self.ring.constant(1)
         for _ in range(exponent):
             total = self._times(total, base)

@@ -91,6 +91,8 @@ def parse_system(text: str, limits: InputLimits = INPUT_LIMITS) -> PolynomialSys
     (x^2 + y^2 - 1, x - y)
     """
     lines = [line for line in text.splitlines() if line.strip()]
+    if text.lstrip().startswith("{"):
+        raise InputError("is JSON, as certificates are; use check for it, and give a file with a system here")
     if len(lines) < 3:
         raise InputError("has fewer than three lines; write variables, 0, and polynomials with commas between them")
     names = [name.strip() for name in lines[0].split(",")]
