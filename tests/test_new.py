@@ -438,6 +438,38 @@ def test_on_a_terminal_it_asks(terminal: Callable[..., tuple[int, str]], tmp_pat
     assert robot.base_joints[2] == (3, 4, 0)
 
 
+ON_CIRCLES = ["--base-circle", "100,20", "--platform-circle", "60,20", "--platform-shift", "60"]
+
+
+def test_motors_stand_as_it_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["new", "--kind", "6-RUS", *ON_CIRCLES, "--crank", "20", "--rod", "120"]
+    vectors = []
+    for turn in ("0", "90", "180"):
+        path = tmp_path / f"{turn}.toml"
+        assert main([*words, "--motor-direction", turn, "-o", str(path)]) == 0
+        assert f"--motor-direction {turn}" in read_robot(path).source or turn == "0"
+        robot = read_robot(path)
+        vectors.append([chain.at_0 for chain in robot.chains])
+    capsys.readouterr()
+    for along, outward, back, joint in zip(*vectors, robot.base_joints, strict=True):
+        assert [-x for x in along] == pytest.approx(list(back))
+        assert sum(x * y for x, y in zip(along, outward, strict=True)) == pytest.approx(0, abs=0.5)
+        assert sum(x * y for x, y in zip(outward, joint, strict=True)) > 0
+    assert main(["new", "--kind", "6-UPS", *ON_CIRCLES, "--height", "100", "--motor-direction", "90", "-o", "-"]) == 2
+    assert "--motor-direction: is for cranks on circles" in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_on_a_terminal_it_asks_for_arm_rod_and_motor_direction(
+    terminal: Callable[..., tuple[int, str]], tmp_path: Path
+) -> None:
+    code, shown = terminal(ON_CIRCLES, "6-RUS\n120\n180\n20\n6\nmm\narms.toml\n", tmp_path)
+    assert code == 0, shown
+    for part in ("Length of the rods", "Direction of the cranks at 0 degrees", "Length of the cranks"):
+        assert part in shown
+    assert "--rod 120 --crank 20 --motor-direction 180" in read_robot(tmp_path / "arms.toml").source
+
+
 def test_on_a_terminal_it_asks_only_for_what_is_missing(
     terminal: Callable[..., tuple[int, str]], tmp_path: Path
 ) -> None:

@@ -35,6 +35,16 @@ def circles(given: dict[str, Any], kind: str) -> tuple[Ring, Ring] | None:
     return Ring(*rows[0], azimuth), Ring(*rows[1], azimuth + shift)
 
 
+def motor_direction(given: dict[str, Any], *, cranks_on_circles: bool) -> Fraction:
+    """The angle of the cranks that is given; 0 if none is."""
+    text = given["motor_direction"]
+    if text is not None and not cranks_on_circles:
+        raise click.UsageError(
+            "--motor-direction: is for cranks on circles; give --crank and --platform-shift as well."
+        )
+    return _one_number(text, "--motor-direction") or Fraction(0)
+
+
 def _one_number(text: str | None, option: str) -> Fraction | None:
     if text is None:
         return None

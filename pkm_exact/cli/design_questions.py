@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from pkm_exact.cli.circle_options import PARTS, circles, numbers, on_circle
+from pkm_exact.cli.circle_options import PARTS, circles, motor_direction, numbers, on_circle
 from pkm_exact.errors import InputError
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.templates import DEFAULT_DECIMALS, MOST_DECIMALS
@@ -40,6 +40,8 @@ def asked_design(given: dict[str, Any], *, interview: bool) -> Design:
     if interview:
         click.echo(_EXPLANATION[planar], err=True)
     pairs = circles(given, kind)
+    if interview and has_cranks(kind) and not planar:
+        _ask_for_arms(given, on_circles=pairs is not None)
     sides = [_sides(given, kind, part, default) for part, default in zip(PARTS, _SIDES[planar], strict=True)]
     height = _height(given, planar=planar)
     crank = None
@@ -54,8 +56,23 @@ def asked_design(given: dict[str, Any], *, interview: bool) -> Design:
         digits = ask("Decimals to round the joints to, or exact", str(DEFAULT_DECIMALS), _digits)
     elif digits is None:
         digits = DEFAULT_DECIMALS if pairs else default_decimals((sides[0], sides[1]))
-    design = Design(kind, sides[0], sides[1], height, crank, digits, pairs)
+    turn = motor_direction(given, cranks_on_circles=pairs is not None and crank is not None)
+    design = Design(kind, sides[0], sides[1], height, crank, digits, pairs, motor_direction=turn)
     return design if given["rod"] is None else with_rods(design, _length(given["rod"], "--rod", "", ""))
+
+
+def _ask_for_arms(given: dict[str, Any], *, on_circles: bool) -> None:
+    """Rods, or the height in their place, and how the motors stand, where that is not given."""
+    if given["rod"] is None and given["height"] is None:
+        rod = ask("Length of the rods, or 0 to give the height in its place", "0", str)
+        given["rod"] = None if rod.strip() == "0" else rod
+    if on_circles and given["motor_direction"] is None:
+        given["motor_direction"] = ask(
+            "Direction of the cranks at 0 degrees, from the tangent away from the other joint of the pair: 90 outward, "
+            "180 towards it",
+            "0",
+            str,
+        )
 
 
 def _height(given: dict[str, Any], *, planar: bool) -> Fraction:

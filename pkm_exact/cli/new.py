@@ -104,6 +104,12 @@ CHAIN_NAMES: Final = ("3-PPRR", "Sarrus", "seven-link", "5-RRR(RR)", "3-PRRR", "
 )
 @click.option("--height", metavar="H", help="Height of the platform at home; y of its joint 1 if planar.")
 @click.option("--crank", metavar="L", help="Length of the cranks, for kinds that have them.")
+@click.option(
+    "--motor-direction",
+    metavar="DEGREES",
+    help="With --crank on circles: where the cranks point at 0 degrees, mirrored in each pair: 0 along the circle, "
+    "away from the other joint of the pair, 90 away from the centre, 180 towards the other joint.  [default: 0]",
+)
 @click.option("--rod", metavar="L", help="Instead of --height: length of all rods, for 6-RUS and 6-PUS.")
 @click.option(
     "--digits",

@@ -33,6 +33,7 @@ _NOT_WITH_CSV = (
     "base_azimuth",
     "crank",
     "rod",
+    "motor_direction",
 )
 
 

@@ -48,6 +48,8 @@ class Design:
         Instead of sides: where the pairs of joints of base and platform are.
     rod : Fraction or None
         Length of all rods, if it is given; the height is then one at which they nearly fit.
+    motor_direction : Fraction
+        Degrees between a crank at 0 and the tangent, of joints on circles (``rings.motor_directions``).
     """
 
     kind: str
@@ -58,6 +60,7 @@ class Design:
     digits: int | None = None
     circles: tuple[Ring, Ring] | None = None
     rod: Fraction | None = None
+    motor_direction: Fraction = Fraction(0)
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
@@ -226,7 +229,7 @@ def _chains(design: Design, metric: Metric) -> tuple[Chain, ...]:
     up, half = (zero, zero, design.crank), design.crank / 2
     if design.circles is not None:
         length = design.crank
-        outward = motor_directions(design.circles[0])
+        outward = motor_directions(design.circles[0], design.motor_direction)
         return tuple(Crank((x * length, y * length, z * length), up, one) for x, y, z in outward)
     if metric != UNIT_METRIC:
         return tuple(Crank((x * half, y * half, zero), up, one) for x, y in _CRANKS)

@@ -227,6 +227,8 @@ def _options(draft: Draft) -> str:
     words.append(f"--height {_plain(design.height)}" if design.rod is None else f"--rod {_plain(design.rod)}")
     if design.crank is not None:
         words.append(f"--crank {_plain(design.crank)}")
+    if design.motor_direction:
+        words.append(f"--motor-direction {_plain(design.motor_direction)}")
     if design.digits is not None:
         words.append(f"--digits {design.digits}")
     elif draft.metric != UNIT_METRIC:
@@ -235,7 +237,10 @@ def _options(draft: Draft) -> str:
 
 
 def _crank_directions(draft: Draft) -> str:
-    return "the directions of the sides" if draft.design.circles is None else "the tangents of the circle"
+    if draft.design.circles is None:
+        return "the directions of the sides"
+    turn = draft.design.motor_direction
+    return "the tangents of the circle" + (f", turned by {_plain(turn)} degrees outward" if turn else "")
 
 
 def _circles(design: Design) -> list[str]:

@@ -111,14 +111,17 @@ def direction(azimuth: Fraction, nearest: Fraction) -> CosSin:
     return (c * c - s * s) / norm, 2 * c * s / norm
 
 
-def motor_directions(base: Ring) -> tuple[Vector, ...]:
+def motor_directions(base: Ring, outward: Fraction = Fraction(0)) -> tuple[Vector, ...]:
     """Unit vectors along the cranks at 0 degrees: tangent to the circle, away from the other joint of the pair.
+
+    ``outward`` turns them, in degrees: 90 is away from the centre, 180 towards the other joint; mirrored in each pair.
 
     Examples
     --------
-    >>> [str(x) for x in motor_directions(Ring(Fraction(3), Fraction(0)))[1]]
-    ['1', '0', '0']
+    >>> [[str(x) for x in motor_directions(Ring(Fraction(3), Fraction(0)), turn)[1]] for turn in (0, Fraction(90))]
+    [['1', '0', '0'], ['0', '-1', '0']]
     """
     pairs = (base.azimuth, base.azimuth + 120, base.azimuth + 240)
-    turned = [direction(middle + quarter, Fraction(1, 10**4)) for middle in pairs for quarter in (-90, 90)]
+    quarters = (outward - 90, 90 - outward)
+    turned = [direction(middle + quarter, Fraction(1, 10**4)) for middle in pairs for quarter in quarters]
     return tuple((c, s, Fraction(0)) for c, s in turned)
