@@ -32,6 +32,7 @@ BITS: Final = 128
 """FLINT is much quicker up to so many bits."""
 TRIED: Final = (44, 72)
 """Grids that are tried here."""
+FINE_BITS: Final = 2 * max(TRIED) + GUARD_BITS
 SLACK: Final = 1.01
 """Boxes must be mapped into what is so many times smaller than need be: the proof holds with another Y as well then."""
 CLOSE: Final = 2.0**-32
@@ -71,11 +72,22 @@ def far_solutions(system: ChartSystem, points: Complex) -> list[FarSolution | No
     found: list[FarSolution | None] = []
     for point, width in zip(points, _widths(system, points).tolist(), strict=True):
         grid = first_grid(width, GRIDS[0]) if isfinite(width) else GRIDS[0]
-        far = _far_solution(system, point, grid) if grid in TRIED else None
-        if far is not None and far.box is None and far.grid != grid and far.grid in TRIED:
-            far = _far_solution(system, point, far.grid, far.grid)
+        limit = _limit(system, point) if grid in TRIED else None
+        far = None if limit is None else _far_solution(system, limit, grid)
+        if limit is not None and far is not None and far.box is None and far.grid != grid and far.grid in TRIED:
+            far = _far_solution(system, limit, far.grid, far.grid)
         found.append(far)
     return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Limit:
+    """The last point y of Newton's method but one, the matrix Y there, Y F(y), and the last point."""
+
+    near: acb_mat
+    inverse: acb_mat
+    step: acb_mat
+    point: acb_mat
 
 
 def _widths(system: ChartSystem, points: Complex) -> Real:
@@ -94,26 +106,30 @@ def _widths(system: ChartSystem, points: Complex) -> Real:
     return width
 
 
-def _far_solution(system: ChartSystem, point: Complex, exponent: int, least: int = GRIDS[0]) -> FarSolution | None:
-    """One of them, on this grid if it is the first one from the least one on."""
-    bits = 2 * exponent + GUARD_BITS
+def _limit(system: ChartSystem, point: Complex) -> _Limit | None:
     start = acb_mat(len(point), 1, [acb(float(value.real), float(value.imag)) for value in point])
     try:
         with working_precision(BITS):
             jacobian = system.jacobian(start)
             near = (start - jacobian.solve(system.values(jacobian, start), algorithm="approx")).mid()
-        with working_precision(bits):
+        with working_precision(FINE_BITS):
             jacobian = system.jacobian(near)
             values = system.values(jacobian, near)
         with working_precision(BITS):
             inverse = jacobian.solve(unit_matrix_for(near), algorithm="approx").mid()
     except ZeroDivisionError:
         return None
-    with working_precision(bits):
+    with working_precision(FINE_BITS):
         step = inverse * values
-        limit = (near - step).mid()
-        box = nearest_box(system, limit, exponent)
-        middle = _on_the_side_of(limit, centre(system, box))
+        return _Limit(near, inverse, step, (near - step).mid())
+
+
+def _far_solution(system: ChartSystem, limit: _Limit, exponent: int, least: int = GRIDS[0]) -> FarSolution | None:
+    """One of them, on this grid if it is the first one from the least one on."""
+    near, inverse, step = limit.near, limit.inverse, limit.step
+    with working_precision(FINE_BITS):
+        box = nearest_box(system, limit.point, exponent)
+        middle = _on_the_side_of(limit.point, centre(system, box))
         offset = near - middle
         image = offset - step
     radii = reaches(system, box)
@@ -133,7 +149,7 @@ def _far_solution(system: ChartSystem, point: Complex, exponent: int, least: int
             grid = GRIDS[GRIDS.index(grid) + 1]  # with any matrix Y it would be too wide
         is_inside = SLACK * ROOM * (moved + (1 + away) * widths).max() < 1
         is_proved = grid == exponent and is_inside and is_motion(system, middle + ROOM * around)
-    return FarSolution(limit, exponent, grid, box if is_proved else None)
+    return FarSolution(limit.point, exponent, grid, box if is_proved else None)
 
 
 def _on_the_side_of(point: acb_mat, middle: acb_mat) -> acb_mat:
