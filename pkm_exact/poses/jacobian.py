@@ -67,13 +67,26 @@ def characteristic_length(problem: ForwardProblem) -> Fraction:
 @lru_cache(maxsize=8)
 def _spread(joints: tuple[Vector, ...], metric: tuple[int, ...]) -> Fraction:
     """Mean square distance from the centroid."""
+    if not joints or not all(isinstance(value, Fraction) for joint in joints for value in joint):
+        return _spread_of_roots(joints, metric)
     # n sum x^2 - (sum x)^2, over n^2, in integers over one denominator: far fewer fractions are reduced.
     count, unit = len(joints), lcm(*(value.denominator for joint in joints for value in joint))
     total = 0
     for axis, g in enumerate(metric):
         values = [joint[axis].numerator * (unit // joint[axis].denominator) for joint in joints]
         total += g * (count * sum(value * value for value in values) - sum(values) ** 2)
-    return Fraction(total, (count * unit) ** 2) if joints else Fraction(0)
+    return Fraction(total, (count * unit) ** 2)
+
+
+def _spread_of_roots(joints: tuple[Vector, ...], metric: tuple[int, ...]) -> Fraction:
+    """The same of numbers of any kind."""
+    square = Fraction(0)
+    for axis, g in enumerate(metric):
+        values = [joint[axis] for joint in joints]
+        if values:
+            mean = sum(values, Fraction(0)) / len(values)
+            square += g * sum(((value - mean) ** 2 for value in values), Fraction(0)) / len(values)
+    return square
 
 
 def pose_jacobians(
