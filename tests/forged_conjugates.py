@@ -52,7 +52,20 @@ def _as_far() -> Content:
     return with_entry(content, ("boxes", 0, "outer"), [hex(1 << K - 9), hex(1 << K - 11), *[hex(1 << K - 8)] * 2])
 
 
+def _nearly_singular(k: int, bits: int) -> Content:
+    """Three legs whose lines meet in a point but for 2^-bits: so large is the inverse of the Jacobian."""
+    pose = Pose((1, 0, 0, 0), (0, 0, 0, 0))
+    joints = ((3, 0), (1, 0)), ((0, -2), (0, 1)), ((-4, -8), (1, 2 + Fraction(1, 1 << bits)))
+    legs = [pose.distance((*a, 0), (*b, 0)) for a, b in joints]
+    content = around([pose], FIRST, k)
+    content["robot"]["base"] = [[str(x) for x in leg.base] for leg in legs]
+    content["robot"]["platform"] = [[str(x) for x in leg.platform] for leg in legs]
+    content["configuration"] = {"name": None, "lengths_squared": [str(leg.length_squared) for leg in legs]}
+    return content
+
+
 BOUNDS: dict[str, Case] = {
+    "a Jacobian whose inverse has 560 bits, on the grid 2^-1200": (partial(_nearly_singular, 1200, 560), ACCEPTED),
     "a quaternion whose first coordinate may be 0": (partial(_ends, "0", "1"), REJECTED),
     **{
         f"bounds that reach too far at end {end} of coordinate {place}": (partial(_beyond, place, end), REJECTED)
@@ -60,6 +73,24 @@ BOUNDS: dict[str, Case] = {
         for end in (0, 1)
     },
 }
+
+
+def _large_coordinates(bits: int, k: int) -> Content:
+    """e0 + e3 is 1, and both are so long: leg forms have products twice as long, and bounds must be as fine."""
+    large = 1 << bits
+    content = around([Pose((large, 0, 0, 1 - large), (0, 3 * large, 1 - 5 * large, 0))], (1, 0, 0, 1), k)
+    family = pure.Family(pure.read_tolerances(content), 8 * bits + 3 * k)
+    centre = [family.rectangle((int(re, 16), int(im, 16)), k).re for re, im in content["boxes"][0]["centre"]]
+    unit = family.p - 2 * bits - k
+    ends = [
+        [str(Fraction((part >> unit) + more, 1 << 2 * bits + k)) for part, more in ((v.low, -1), (v.high, 2))]
+        for v in pure.components(family, centre)[0]
+    ]
+    bounds = {"position": ends[:3], "rotation": [ends[3:6], ends[6:9], ends[9:12]]}
+    bounds |= {"quaternion": ends[12:16], "centroid": ends[16:]}
+    return content | {"boxes": [content["boxes"][0] | bounds]}
+
+
 AS_FAR: dict[str, Callable[[], Content]] = {"bounds that reach as far as the outer box": _as_far}
 """What the plain checker proves in intervals, where balls are too wide."""
 
@@ -259,7 +290,7 @@ def _six() -> Content:
 
 SHRUNK = 0x21CF50089D6F3D2B
 """An outer box so many times 2^-60 as wide is proved to hold one pose by a box that is narrower in all eight steps."""
-MORE = 316506366966929664158098835277382283959400803011751786064928294719
+MORE = 304097366140463464190574305376428333802828573538636830670962943988
 """With a tolerance of lengths that is greater by this part of 2^-283, but not with the next one."""
 
 
@@ -294,6 +325,7 @@ POSES: dict[str, Case] = {
     },
     **{f"a chart with a weight for e1, box {place}": (partial(_weighted, place), "malformed") for place in (0, 1)},
     "six poses of six legs, called all": (_six, REJECTED),
+    "Study coordinates of 120 bits": (partial(_large_coordinates, 120, 24), ACCEPTED),
     **{
         f"an outer box of a half width of {width} in e0, another solution is 1/10 away": (
             partial(_turned_about, width),

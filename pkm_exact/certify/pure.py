@@ -1780,7 +1780,7 @@ def prime_exponents(least: int) -> Iterator[int]:
 
 def exponent_above(bound: int, lead: int) -> int:
     """An n for which 2^n - 1 is above a bound, and modulo which a number has an inverse."""
-    return next(n for n in prime_exponents(bound.bit_length() + 1) if gcd(lead, (1 << n) - 1) == 1)
+    return next(n for n in prime_exponents(bound.bit_length() + 2) if gcd(lead, (1 << n) - 1) == 1)
 
 
 def pivots_modulo(matrix: Sequence[Mapping[int, int]], n: int) -> tuple[set[int], list[Mapping[int, int]]]:
@@ -2795,6 +2795,7 @@ MAX_TOLERANCE_GRID: Final = 4096
 MAX_CENTRE_BITS: Final = 256  # before the point
 MAX_WEIGHT: Final = 10**6
 GUARD: Final = 128  # bits beyond the grid and half of it: Y is at most 2^(k/2) where a core is proved
+ROUGHLY: Final = 64  # first bits of a number that serve for a bound
 ORDINARY: Final = (1, 1, 1)
 
 
@@ -2981,13 +2982,20 @@ class Rectangle:
         return self.re.contains_zero() and self.im.contains_zero()
 
     def largest(self) -> int:
-        """At least the largest absolute value, times 2^p."""
+        """More than the largest absolute value, times 2^p: its first 64 bits, rounded up."""
         re, im = self.re.largest(), self.im.largest()
-        return isqrt(re * re + im * im) + 1
+        value = isqrt(re * re + im * im)
+        shift = further_bits(value)
+        return (value >> shift) + 1 << shift
 
     def conjugate(self) -> Rectangle:
         """The conjugate numbers."""
         return Rectangle(self.re, -1 * self.im)
+
+
+def further_bits(value: int) -> int:
+    """The number of bits behind the first 64."""
+    return (value >> ROUGHLY).bit_length()
 
 
 def surrounding(value: Fraction, p: int) -> Interval:
@@ -3249,12 +3257,13 @@ class Neighbourhood:
     def is_regular(self, widths: Sequence[int]) -> bool:
         """Whether F' is regular all over the box, for all robots; then Y is regular too.
 
-        By v > 0 with |1 - Y F'| v < v: the spectral radius is below 1.
+        By v > 0 with |1 - Y F'| v < v: the spectral radius is below 1. The first bits of the v tried are enough.
         """
         p, size = self.family.p, len(widths)
         bounds = [[entry.largest() for entry in row] for row in self.defect(widths, uncertain=True)]
         sums = near_inverse(less_than_one(bounds, p), p)
-        vector = [int(sum((entry.re for entry in row), Fraction(0)) * (1 << p)) for row in sums]
+        exact = [int(sum((entry.re for entry in row), Fraction(0)) * (1 << p)) for row in sums]
+        vector = [v >> further_bits(v) << further_bits(v) for v in exact]
         bits = max(map(most_bits, (*bounds, vector)))
         spend(size**2 * (200 + product_cost(bits, bits)))
         images = [sum(b * v for b, v in zip(row, vector, strict=True)) for row in bounds]
@@ -3372,7 +3381,7 @@ def check_pose_box(at: Neighbourhood, box: PoseBox, name: str) -> None:
     require(inside, f"{name}: the inner box is not contained in the outer one")
     holds = at.contracts(box.inner, uncertain=True)
     require(holds, f"{name}: the inner box is not proved to hold a solution of every robot within tolerance")
-    inverses = inverse_jacobians(at, box.inner, name)
+    inverses = inverse_jacobians(at, box.inner)
     effect = [
         [inner_product(row, column) for column in zip(*inverses, strict=True)]
         for row in components(family, [side.re for side in at.around(box.inner)])[1]
@@ -3394,36 +3403,33 @@ def check_pose_box(at: Neighbourhood, box: PoseBox, name: str) -> None:
         require(is_proved, f"{name}: its {what} error is not proved")
 
 
-def inverse_jacobians(at: Neighbourhood, widths: Sequence[int], name: str) -> list[list[Interval]]:
-    """Enclosures of the inverses of all matrices in F', real, on the box of half the size.
+def inverse_jacobians(at: Neighbourhood, widths: Sequence[int]) -> list[list[Interval]]:
+    """Enclosures of the inverses of all matrices in F', real, on half of a box that every robot's operator contracts.
 
-    They are regular on the whole box. With M = 1 - Y F' they are V = Y + M Y + M^2 Y + .., and |V - Y| is at most the
-    least S that is not negative and not less than |M| (|Y| + S). One near it is computed and tried, a little larger
-    each time.
+    With M = 1 - Y F' they are V = Y + M Y + M^2 Y + .., and |V - Y| is at most any S for which |M| (|Y| + S) <= S.
+    As |M| w < w for the half widths w, that holds for any matrix and a multiple of w in each column, large enough.
     """
-    p, size = at.family.p, len(widths)
+    p = at.family.p
     m = [[entry.re.largest() for entry in row] for row in at.defect(widths, uncertain=True, half=True)]
     y = [[entry.re for entry in row] for row in at.inverse]
-    powers = near_inverse(less_than_one(m, p), p)
-
-    def applied(matrix: list[list[int]], other: list[list[int]]) -> list[list[int]]:
-        """The product, rounded up."""
-        bits = max(map(most_bits, (*matrix, *other)))
-        spend(size**3 * (200 + product_cost(bits, bits)))
-        columns = list(zip(*other, strict=True))
-        return [[-(-sum(a * b for a, b in zip(row, c, strict=True)) >> p) for c in columns] for row in matrix]
-
-    sizes = [[entry.largest() for entry in row] for row in y]
-    sums = [[max(0, int(entry.re * (1 << p))) for entry in row] for row in powers]
-    reach = applied(sums, applied(m, sizes))
-    for _ in range(4):
-        reach = [[value + (value >> 24) + size for value in row] for row in reach]
-        least = applied(m, [[a + b for a, b in zip(*pair, strict=True)] for pair in zip(sizes, reach, strict=True)])
-        if all(a <= b for pair in zip(least, reach, strict=True) for a, b in zip(*pair, strict=True)):
-            return [
-                [v + Interval(-r, r, p) for v, r in zip(row, by, strict=True)] for row, by in zip(y, reach, strict=True)
-            ]
-    raise Refusal("rejected", f"{name}: the Jacobian is not proved regular in it")
+    bits = p + most_bits(chain(*m))
+    spend(4 * len(m) ** 3 * (200 + product_cost(bits, 2 * bits)) + 8 * len(m) ** 2 * fraction_cost(bits, 2 * bits))
+    rooms = [(w << p) - sum(a * v for a, v in zip(row, widths, strict=True)) for row, w in zip(m, widths, strict=True)]
+    powers = [[entry.re for entry in row] for row in near_inverse(less_than_one(m, p), p)]
+    found = []
+    for column in zip(*y, strict=True):
+        sizes = [entry.largest() for entry in column]
+        first = [sum(a * v for a, v in zip(row, sizes, strict=True)) >> p for row in m]
+        exact = [int(sum(a * v for a, v in zip(row, first, strict=True))) for row in powers]
+        near = [v >> further_bits(v) << further_bits(v) for v in exact]
+        wholes = [v + s for v, s in zip(sizes, near, strict=True)]
+        lacks = [
+            sum(a * v for a, v in zip(row, wholes, strict=True)) - (s << p) for row, s in zip(m, near, strict=True)
+        ]
+        share = max(Fraction(lack, room) for lack, room in zip(lacks, rooms, strict=True))
+        reach = [s + (share * w).__ceil__() for s, w in zip(near, widths, strict=True)]
+        found.append([v + Interval(-r, r, p) for v, r in zip(column, reach, strict=True)])
+    return [list(row) for row in zip(*found, strict=True)]
 
 
 def components(family: Family, x: Sequence[Interval]) -> tuple[list[Interval], list[list[Interval]]]:

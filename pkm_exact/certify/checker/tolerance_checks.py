@@ -54,7 +54,7 @@ def check_tolerances(document: ToleranceDocument) -> Iterator[str]:
     numbers = list(range(1, len(labels) + len(others) + 1))
     if sorted([*labels, *others]) != numbers or labels != sorted(labels) or others != sorted(others):
         raise rejected("boxes: poses are not numbered from 1, each once, in order")
-    with ctx.workprec(document.exponent + document.exponent // 2 + GUARD_BITS):
+    with ctx.workprec(document.exponent + document.exponent // 2 + GUARD_BITS + 2 * _bits_of_integers(document)):
         robot = robot_of(document.legs, document.metric, document.origins, document.unit, document.tolerances)
         cores = []
         for box in document.boxes:
@@ -71,6 +71,13 @@ def check_tolerances(document: ToleranceDocument) -> Iterator[str]:
         if document.unproved:
             yield f"boxes: for {len(document.unproved)} poses nothing is claimed"
         yield from _completeness(robot, document, cores)
+
+
+def _bits_of_integers(document: ToleranceDocument) -> int:
+    """Before the point, of the longest coordinate of a centre: balls have so many more, and products twice as many."""
+    places = [*(box.place for box in document.boxes), *document.pairs]
+    longest = max((abs(part).bit_length() for place in places for pair in place.centre for part in pair), default=0)
+    return max(longest - document.exponent, 0)
 
 
 def _expansion(robot: Robot, document: ToleranceDocument, place: Place, name: str) -> Expansion:
