@@ -208,11 +208,21 @@ def _closer_than_grids() -> Content:
     return content | {"polynomials": [[f"{1 << 4098}*x^2", "-3*x"]], "representation": h, "solutions": solutions}
 
 
+def _as_large(root: int) -> Content:
+    """A root, an integer that may be larger than both checkers look at."""
+    content = _rooted([-7, 1])
+    ends = [str(Fraction((root << 8) + n, 1 << 8)) for n in (-1, 1)]
+    solution = {**content["solutions"][0], "parameter": [str(root)] * 2, "values": [ends]}
+    return content | {"polynomials": [["x", str(-root)]], "representation": one(-root, 1), "solutions": [solution]}
+
+
 NEAR = [(1 << 4000) + 1, -6 << 4000, 9 << 4000]
 """Roots 2^-2000 above and below 1/3 in the complex plane."""
 FINE: dict[str, Row] = {
     "roots apart on the finest grid that there is": (_rooted([0, 1], [-3, 1 << 4097], exponent=4200), "accepted"),
     "roots closer than that": (_closer_than_grids(), "too-large"),
+    "a root as large as may be": (_as_large((1 << 4094) - 1), "accepted"),
+    **{f"a root of {n + 1} bits": (_as_large(1 << n), "too-large") for n in (4094, 4200)},
     "three roots in a cell of the coarsest grid, where a sign changes": (
         _rooted(*([-k, 1 << 40] for k in (3, 5, 7)), exponent=48),
         "accepted",

@@ -14,9 +14,7 @@ from flint import acb, acb_mat, arb, ctx
 
 from pkm_exact.certify.checker.budget import ball_cost, charge, limbs
 from pkm_exact.certify.checker.parametric import (
-    ROTATION,
     SHRINKINGS,
-    TURNED,
     Expansion,
     Robot,
     ball,
@@ -104,12 +102,12 @@ def _core_radius(document: ToleranceDocument) -> int:
 
 
 def _core(expansion: Expansion, document: ToleranceDocument) -> list[acb]:
-    """Rotation and position, in the new frames, of the nominal solution."""
+    """The quantities of the nominal solution over N(e), in the new frames: functions of the pose."""
     real = _is_real(expansion)
     radii = [_on_grid(_core_radius(document), document)] * expansion.centre.nrows()
     x = expansion.centre + box_around(radii, real=real)
     at = values(slopes(x, planar=expansion.robot.planar), x)
-    return [value / at[0] for value in at[ROTATION:TURNED]]
+    return [value / at[0] for value in at]
 
 
 def _are_distinct(left: Sequence[acb], right: Sequence[acb]) -> bool:
