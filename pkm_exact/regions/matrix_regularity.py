@@ -95,7 +95,8 @@ def compiled_matrix(rows: Sequence[Sequence[Any]], box: Sequence[Pair], scales: 
     for (wide, entries), shift in zip(exact, across, strict=True):
         units = [Fraction(2) ** -(shift + more) for more in along]
         scaled = [
-            [[value * unit for value in part] for part in entry] for entry, unit in zip(entries, units, strict=True)
+            [[value * unit if value else value for value in part] for part in entry]
+            for entry, unit in zip(entries, units, strict=True)
         ]
         tensor = np.array([[list(map(float, part)) for part in entry] for entry in scaled])
         least = [[_LEAST if any(part) else 0.0 for part in entry] for entry in scaled]
@@ -115,11 +116,11 @@ def _parts(
         found[0 if root is None else powers[count + root]][powers[:count]] = coefficient
     unit = Fraction(1) if root is None else Fraction(2) ** scales[root]
     constant, slope = (bernstein_coefficients(terms, degrees, box) for terms in found)
-    return [constant, [value * unit for value in slope]]
+    return [constant, [value * unit if value else value for value in slope]]
 
 
 def _exponent(parts: Sequence[Sequence[Fraction]]) -> int:
-    value = max(abs(x) for part in parts for x in part)
+    value = max((abs(x) for part in parts for x in part if x), default=Fraction(0))
     return value.numerator.bit_length() - value.denominator.bit_length() if value else _NOTHING
 
 
