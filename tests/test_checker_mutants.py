@@ -105,6 +105,10 @@ def test_equal_descriptions_get_a_number(checker: str) -> None:
     assert {mutant.key[2].endswith(f" #{mutant.number}") for mutant in every if mutant.number > 1} == {True}
 
 
+def test_what_is_listed_as_equivalent_exists() -> None:
+    assert equivalents([mutant for checker in SOURCES for mutant in mutants(checker)])[1] == []
+
+
 @pytest.fixture(scope="module")
 def reaches(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Reach]:
     """Of few certificates, for both checkers."""
