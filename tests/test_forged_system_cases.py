@@ -11,6 +11,7 @@ from pkm_exact.certify.check import check_bytes
 
 
 @pytest.mark.slow
+@pytest.mark.in_corpus
 def test_an_attempt_takes_its_part_of_the_work_only() -> None:
     data = sealed_bytes(dear(*FAR_TOO_DEAR))
     for verdict in (check_bytes(data), pure.check_bytes(data)):
