@@ -97,12 +97,17 @@ SEARCH = "pkm_exact.poses.search"
 L, P, S, Q, T = "mourrain-l", "3-rpr-merlet-p", "similar-planar-s", "3-rpr-double-q", "3-rpr-triple"
 D = "dietmaier"
 EXACT: dict[str, Fault] = {
-    "a real root is dropped": (L, "pkm_exact.poses.boxes", "isolate_real_roots", _less),
-    "two neighbouring real roots are dropped": (D, "pkm_exact.poses.boxes", "isolate_real_roots", _without_middle_pair),
-    "all real roots are dropped": (L, "pkm_exact.poses.boxes", "isolate_real_roots", lambda roots: roots[:0]),
-    "a real root is doubled": (L, "pkm_exact.poses.boxes", "isolate_real_roots", _doubled),
+    "a real root is dropped": (L, "pkm_exact.poses.boxes", "isolated_and_enclosed", _less),
+    "two neighbouring real roots are dropped": (
+        D,
+        "pkm_exact.poses.boxes",
+        "isolated_and_enclosed",
+        _without_middle_pair,
+    ),
+    "all real roots are dropped": (L, "pkm_exact.poses.boxes", "isolated_and_enclosed", lambda roots: roots[:0]),
+    "a real root is doubled": (L, "pkm_exact.poses.boxes", "isolated_and_enclosed", _doubled),
     "enclosures lack a real root": (L, "pkm_exact.roots.isolation", "real_root_enclosures", _less),
-    "two roots change places": (L, "pkm_exact.poses.boxes", "real_root_enclosures", _exchanged),
+    "two roots change places": (L, "pkm_exact.poses.boxes", "refined_enclosures", _exchanged),
     "two poses change places": (L, "pkm_exact.poses.boxes", "disjoint_cells", _cells(_exchanged)),
     "a box is there twice": (P, "pkm_exact.poses.boxes", "disjoint_cells", _cells(lambda rows: [rows[0], rows[0]])),
     "a coordinate is off": (
