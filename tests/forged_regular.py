@@ -85,6 +85,13 @@ def mapped(content: Content, word: str, greatest: str = "0") -> Content:
     return as_map(content, word) | {"member": [], "undecided": word.count("u"), "measure": ["0", greatest]}
 
 
+def _with_pivot(value: int) -> Content:
+    """Rods whose inverse has entries of 48 binary digits, in a box such that the second determinant is this."""
+    p, q, r, s = (3 << 46) + 1, (1 << 48) - 398, 194718186100966, 259624248134253  # p s - q r = 1
+    ends = 1 + p + q, (1 + p + q) * (r + s) + value
+    return aimed([(s, -q, 0), (-r, p, 0), (0, 0, 1)], box=[[Fraction(-1, end), Fraction(1, end)] for end in ends])
+
+
 CASES: dict[str, Row] = {
     # E is h_j / d_i in row i and column j: its spectral radius is the sum of h_i / d_i.
     "spectral radius 3/4, rows of 17/4": (pushed((1, "1/8", 1), box=_about("1/2", "1/32")), "accepted", GOOD),
@@ -123,6 +130,17 @@ CASES: dict[str, Row] = {
     ),
     "nowhere": (mapped(pushed((1, 0, 1), box=_about("1/2", "1/32")), "o"), "rejected", OUTSIDE),
     "undecided": (mapped(pushed((1, 0, 1), box=_about("1/2", "1/32")), "u", "1/16"), "accepted", "measure"),
+    "pivots of 1": (_with_pivot(1), "accepted", GOOD),
+    "a pivot of 0": (_with_pivot(0), "rejected", INSIDE),
+    "a pivot of -1": (_with_pivot(-1), "rejected", INSIDE),
+    "rods hardly longer than 0": (
+        aimed(
+            [[Fraction(x) * SMALL for x in rod] for rod in ((3, 1, 1), (1, 4, 1), (1, 1, 5))],
+            box=_about(SMALL / 8, SMALL / 8),
+        ),
+        "accepted",
+        GOOD,
+    ),
     # The name of the condition, and what may stand beside it.
     "version 1": (region(COPLANAR, **{**PUSHED, "conditions": ["regular"]}), "malformed", UNKNOWN),
     "beside no_type_2": (_named("no_type_2", "regular"), "malformed", ORDER),
@@ -238,6 +256,8 @@ WIDEST = {
     "lll 2": 10395294226531680383,
     "lsl 3": 10563669052452975922,
     "lsl 6": 22481585214243036698,
+    "lls 1": 13217649514455548745,
+    "sll 1": 9397448768150661075,
     "sss 4": 8245418377430189981,
 }
 

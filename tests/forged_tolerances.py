@@ -59,6 +59,27 @@ def _cases() -> Iterator[tuple[str, Case]]:
                 )
 
 
+# Boxes so much wider that they hardly are, or are not, proved
+
+TIMES: tuple[tuple[str, Path_, int | None, int], ...] = (
+    *(("tolerance 10^-5", ("pairs", 0, "outer"), place, n) for place, n in ((1, 3), (2, 24), (3, 32))),
+    ("tolerance 10^-5", ("boxes", 0, "inner"), 2, 880),
+    ("tolerance 10^-2", ("boxes", 0, "outer"), None, 198),
+)
+"""In one unknown, or in all, 1024 / (n + 1) times as wide is proved, 1024 / n times is not."""
+
+
+def _wider(place: int | None, factor: Fraction, widths: list[str]) -> list[str]:
+    return [hex(int(int(w, 16) * factor)) if place in (None, k) else w for k, w in enumerate(widths)]
+
+
+def _widths() -> Iterator[tuple[str, Case]]:
+    for name, path, place, n in TIMES:
+        for m, answer in ((n, REJECTED), (n + 1, ACCEPTED)):
+            said = f"{name}, {'.'.join(map(str, path))}: 1024/{m} times {'all' if place is None else place}"
+            yield said, (partial(_changed, ROBOTS[name][0], path, partial(_wider, place, Fraction(1024, m))), answer)
+
+
 # A robot that is made for its pose: e = (-5/4, 0, 0, 1), f = (0, f1, f2, 0)
 
 BASE, PLATFORM = ((-50, 10), (9, 12), (-50, 20)), ((0, 0), (5, -2), (-1, -1))
@@ -141,4 +162,4 @@ MADE: dict[str, Case] = {
         for sign in (1, -1)
     },
 }
-TIGHT: dict[str, Case] = dict(_cases()) | MADE
+TIGHT: dict[str, Case] = dict((*_cases(), *_widths())) | MADE

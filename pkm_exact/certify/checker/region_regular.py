@@ -97,8 +97,6 @@ class MatrixTable:
 
     def halved(self, variable: int) -> tuple[MatrixTable, MatrixTable]:
         """Those on the lower and on the upper half along a variable."""
-        for column in self.columns:
-            charge_looks(column, 3 + column.values.shape[2 + variable])
         halves = [_halved(column, 2 + variable) for column in self.columns]
         first, second = (MatrixTable(self.roots, tuple(pair[side] for pair in halves)) for side in (0, 1))
         return first, second
@@ -109,17 +107,12 @@ class MatrixTable:
 
     def is_regular(self, ends: Ends) -> bool:
         """Whether the matrix is proved to be regular all over the part; ``ends`` are bounds of the roots there."""
-        for column in self.columns:
-            charge_looks(column, 5)
         units = [_unit(ends, root) for root in self.roots]
         bounds = [self._bounds(column, ends, units) for column in self.columns]
         middles = [[min(low) + max(high) for low, high in zip(*both, strict=True)] for both in bounds]
         charge_inverse(self.columns, units)
-        inverse = _inverse([list(row) for row in zip(*middles, strict=True)])
-        if inverse is None:
-            return False
         scales = [column.denominator << column.exponent for column in self.columns]
-        weights = _weights(*inverse, scales, units)
+        weights = _weights(*_inverse([list(row) for row in zip(*middles, strict=True)]), scales, units)
         words = number_words(*(w for row, _ in weights for w in row))
         far = []
         for column, (low, high) in zip(self.columns, bounds, strict=True):
@@ -138,6 +131,7 @@ class MatrixTable:
 
     def _bounds(self, column: _Column, ends: Ends, units: Sequence[int]) -> tuple[list[list[fmpz]], list[list[fmpz]]]:
         """By rows the lesser and the greater of the coefficients at both ends of the row's root, times its unit."""
+        charge_looks(column, 5)
         layers = column.values.reshape(len(self.roots), column.values.shape[1], -1)
         low = [row[0].tolist() for row in layers]
         high = list(low)
@@ -153,15 +147,14 @@ def _unit(ends: Ends, root: int | None) -> int:
     return lcm(*(end.denominator for end in (() if root is None else ends[root])))
 
 
-def _inverse(rows: Sequence[Sequence[fmpz]]) -> tuple[list[list[int]], int] | None:
-    """The inverse of a matrix: integers, and what they are divided by; None if it is singular."""
+def _inverse(rows: Sequence[Sequence[fmpz]]) -> tuple[list[list[int]], int]:
+    """The inverse of a matrix: integers, and what they are divided by; zeros if it is singular."""
     size = len(rows)
     table = [[*row, *(fmpz(int(i == k)) for k in range(size))] for i, row in enumerate(rows)]
     found, divisor, _ = fmpz_mat(table).rref()
-    if found[size - 1, size - 1] == 0:
-        return None
-    sign = -1 if divisor < 0 else 1
-    return [[sign * int(found[i, size + k]) for k in range(size)] for i in range(size)], abs(int(divisor))
+    below = abs(int(divisor))
+    sign = int(found[size - 1, size - 1]) // below  # the last pivot is the divisor, or 0
+    return [[sign * int(found[i, size + k]) for k in range(size)] for i in range(size)], below
 
 
 def _weights(
@@ -221,6 +214,7 @@ def _first_digits(numerator: int, denominator: int) -> tuple[int, int]:
 
 
 def _halved(column: _Column, axis: int) -> tuple[_Column, _Column]:
+    charge_looks(column, 3 + column.values.shape[axis])
     if column.values.shape[axis] == 1:
         return column, column
     level = np.moveaxis(column.values, axis, 0)
