@@ -106,6 +106,40 @@ def _planar_infinity(**entries: Any) -> Content:
     }
 
 
+def _forty_with_planar_infinity() -> Content:
+    """Four of the six poses of a planar robot with joints on lines, and 18 points that would count 36 times.
+
+    C = (0, 1, i) and u = k C, and their conjugates, where T = i + k, for k = 1, .., 9.
+    """
+    poses = [Pose((a, 0, 0, s * b), (0, c, s * d, 0)) for a, b, c, d in ((2, 1, 1, 2), (1, 2, 2, -1)) for s in (1, -1)]
+    one, other = poses[0].quantities(), poses[2].quantities()
+    dx, dr, du = one[0][0] - other[0][0], one[1][0][0] - other[1][0][0], one[2][0] - other[2][0]
+    platform = [a * dx / (du - a * dr) for a in (0, 1, 3)]
+    legs = [poses[0].distance((a, 0, 0), (b, 0, 0)) for a, b in zip((0, 1, 3), platform, strict=True)]
+    factors = [fmpz_poly([k * k + 1, -2 * k, 1]) for k in range(1, 10)]
+    others = [prod(factors[:k] + factors[k + 1 :], start=fmpz_poly([1])) for k in range(9)]
+    slope = prod(factors, start=fmpz_poly([1])).derivative()
+    found = [fmpz_poly()] * 16
+    found[2] = sum(
+        (k * f.derivative() * rest for k, f, rest in zip(range(1, 10), factors, others, strict=True)), found[0]
+    )
+    found[3] = sum((-2 * k * rest for k, rest in enumerate(others, 1)), found[0])
+    found[5], found[6] = slope, -2 * sum(others, found[0])
+    infinity = {
+        "chart": [int(k == 5) for k in range(16)],
+        "separating_form": [int(k in (2, 6)) for k in range(16)],
+        "eliminant": _hexadecimal(prod(factors, start=fmpz_poly([1]))),
+        "coordinates": list(map(_hexadecimal, found)),
+        "multiplicity": 36,
+    }
+    claim = {"claim": "complete", "completeness_route": "counting-at-infinity", "infinity": infinity}
+    return listing("planar", poses, legs, 1, 1, (0, 0, 0, 1, 0, 0, 0, 0)) | claim
+
+
+def _hexadecimal(polynomial: fmpz_poly) -> list[str]:
+    return [hex(int(value)) for value in polynomial.coeffs()]
+
+
 def _beside_a_point() -> Content:
     """A pose that is not at the point where it is held, in one coordinate alone."""
     at, held = (Pose((1, 0, 0, 0), (0, 1, 2, z)) for z in (5, 6))
@@ -263,6 +297,7 @@ SECTIONS: dict[str, Case] = {
         ACCEPTED,
     ),
     "points at infinity of planar motions": (_planar_infinity, REJECTED),
+    "points at infinity that seem to fill those of planar motions": (_forty_with_planar_infinity, REJECTED),
     "points at infinity at the root of a polynomial of degree 1": (
         lambda: _planar_infinity(eliminant=["0x0", "0x1"], coordinates=[[]] * 16),
         REJECTED,
