@@ -13,7 +13,7 @@ matrices of derivatives differ from those of the specification by powers of h' o
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -429,14 +429,44 @@ class Points:
     def vanish(self, forms: Sequence[Forms]) -> Iterator[bool]:
         """Whether h0 divides the value of each form: forms of one degree share their products."""
         answers = {}
+        stretched = Stretched(self.h0, self.coordinates)
         for degree in sorted({sum(next(iter(form))) for form in forms}):
             alike = [(place, form) for place, form in enumerate(forms) if sum(next(iter(form))) == degree]
             bound = max(size_at(form, self.sizes) for _, form in alike)
-            multiples = pure.Multiples(self.h0, bound, max(degree, 2))
-            values = self.at_power(multiples.k)
+            multiples = pure.Multiples(stretched.h0, bound, max(degree, 2))
+            values = Values([pure.at_power(each, multiples.k) for each in stretched.coordinates], product_of_integers)
             for place, form in alike:
-                answers[place] = bool(degree) and multiples.include(values.value(form))
+                parts = stretched.parts(form)
+                answers[place] = bool(degree) and all(multiples.include(values.value(part)) for part in parts)
         return (answers[place] for place in range(len(forms)))
+
+
+class Stretched:
+    """Points whose h0 is a polynomial in S = T^m, each coordinate being T^r times one in S, for the greatest such m.
+
+    A product of coordinates is T^(r_0 + r_1 + ..) times one in S. So a value is a sum of T^r V_r(S) with 0 <= r < m. h0
+    divides it if and only if it divides all V_r, as remainders of T^r V_r(T^m) have powers T^r, T^(r + m), .. only.
+    S itself is one more coordinate, the second: V_r is the value of a form with powers of it for r_0 + r_1 + .. - r.
+    """
+
+    def __init__(self, h0: Polynomial, coordinates: Sequence[Polynomial]) -> None:
+        pure.spend(300 * sum(map(len, (h0, *coordinates))))
+        exponents = [[power for power, value in enumerate(each) if value] for each in coordinates]
+        steps = [power - each[0] for each in exponents for power in each]
+        self.m = m = gcd(*(power for power, value in enumerate(h0) if value), *steps)
+        self.starts = [each[0] % m if each else 0 for each in exponents]
+        first, *others = [each[start::m] for start, each in zip(self.starts, coordinates, strict=True)]
+        self.h0 = h0[::m]
+        self.coordinates = [first, [0, 1], *others]
+
+    def parts(self, form: Forms) -> Collection[Forms]:
+        """A form for each V_r that has terms."""
+        found: dict[int, Forms] = {}
+        for monomial, value in form.items():
+            total = sum(start * exponent for start, exponent in zip(self.starts, monomial, strict=True))
+            power, *others = monomial
+            found.setdefault(total % self.m, {})[power, total // self.m, *others] = value
+        return found.values()
 
 
 def finite_points(representation: pure.Representation) -> Points:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from hashlib import sha256
 from math import gcd
+from operator import mul
 
 from flint import fmpz, fmpz_poly
 
@@ -19,10 +20,9 @@ from pkm_exact.certify.checker.verdict import rejected
 def check_points(points: Points, polynomials: Sequence[Mapping[Monomial, int]], where: str = "") -> Iterator[str]:
     """Every root of the eliminant is a solution of all polynomials, and different roots are different solutions."""
     yield from check_distinct_points(points, where)
-    h0 = primitive_part(points.eliminant)
-    values = _Values(points.numerators, points.eliminant.derivative())
+    values = _Values(points)
     for number, polynomial in enumerate(polynomials, 1):
-        if not _divides(h0, values.of(polynomial)):
+        if not values.are_zero(polynomial):
             raise rejected(f"{where}polynomials: number {number} is not 0 at every root of the eliminant")
     yield f"{where}polynomials: all {len(polynomials)} are 0 at every root of the eliminant"
 
@@ -48,12 +48,10 @@ def check_distinct_points(points: Points, where: str = "") -> Iterator[str]:
 def check_at_infinity(infinity: InfinitePoints, polynomials: Sequence[Terms]) -> Iterator[str]:
     """The points are distinct, in their chart, and common to all polynomials at infinity."""
     yield from check_distinct_points(infinity.points, "infinity: ")
-    slope = infinity.points.eliminant.derivative()
-    if combination(infinity.chart, infinity.points.numerators) != slope:
+    if combination(infinity.chart, infinity.points.numerators) != infinity.points.eliminant.derivative():
         raise rejected("infinity: w.z is not 1 at the roots of the eliminant")
-    h0 = primitive_part(infinity.points.eliminant)
-    values = _Values(infinity.points.numerators, slope)
-    if not all(_divides(h0, values.of(top_form(polynomial))) for polynomial in polynomials):
+    values = _Values(infinity.points)
+    if not all(values.are_zero(top_form(polynomial)) for polynomial in polynomials):
         raise rejected("infinity: a point is not on all polynomials")
     yield f"infinity: {infinity.points.eliminant.degree()} points are common to all polynomials"
 
@@ -78,34 +76,50 @@ def _divides(h0: fmpz_poly, value: fmpz_poly) -> bool:
 
 
 class _Values:
-    """h'^d F(N / h') for polynomials F of degree d; products are kept."""
+    """h'^d F(N / h') for polynomials F of degree d; products are kept.
 
-    def __init__(self, numerators: Sequence[fmpz_poly], slope: fmpz_poly) -> None:
-        self.numerators = numerators
-        self.slope = slope
-        self.words = limbs(max(int(value.height_bits()) for value in (slope, *numerators)))
-        self.terms = int(slope.length())
-        self.known: dict[Monomial, fmpz_poly] = {(0,) * len(numerators): fmpz_poly([1])}
+    If h is a polynomial in T^m, and each N_i one times T^r_i, all is computed with polynomials in S = T^m. A value is a
+    sum of T^r V_r(S) with r < m. What h0 leaves of each has exponents r, r + m, .. only: it is 0 for all or not for the
+    sum.
+    """
+
+    def __init__(self, points: Points) -> None:
+        h0, slope = primitive_part(points.eliminant), points.eliminant.derivative()
+        self.stride = m = _stride(h0, points.numerators)
+        self.modulus = fmpz_poly(h0.coeffs()[::m])
+        self.places = [_lowest(numerator) % m for numerator in points.numerators]
+        self.numerators = [fmpz_poly(n.coeffs()[r::m]) for r, n in zip(self.places, points.numerators, strict=True)]
+        self.slope = fmpz_poly(slope.coeffs()[m - 1 :: m])
+        self.words = limbs(max(int(value.height_bits()) for value in (slope, *points.numerators)))
+        self.terms = int(self.slope.length())
+        self.known: dict[Monomial, fmpz_poly] = {(0,) * len(self.numerators): fmpz_poly([1])}
         self.powers = [fmpz_poly([1])]
 
-    def of(self, polynomial: Mapping[Monomial, int]) -> fmpz_poly:
+    def are_zero(self, polynomial: Mapping[Monomial, int]) -> bool:
+        """Whether h0 divides the value."""
+        return all(_divides(self.modulus, part) for part in self.of(polynomial).values())
+
+    def of(self, polynomial: Mapping[Monomial, int]) -> dict[int, fmpz_poly]:
+        """V_r by r."""
         most = degree(polynomial)
         while len(self.powers) <= most:
             self._charge(len(self.powers))
             self.powers.append(self.powers[-1] * self.slope)
-        parts = [fmpz_poly() for _ in range(most + 1)]
+        parts: dict[tuple[int, int], fmpz_poly] = {}
         for monomial, value in polynomial.items():
             total = sum(monomial)
             words = limbs(abs(value).bit_length())
             charge(self.terms * max(total, 1) * (1000 + 20 * words * (1 + total * self.words)))
-            parts[total] += value * self._monomial(monomial)
-        result = fmpz_poly()
-        for low, part in enumerate(parts):
-            if part and low == most:
-                result += part
-            elif part:
+            power = sum(map(mul, self.places, monomial)) + (self.stride - 1) * (most - total)
+            over, place = divmod(power, self.stride)
+            part = value * self._monomial(monomial).left_shift(over)
+            parts[total, place] = parts.get((total, place), 0) + part
+        result: dict[int, fmpz_poly] = {}
+        for (low, place), part in parts.items():
+            if low < most:
                 self._charge(most, limbs(int(part.height_bits())))
-                result += part * self.powers[most - low]
+                part = part * self.powers[most - low]
+            result[place] = result.get(place, 0) + part
         return result
 
     def _monomial(self, monomial: Monomial) -> fmpz_poly:
@@ -126,3 +140,17 @@ class _Values:
     def _charge(self, factors: int, words: int = 0) -> None:
         """For a product with so many factors in all."""
         charge(polynomials_cost(factors * self.terms, max(words, factors * self.words)))
+
+
+def _stride(h: fmpz_poly, numerators: Sequence[fmpz_poly]) -> int:
+    """The greatest m for which h is a polynomial in T^m, and all numerators are such ones times powers of T."""
+    m = int(h.degree())
+    for value in (h, *numerators):
+        lowest = _lowest(value)
+        m = gcd(m, *(power - lowest for power, coefficient in enumerate(value.coeffs()) if coefficient))
+    return m
+
+
+def _lowest(value: fmpz_poly) -> int:
+    """The least exponent; 0 if there is none."""
+    return next((power for power, coefficient in enumerate(value.coeffs()) if coefficient), 0)
