@@ -455,6 +455,13 @@ MIXED: dict[str, Row] = {
 }
 
 WEIGHTS: dict[str, Row] = {
+    "a fat point, said to count 4, and another point left out": (
+        listed("x,y", ("x^3 - x^2", *FAT[1:]), represented([(0, 0)], (1, 1)), multiplicities=4)
+        | complete("modular-rank", 4),
+        "rejected",
+    ),
+    "a point of a line": (listed("x,y", ("x - 1",), represented([(1, 0)], (1, 1)), multiplicities=None), "accepted"),
+    "a point of a line, called simple": (listed("x,y", ("x - 1",), represented([(1, 0)], (1, 1))), "rejected"),
     "a fat point": (
         listed("x,y", FAT, represented([(0, 0)], (1, 1)), multiplicities=3) | complete("modular-rank", 3),
         "accepted",

@@ -138,8 +138,6 @@ def solutions_at_most(mechanism: Mechanism) -> int | None:
     section = Section(mechanism)
     if section.is_empty:
         return 0
-    if not section.size:
-        return 1
     for p in _primes(mechanism):
         tops = [{m: c % p for m, c in element.items() if sum(m) == 2} for element in section.elements]
         sizes = list(_parts([_pairs(top) for top in tops], section.size, p, _HIGHEST + 1))
