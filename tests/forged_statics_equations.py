@@ -322,16 +322,16 @@ FORMAT["fewer actuators than free components"] = (
 FORMAT["one of all"] = (claims(ONE, [1]), "accepted", "indices")
 
 
-def _twelve(freedoms: int, **entries: Any) -> Content:
-    """Twelve actuators of a point or body in general position, nothing claimed but a polytope."""
+def _twelve(freedoms: int, number: int = 12, **entries: Any) -> Content:
+    """Twelve actuators, or so many, of a point or body in general position, nothing claimed but a polytope."""
     content = machine(
         range(freedoms),
         None,
         [
-            equation({4 + k if k < 3 else (12, 13, 8)[k - 3]: 1}, {a + 1: {16: (a + 2) ** k} for a in range(12)})
+            equation({4 + k if k < 3 else (12, 13, 8)[k - 3]: 1}, {a + 1: {16: (a + 2) ** k} for a in range(number)})
             for k in range(freedoms)
         ],
-        actuators=["1"] * 12,
+        actuators=["1"] * number,
     )
     return content | entries
 
@@ -364,6 +364,11 @@ SIZES: dict[str, Row] = {
     "a larger ellipsoid": (_moved(CROSSED, "ellipsoid", "matrix", 0, 0), "rejected", "ellipsoid"),
     "twelve in six: bounds": (_twelve(6, wrench_polytope=NO_BOUNDS), "too-large", "wrench_polytope: too many choices"),
     "twelve in six: sums": (_twelve(6, velocity_polytope=NO_SUMS), "too-large", "velocity_polytope: too many choices"),
+    "eleven in six: sums": (
+        _twelve(6, 11, velocity_polytope=NO_SUMS),
+        "too-large",
+        "velocity_polytope: too many choices",
+    ),
     "twelve in five: sums": (_twelve(5, velocity_polytope=NO_SUMS), "rejected", "velocity_polytope: not all facets"),
     "twelve in five: bounds": (_twelve(5, wrench_polytope=NO_BOUNDS), "too-large", "wrench_polytope: too many choices"),
     "twelve along a line in six": (claims(_LINED), "accepted", "indices"),

@@ -654,6 +654,10 @@ INFINITY: dict[str, Row] = {
         "rejected",
     ),
     "an end twice, but for a solution": (counted(DOUBLE_END, represented([(1, 1)], (1, 0)), ONE_END, 1), "rejected"),
+    "an end twice, of three polynomials": (
+        counted((*DOUBLE_END, DOUBLE_END[0]), represented([(0, 0), (1, 1)], (1, 0)), ONE_END, 2),
+        "accepted",
+    ),
     "an end of another chart": (
         counted(DOUBLE_END, represented([(0, 0), (1, 1)], (1, 0)), put(ONE_END, [0, 2], "chart"), 2),
         "rejected",
