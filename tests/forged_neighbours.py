@@ -84,6 +84,10 @@ ROOTS: dict[str, Case] = {
         lambda: _turned(fmpz_poly([-1, 1 << 40]) * fmpz_poly([-1025, 1 << 50]) * fmpz_poly([-2, 0, 1])),
         ACCEPTED,
     ),
+    "a root -2^-32 / 3 beside 0, in whose closed cell of the grid 2^-32 that is": (
+        lambda: _turned(fmpz_poly([0, 1]) * fmpz_poly([1, 3 << 32]) * fmpz_poly([-2, 0, 1])),
+        ACCEPTED,
+    ),
     "roots 0, 1 and -1": (lambda: _turned(fmpz_poly([0, -1, 0, 1])), ACCEPTED),
     "roots where the slope is 0 between them": (lambda: _turned(fmpz_poly([1, -3, 0, 1])), ACCEPTED),
 }
