@@ -161,7 +161,7 @@ CHART_BOXES: dict[str, Case] = {
     ),
     **{
         f"the format {word}": (partial(_changed, "nothing known", ("format",), partial(_given, word)), "malformed")
-        for word in ("pkm_exact certificat", "A")
+        for word in ("pkm_exact certificat", "A", ["A"])
     },
     **{
         f"the version {version} of a tolerance certificate": (

@@ -345,7 +345,20 @@ POSES: dict[str, Case] = {
 }
 CONJUGATES: dict[str, Case] = {**BOUNDS, **REAL, **ALL, **POSES}
 
+
+def _narrower(place: int, end: int) -> Content:
+    """A coordinate of the quaternion narrower, by one unit of its last place, than what the plain checker proves."""
+    content = limit("exact-tolerance-planar")
+    bound = Fraction(content["boxes"][0]["quaternion"][place][end])
+    unit = Fraction(1 - 2 * end, bound.denominator)
+    return with_entry(content, ("boxes", 0, "quaternion", place, end), str(bound + unit))
+
+
 PLAIN_ENDS: dict[str, Case] = {
+    **{
+        f"coordinate {place} of a quaternion hardly narrower than is proved": (partial(_narrower, place, end), REJECTED)
+        for place, end in ((0, 0), (3, 1))
+    },
     **{
         f"an outer box that is hardly shrunk, {more} units more": (partial(_shrunk, more), status)
         for more, status in ((0, ACCEPTED), (1, REJECTED))
