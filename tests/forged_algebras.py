@@ -67,6 +67,10 @@ FILLED: dict[str, Case] = {
         for root in (1, -1)
     },
     "x^3 and x^5 + x^4": (partial(_system, "x", ("x^3", "x^5+x^4"), [(0,)], [3], []), ACCEPTED),
+    "x^3 and x^5 + x^4, times 2^127 - 1": (
+        partial(_system, "x", (f"{PRIME}*x^3", f"{PRIME}*x^5+{PRIME}*x^4"), [(0,)], [3], []),
+        ACCEPTED,
+    ),
     **{
         f"x^{n} - x^{n - 1}, and 1 is left out": (
             partial(_system, "x", (f"x^{n}-x^{n - 1}",), [(0,)], [n], []),
