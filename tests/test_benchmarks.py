@@ -119,6 +119,7 @@ def test_statics_are_measured(tmp_path: Path) -> None:
     assert 0 <= found["widest"] < 1e-9
 
 
+@pytest.mark.slow
 def test_tolerances_are_measured(tmp_path: Path) -> None:
     """What is proved ends before the first robot that is seen to have lost the pose, and there exact poses vanish."""
     path = SCRIPTS.parent / "models" / "3-rpr-merlet-p.toml"

@@ -531,6 +531,7 @@ def test_the_command_says_that_the_certificate_does_not_cover_it(tmp_path: Path,
     assert check_bytes(path.read_bytes()).status == "accepted"
 
 
+@pytest.mark.slow
 def test_json_has_what_is_followed(capsys: Capture) -> None:
     assert main(["solve", str(MODEL), "--tolerance", "0.06", "--format", "json"]) == 3
     box = json.loads(capsys.readouterr().out)["tolerance"]["boxes"][0]

@@ -287,6 +287,7 @@ def test_pairs_of_joints_stand_where_radius_and_angles_put_them(azimuth: str | N
         assert math.degrees(math.acos((x * u + y * v) / 15000)) == pytest.approx(38, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_the_line_source_draws_the_same_robot_again(capsys: Capture) -> None:
     assert main(["new", *CIRCLES, "--base-azimuth", "7", "-o", "-"]) == 0
     text = capsys.readouterr().out
