@@ -365,6 +365,10 @@ MOVING: dict[str, Case] = {
         lambda: witness_of(PLACED, [*ANY[:5], ANY[0]], [(n, 2 * n, 3 * n) for n in (1, 2, 4, 7, 9, 1)]),
         ACCEPTED,
     ),
+    "joints on a line but for the second": (
+        lambda: witness_of(PLACED, ANY[:6], [(n, 2 * n, 3 * n + int(n == 2)) for n in (1, 2, 4, 7, 9, 5)]),
+        REJECTED,
+    ),
 }
 
 # Poses where constraints touch, and slices of a mechanism with few of them
