@@ -206,6 +206,7 @@ def test_types_and_origins_of_a_yaml_file(tmp_path: Path) -> None:
         ("closed_loop: [[tip", "is not YAML"),
         ("a: " + "[" * 5000, "is not YAML"),
         (" " * (1 << 16) + "# x", "has more than 65536 bytes"),
+        ("closed_loop: [&pair [tip, there], *pair]", "has an alias (*..); write out what it stands for"),
         ("closed_lop: []", "unknown key 'closed_lop'; the known keys are: closed_loop"),
         ("closed_loop: [[tip, 3]]", "closed_loop: is no list of pairs of names"),
         ("closed_loop: [[tip, nowhere]]", "closed_loop: 'nowhere' is the name of neither a link nor a joint"),

@@ -65,7 +65,7 @@ def read_closures(path: str | Path) -> Closures:
 
 def _content(path: Path) -> dict[str, Any]:
     try:
-        import yaml  # type: ignore[import-untyped]
+        import yaml
     except ImportError:
         raise InputError('PyYAML is not installed, which reads it; pip install "pkm_exact[urdf]"') from None
     try:
@@ -78,7 +78,11 @@ def _content(path: Path) -> dict[str, Any]:
     if len(data) > MOST_BYTES:
         raise InputError(f"has more than {MOST_BYTES} bytes; a file of closures is smaller")
     try:
-        found = yaml.safe_load(data.decode("utf-8"))
+        text = data.decode("utf-8")
+        # Aliases of aliases are short, and may stand for more than memory holds.
+        if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, yaml.SafeLoader)):
+            raise InputError("has an alias (*..); write out what it stands for")
+        found = yaml.safe_load(text)
     except (yaml.YAMLError, ValueError, RecursionError):
         raise InputError("is not YAML; write closed_loop: [[frame, frame]]") from None
     if not isinstance(found, dict):
