@@ -7,6 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 import pytest
 from samples import boxed
 
@@ -102,3 +103,9 @@ def test_numbers_beyond_doubles_are_left_to_balls(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(box_consistency, "gamma", lambda _: 1.0)
     combination = _combination(pose_quadrics(boxed("mourrain-l").problem))
     assert _have_room(isolated.real, isolated.chart, combination) == [False] * len(isolated.real)
+
+
+def test_what_rounding_may_lose_counts() -> None:
+    """A value on the border of the room is left to balls, one beside it by more than roundings is not."""
+    radius, size = np.ones((2, 1)), np.full((2, 1), 2.0)
+    assert pose_room._fits(np.array([[1.0], [1 - 2.0**-40]]), radius, size).tolist() == [False, True]

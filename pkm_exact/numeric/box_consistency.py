@@ -65,7 +65,7 @@ def _require_room(boxes: Sequence[Box], chart: Sequence[int], problem: ForwardPr
 
 
 def _have_room(boxes: Sequence[Box], chart: Sequence[int], combination: list[list[int]]) -> list[bool]:
-    """Where doubles tell that both can be satisfied; no more is lost by rounding than the width of a box.
+    """Where doubles tell that both can be satisfied, with what is lost by rounding.
 
     A term of x^T M x has three factors, and data that are rounded: it is off by at most gamma(80) of itself in all, and
     complex numbers count by the sum of their parts.
@@ -89,8 +89,9 @@ def _have_room(boxes: Sequence[Box], chart: Sequence[int], combination: list[lis
         at = x[:, :4] @ np.array(chart) - 1
         beside = np.abs(np.array(chart)) @ radii[:, :4].T
         are_small = lost < room / 4
-        fits = (np.abs(values.real) <= room) & (np.abs(values.imag) <= room)
-        fits &= (np.abs(at.real) <= beside) & (np.abs(at.imag) <= beside)
+        also = gamma(80) * (1 + sizes[:, :4] @ np.abs(np.array(chart)))
+        fits = (np.abs(values.real) + lost <= room) & (np.abs(values.imag) + lost <= room)
+        fits &= (np.abs(at.real) + also <= beside) & (np.abs(at.imag) + also <= beside)
         is_exact = (np.abs(numbers) < 2.0**53).all(axis=(1, 2))
     found: list[bool] = (fits & are_small & is_exact).tolist()
     return found

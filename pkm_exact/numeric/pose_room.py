@@ -79,8 +79,9 @@ def _ends(pose: Pose) -> list[tuple[float, float]]:
 
 
 def _fits(value: Real, radius: Real, size: Real) -> NDArray[np.bool_]:
-    """For each pose whether all values can be 0 within the radius, and roundings, of sums of this size, are small."""
-    are_small = (np.abs(value) <= radius) & (gamma(_FEW) * size < radius / 16)
+    """For each pose whether all values, off by roundings of sums of this size, are within the radius of 0."""
+    lost = gamma(_FEW) * size
+    are_small = (np.abs(value) + lost <= radius) & (lost < radius / 16)
     return np.asarray(are_small.all(axis=1), dtype=np.bool_)
 
 
