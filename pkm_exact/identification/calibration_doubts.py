@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from math import asin, atan2, cos, degrees, dist, sin, sqrt
+from math import dist, sqrt
 from statistics import median
 from typing import TYPE_CHECKING, Final
 
@@ -63,9 +63,13 @@ def _columns(read: list[list[float]], of_model: list[list[float]]) -> Iterator[s
 
 def _radians(robot: Robot, measured: Sequence[MeasuredPose], of_model: list[list[float]]) -> Iterator[str]:
     """Whether the model fits much better if the angles, taken as degrees, are radians."""
+    from scipy.spatial.transform import Rotation
+
     given = better = 0.0
     for k, pose in enumerate(measured):
-        turned = _rotation([degrees(angle) for angle in _angles([[float(x) for x in row] for row in pose.rotation])])
+        # Roll, pitch and yaw as numbers, as they were given.
+        numbers = Rotation.from_matrix([[float(x) for x in row] for row in pose.rotation]).as_euler("xyz", degrees=True)
+        turned = Rotation.from_euler("xyz", numbers).as_matrix()
         place = [float(x) for x in pose.position]
         for leg, (base, joint) in enumerate(zip(robot.base_joints, robot.platform_joints, strict=True)):
             at = [
@@ -81,20 +85,6 @@ def _radians(robot: Robot, measured: Sequence[MeasuredPose], of_model: list[list
             f"the angles look like radians: taken so the model is off by {sqrt(better / count):.2g} instead of "
             f"{sqrt(given / count):.2g} (root of the mean square); give them in degrees"
         )
-
-
-def _angles(r: Sequence[Sequence[float]]) -> tuple[float, float, float]:
-    """Roll, pitch and yaw in radians, R = Rz(yaw) Ry(pitch) Rx(roll)."""
-    return atan2(r[2][1], r[2][2]), asin(max(-1.0, min(1.0, -r[2][0]))), atan2(r[1][0], r[0][0])
-
-
-def _rotation(angles: Sequence[float]) -> list[list[float]]:
-    (a, b, c), (u, v, w) = map(cos, angles), map(sin, angles)
-    return [
-        [c * b, c * v * u - w * a, c * v * a + w * u],
-        [w * b, w * v * u + c * a, w * v * a - c * u],
-        [-v, b * u, b * a],
-    ]
 
 
 def _run_away(robot: Robot, fits: Sequence[LegFit]) -> Iterator[str]:
