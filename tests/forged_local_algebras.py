@@ -13,7 +13,7 @@ from math import prod
 from typing import Any
 
 from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
-from forged_system_cases import Row, counted, one
+from forged_system_cases import FIRST, Row, counted, one
 from handmade_systems import ENDS, Content, complete, hexadecimal, listed, multiplied, represented, trimmed
 
 from pkm_exact.certify.checker.residues import primes
@@ -130,6 +130,42 @@ def dear(degree: int, digits: int) -> Content:
     made = powers(((10**digits + 7, *[0] * (degree - 1), 1), 3), multiplicities=[])
     return made | complete("exact-elimination", 3 * degree, elimination=[])
 
+
+FAR = 10**150 + 7
+
+
+def laborious(points: Content, multiplicities: list[int], *factors: tuple[tuple[int, ...], int]) -> Content:
+    """x is a number, y = z, and z a root of a product of powers: functionals take more than their part of the work.
+
+    For a last polynomial, which follows from the others: it has high degrees in all variables and large coefficients.
+    """
+    product = [Fraction(1)]
+    for factor, power in factors:
+        for _ in range(power):
+            product = multiplied(product, factor)
+    terms = [(int(value), k) for k, value in enumerate(product) if value]
+    texts = (
+        f"x-{FAR}",
+        "y-z",
+        "+".join(f"{value}*z^{k}" for value, k in terms),
+        "+".join(f"{value * 10**3700}*x^20*y^10*z^{k}" for value, k in terms),
+    )
+    made = listed("x,y,z", [text.replace("+-", "-") for text in texts], points, multiplicities=multiplicities)
+    return made | complete("exact-elimination", len(product) - 1, elimination=[])
+
+
+LABORIOUS = {
+    "ten and two": laborious(represented([(FAR, 1, 1), (FAR, 2, 2)], (0, 0, 1)), [10, 2], (ONE, 10), (TWO, 2)),
+    "ten times the roots of the first prime": laborious(
+        {
+            "separating_form": [0, 0, 1],
+            "eliminant": hexadecimal([-FIRST, 0, 1]),
+            "numerators": [hexadecimal([0, 2 * FAR]), *[hexadecimal([2 * FIRST])] * 2],
+        },
+        [10, 10],
+        ((-FIRST, 0, 1), 10),
+    ),
+}
 
 SECOND = ("x-y^2", "z-x", "x^2", "y^2*z")
 

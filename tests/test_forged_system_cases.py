@@ -1,11 +1,11 @@
 """Certificates of polynomial systems made by hand: both checkers say of each what is true."""
 
 import pytest
-from forged_local_algebras import FAR_TOO_DEAR, dear
+from forged_local_algebras import FAR_TOO_DEAR, LABORIOUS, dear
 from forged_local_algebras import ROWS as LOCAL_ALGEBRAS
 from forged_strides import ROWS as STRIDES
 from forged_system_cases import ROWS
-from handmade_systems import sealed_bytes
+from handmade_systems import Content, sealed_bytes
 from tables_of_rows import merged
 
 from pkm_exact.certify import pure
@@ -16,8 +16,9 @@ ALL = merged(ROWS, LOCAL_ALGEBRAS, STRIDES)
 
 @pytest.mark.slow
 @pytest.mark.in_corpus
-def test_an_attempt_takes_its_part_of_the_work_only() -> None:
-    data = sealed_bytes(dear(*FAR_TOO_DEAR))
+@pytest.mark.parametrize("content", [dear(*FAR_TOO_DEAR), *LABORIOUS.values()], ids=["far too dear", *LABORIOUS])
+def test_an_attempt_takes_its_part_of_the_work_only(content: Content) -> None:
+    data = sealed_bytes(content)
     for verdict in (check_bytes(data), pure.check_bytes(data)):
         assert str(verdict.status) == "accepted", verdict.lines
 
