@@ -1079,23 +1079,27 @@ class Root(NamedTuple):
     k: int
     exact: bool
 
+    def mirrored(self) -> Root:
+        """The cell of -t."""
+        return Root(-self.m - (not self.exact), self.k, self.exact)
+
 
 TOO_CLOSE: Final = f"real poses: the roots are not told apart by {MAX_ISOLATION} bits"
 
 
-def real_roots(h0: Polynomial) -> list[Root]:
+def real_roots(h0: Polynomial, finest: int = MAX_ISOLATION) -> list[Root]:
     """The real roots of a squarefree polynomial, increasing, each isolated. All are below 2^b (Fujiwara)."""
     lead = h0[-1].bit_length() - 1
     b = max(2 + (c.bit_length() - lead) // (len(h0) - 1 - power) for power, c in enumerate(h0[:-1]))
     b = max(b, 0)
-    affordable(b <= MAX_ISOLATION, TOO_CLOSE)
+    affordable(b <= finest, TOO_CLOSE)
     mirrored = [-c if power % 2 else c for power, c in enumerate(h0)]
-    roots = [Root(-m - (not exact), k, exact) for m, k, exact in positive_roots(mirrored, b)]
-    roots += [*positive_roots(h0, b), *[Root(0, 0, True)] * (not h0[0])]
-    return sorted(roots, key=lambda root: Fraction(2 * root.m + (not root.exact), 2 << root.k))
+    roots = [root.mirrored() for root in positive_roots(mirrored, b, finest)]
+    roots += [*positive_roots(h0, b, finest), *[Root(0, 0, True)] * (not h0[0])]
+    return sorted(roots, key=lambda root: Fraction(2 * root.m + (not root.exact)) / Fraction(2) ** root.k)
 
 
-def positive_roots(h0: Polynomial, b: int) -> Iterator[Root]:
+def positive_roots(h0: Polynomial, b: int, finest: int) -> Iterator[Root]:
     """The roots in (0, 2^b), in any order: intervals (m, m + 1) / 2^k are halved until Descartes' rule decides.
 
     q is h0 on the interval, mapped to (0, 1). The number of changes of sign in the coefficients of
@@ -1106,14 +1110,14 @@ def positive_roots(h0: Polynomial, b: int) -> Iterator[Root]:
         m, k, q = pending.pop()
         spend(len(q) * (2000 + len(q) * (150 + most_bits(q) // 200)))
         changes = sign_changes(shifted(q[::-1]))
-        if changes == 1 and k >= 0:
+        if changes == 1:
             yield Root(m, k, False)
         elif changes:
-            affordable(k < MAX_ISOLATION, TOO_CLOSE)
+            affordable(k < finest, TOO_CLOSE)
             left = [c << (len(q) - 1 - power) for power, c in enumerate(q)]
             right = shifted(left)
             if not right[0]:
-                yield Root(2 * m + 1 << max(-k - 1, 0), max(k + 1, 0), True)
+                yield Root(2 * m + 1, k + 1, True)
             pending += [(2 * m, k + 1, left), (2 * m + 1, k + 1, right)]
 
 
@@ -1170,9 +1174,9 @@ class Fixed:
     def at(self, m: int, k: int, bits: int) -> tuple[int, int]:
         """The value at m / 2^k to so many leading bits, as a multiple of 2^(s - q), and q; 0 only if it is 0.
 
-        It is a multiple of 2^(-k degree), so that it is 0 if a smaller one cannot be told from 0.
+        It is a multiple of 2^(-k degree), an integer if k < 0: it is 0 if a smaller one cannot be told from 0.
         """
-        least = k * (len(self.polynomial) - 1) + max(self.s, 0) + len(self.polynomial).bit_length() + 2
+        least = max(k, 0) * (len(self.polynomial) - 1) + max(self.s, 0) + len(self.polynomial).bit_length() + 2
         most = max(least, k + self.b + 1) + bits
         while True:
             q = min(self.q, most)
@@ -1223,17 +1227,44 @@ def secant(low: tuple[int, int], high: tuple[int, int], step: int) -> int:
 
 
 def isolated(h0: Polynomial) -> list[Root]:
-    """The real roots in the cells of the coarsest grid, from 2^-32 on, where each closed cell holds one root only."""
-    roots = real_roots(h0)
-    k = max(32, *(root.k for root in roots)) if roots else 32
-    roots = [refined(h0, root, k) for root in roots]
-    while not are_apart(roots):
+    """The real roots in the cells of the coarsest grid, from 2^-32 on, where each closed cell holds one root only.
+
+    Where h0 is a polynomial in S = T^m, they are the m-th roots of the real roots of that, which has a smaller degree.
+    """
+    m = gcd(*(power for power, c in enumerate(h0) if c))
+    powers = h0[::m]
+    known = real_roots(powers, m * MAX_ISOLATION)
+    k = max(32, *(-(-root.k // m) for root in known)) if known else 32
+    while True:
+        known = [refined(powers, root, m * k) for root in known]
+        roots = roots_of_powers(known, m)
+        if are_apart(roots):
+            break
         affordable(k < MAX_ISOLATION, TOO_CLOSE)
         k = min(2 * k, MAX_ISOLATION)
-        roots = [refined(h0, root, k) for root in roots]
     spend((k - 31) * (2000 + 3000 * len(roots)))
     grids = ([coarser(root, grid) for root in roots] for grid in range(32, k + 1))
     return next(cells for cells in grids if are_apart(cells))
+
+
+def roots_of_powers(known: Sequence[Root], m: int) -> list[Root]:
+    """The real m-th roots of numbers, not 0 if m > 1, both increasing: on the grid 2^-k from those on 2^-(m k)."""
+    if m == 1:
+        return list(known)
+    roots = [root_of_power(root, m) for root in known if root.m >= 0]
+    others = [root_of_power(root.mirrored(), m) for root in known if root.m < 0] if m % 2 else roots[::-1]
+    return [*(root.mirrored() for root in others), *roots]
+
+
+def root_of_power(power: Root, m: int) -> Root:
+    """The positive m-th root of a positive number: 2^k t rounded down is the m-th root of 2^(m k) t^m rounded down."""
+    bits = -(-power.m.bit_length() // m)
+    spend(2000 + bits * (300 + 4 * product_cost(power.m.bit_length(), power.m.bit_length())))
+    low = 0
+    for place in reversed(range(bits)):
+        if (low + (1 << place)) ** m <= power.m:
+            low += 1 << place
+    return Root(low, power.k // m, power.exact and low**m == power.m)
 
 
 def coarser(root: Root, k: int) -> Root:

@@ -2,13 +2,15 @@
 
 After a Moebius transformation that takes an interval to (0, oo), no change of sign in the coefficients proves that
 there is no root in it, and one that there is one (Vincent; Collins and Akritas 1976). Coefficients are balls; where one
-of their signs is not known, all is done again with twice as many bits.
+of their signs is not known, all is done again with twice as many bits. The roots of a polynomial in T^m are found as
+m-th roots.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from math import gcd
 from typing import Final
 
 from flint import arb, arb_poly, fmpq, fmpz, fmpz_poly
@@ -34,6 +36,9 @@ def descartes_enclosures(polynomial: fmpz_poly, bits: int) -> list[arb] | None:
     >>> [round(float(ball.mid()), 6) for ball in descartes_enclosures(fmpz_poly([0, -2, 0, 1]), 64)]
     [-1.414214, 0.0, 1.414214]
     """
+    m = gcd(*(power for power, value in enumerate(polynomial.coeffs()) if value))
+    if m > 1:
+        return _roots_of(descartes_enclosures(fmpz_poly(polynomial.coeffs()[::m]), bits), m, 2 * bits)
     values = [int(value) for value in polynomial.coeffs()]
     zeros = [arb(0)] if not values[0] else []
     if zeros:
@@ -50,6 +55,16 @@ def descartes_enclosures(polynomial: fmpz_poly, bits: int) -> list[arb] | None:
                 return [*(-place for place in reversed(below)), *zeros, *above]
         precision *= 2
     return None
+
+
+def _roots_of(powers: Sequence[arb] | None, m: int, precision: int) -> list[arb] | None:
+    """The real m-th roots of numbers other than 0, which increase; None if a sign is not known."""
+    if powers is None or any(power.contains(0) for power in powers):
+        return None
+    with working_precision(precision):
+        positive = [power.root(m) for power in powers if power > 0]
+        others = [(-power).root(m) for power in powers if power < 0] if m % 2 else positive[::-1]
+        return [*(-root for root in others), *positive]
 
 
 def _exponent(values: Sequence[int]) -> int:

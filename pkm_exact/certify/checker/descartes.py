@@ -4,12 +4,15 @@ The number of roots of a polynomial q of degree D between 0 and 1 is at most the
 coefficients of (1 + x)^D q(1 / (1 + x)), and differs from it by an even number. So 0 and 1 are certain; intervals with
 more are halved (Collins and Akritas 1976). Halving ends if no root is multiple. An interval with one root is narrowed
 by Newton's operator in ball arithmetic, X -> c - h(c) / h'(X), which loses no root, and by exact signs otherwise.
+
+The roots of a polynomial in T^m are the m-th roots of those of a polynomial whose degree is m times smaller.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
+from math import gcd
 from typing import Final
 
 from flint import arb, ctx, fmpq, fmpz, fmpz_poly
@@ -140,13 +143,45 @@ def dyadic(value: arb) -> tuple[fmpz, fmpz]:
 
 def real_roots(h: fmpz_poly) -> list[RealRoot]:
     """All real roots of a squarefree polynomial of positive degree, increasing."""
-    return sorted((RealRoot(h, *ends) for ends in _isolated(h)), key=lambda root: (root.low, root.high))
+    m = gcd(*(power for power, value in enumerate(h.coeffs()) if value))
+    powers = fmpz_poly(h.coeffs()[::m])
+    isolated = (RealRoot(powers, *ends) for ends in _isolated(powers, m * MAX_ISOLATION))
+    known = sorted(isolated, key=lambda root: (root.low, root.high))
+    if m == 1:
+        return known
+    ends = _ends_of_roots([root for root in known if m % 2 or root.low >= 0], m)
+    mirrored = [(-high, -low) for low, high in reversed(ends)] if m % 2 == 0 else []
+    return [RealRoot(h, low, high) for low, high in (*mirrored, *ends)]
 
 
-def _isolated(h: fmpz_poly) -> Iterator[tuple[fmpq, fmpq]]:
+def _ends_of_roots(powers: Sequence[RealRoot], m: int) -> list[tuple[fmpq, fmpq]]:
+    """Isolating intervals of the real m-th roots (positive ones, if m is even) of numbers that are given, increasing.
+
+    Each interval has the root for whose sake it is there. If no two have more than an end in common, it has no other.
+    """
+    bits = GUARD
+    while bits <= m * MAX_ISOLATION:
+        ends = [(_rounded_root(power.low, m, bits), -_rounded_root(-power.high, m, bits)) for power in powers]
+        if all(one[1] <= other[0] for one, other in pairwise(ends)):
+            return ends
+        bits *= 2
+        for power in powers:
+            power.narrow(bits)
+    raise too_large(f"real poses: the roots are not told apart by {MAX_ISOLATION} bits")
+
+
+def _rounded_root(value: fmpq, m: int, bits: int) -> fmpq:
+    """The m-th root of a number, with the sign of the number, rounded down to the grid 2^-bits."""
+    words = limbs(m * bits + int(value.height_bits()))
+    charge(20000 + 50 * words * (30 + words // 8))
+    number = (value * fmpz(2) ** (m * bits)).floor()
+    return fmpq(number.root(m) if number >= 0 else -1 - (-1 - number).root(m), fmpz(1) << bits)
+
+
+def _isolated(h: fmpz_poly, finest: int) -> Iterator[tuple[fmpq, fmpq]]:
     """The ends of an interval around each root, in any order; both are the root if it was met at an end."""
     bound = _bound(h)
-    if bound > MAX_ISOLATION:
+    if bound > finest:
         raise too_large(f"real poses: a root of the eliminant is above 2^{MAX_ISOLATION}")
     if h[0] == 0:
         yield fmpq(0), fmpq(0)
@@ -164,7 +199,7 @@ def _isolated(h: fmpz_poly) -> Iterator[tuple[fmpq, fmpq]]:
         if changes == 1:
             yield _grid(m, k), _grid(m + 1, k)
         elif changes:
-            if k >= MAX_ISOLATION:
+            if k >= finest:
                 raise too_large(f"real poses: the roots are not told apart by {MAX_ISOLATION} bits")
             left = fmpz_poly([value << place for place, value in enumerate(reversed(q.coeffs()))][::-1])
             right = left(SHIFT)
