@@ -236,7 +236,7 @@ def test_a_process_that_is_ended_from_outside_says_nothing(
         outcome(_named(*COUNT), reaches["first"])
 
 
-ENDLESS = "def real_roots(h0):\n    while True:\n        pass"
+ENDLESS = "def real_roots(h0, finest=0):\n    while True:\n        pass"
 
 
 # A sample of those that read certificates: the limits of the format are certificates enough for them
