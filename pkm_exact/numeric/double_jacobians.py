@@ -189,8 +189,11 @@ def _intervals(low: Real, high: Real, chosen: NDArray[np.bool_]) -> list[Interva
     first, last = np.floor(np.ldexp(low, shifts)), np.ceil(np.ldexp(high, shifts))
     is_sure = chosen & (last == first + 1) & (low > 0) & np.isfinite(last) & (shifts <= FINEST_EXPONENT)
     rows = zip(np.where(is_sure, first, 0).astype(np.int64).tolist(), shifts.tolist(), is_sure.tolist(), strict=True)
-    return [Interval(_dyadic(value, shift), _dyadic(value + 1, shift)) if sure else None for value, shift, sure in rows]
+    return [_dyadic(value, shift) if sure else None for value, shift, sure in rows]
 
 
-def _dyadic(value: int, shift: int) -> Fraction:
-    return Fraction(value, 1 << shift) if shift >= 0 else Fraction(value << -shift)
+def _dyadic(value: int, shift: int) -> Interval:
+    """From a value times 2^-shift to the next one."""
+    if shift < 0:
+        return Interval.on_grid(value << -shift, value + 1 << -shift, 0)
+    return Interval.on_grid(value, value + 1, shift)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import lru_cache
 from typing import Final
 
@@ -164,9 +163,8 @@ def double_cells(found: DoubleCoordinates, exponent: int) -> list[list[Interval 
     decided = (are_far | are_near) & (np.abs(values) < GREATEST)
     low = np.where(are_near, nearest - 1, np.floor(values))
     high = np.where(are_near, nearest, low) + 1
-    unit = 1 << exponent
     return [
-        [Interval(Fraction(a, unit), Fraction(b, unit)) if is_sure else None for a, b, is_sure in row]
+        [Interval.on_grid(a, b, exponent) if is_sure else None for a, b, is_sure in row]
         for row in (
             zip(*rows, strict=True)
             for rows in zip(_integers(low, decided), _integers(high, decided), decided.tolist(), strict=True)

@@ -20,6 +20,7 @@ from pkm_exact.numeric.double_rounding import gamma
 from pkm_exact.numeric.study_system import Real
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_consistency import require_on_robot
+from pkm_exact.roots.interval import common_ends
 
 _FEW: Final = 16
 """Roundings in a row, at most."""
@@ -51,7 +52,7 @@ def require_poses_on_robot(poses: Sequence[Pose], problem: ForwardProblem, expon
 def _have_room(poses: Sequence[Pose], problem: ForwardProblem, chart: Sequence[int]) -> NDArray[np.bool_]:
     """Where there is room, and rounding is far smaller than the boxes."""
     try:
-        ends = np.array([_ends(pose) for pose in poses])
+        ends = _ends(poses)
         base, platform = (
             np.array([[float(value) for value in getattr(leg, side)] for leg in problem.distances])
             for side in ("base", "platform")
@@ -72,10 +73,10 @@ def _have_room(poses: Sequence[Pose], problem: ForwardProblem, chart: Sequence[i
     return found
 
 
-def _ends(pose: Pose) -> list[tuple[float, float]]:
-    """Those of position, rotation and quaternion."""
-    intervals = (*pose.position, *pose.rotation[0], *pose.rotation[1], *pose.rotation[2], *pose.quaternion)
-    return [(x.lo.numerator / x.lo.denominator, x.hi.numerator / x.hi.denominator) for x in intervals]
+def _ends(poses: Sequence[Pose]) -> Real:
+    """(p, 16, 2): those of position, rotation and quaternion, rounded."""
+    ends, exponent = common_ends([(*pose.box, *pose.quaternion) for pose in poses])
+    return np.ldexp(np.array(ends, dtype=np.float64), -exponent)
 
 
 def _fits(value: Real, radius: Real, size: Real) -> NDArray[np.bool_]:

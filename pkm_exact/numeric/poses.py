@@ -24,7 +24,7 @@ from pkm_exact.numeric.krawczyk_operator import around_zero, is_inside, krawczyk
 from pkm_exact.numeric.start import StartSection, generic_start, start_quadrics
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates
 from pkm_exact.numeric.tracker import polished, track
-from pkm_exact.poses.boxes import Enclosures, disjoint_cells, in_order, ordinary_coordinates, pose_in_cells
+from pkm_exact.poses.boxes import Enclosures, disjoint_cells, order_of, ordinary_coordinates, pose_in_cells
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
 from pkm_exact.poses.jacobian import LEAST_PRECISION, pose_jacobians
 from pkm_exact.poses.leg_jacobian import LegJacobian
@@ -42,6 +42,8 @@ LOST_BITS: Final = 12
 """Bits by which the limit of Newton's method may be less exact than if every step doubled their number."""
 COORDINATES: Final = 16
 """Of a pose: position, rotation matrix, quaternion."""
+BOX_COORDINATES: Final = 12
+"""Those of its box: position and rotation matrix."""
 NARROWINGS: Final = 64
 """Times that an enclosure is narrowed; its width is about squared each time."""
 
@@ -163,12 +165,9 @@ def real_poses(
 
     exponent, cells = disjoint_cells(enclosures, count, width, known=cells_in_doubles)
     jacobians = pose_jacobians(enclosures, system.problem, [None] * count, jacobians_in_doubles)
-    poses = [
-        replace(pose_in_cells(row, None), jacobian=jacobian) for row, jacobian in zip(cells, jacobians, strict=True)
-    ]
-    listed = in_order(poses)
-    order = [next(k for k, pose in enumerate(poses) if pose is entry) for entry in listed]
-    return replace(isolated, real=tuple(isolated.real[k] for k in order)), exponent, listed
+    order = order_of([row[:BOX_COORDINATES] for row in cells])
+    poses = tuple(pose_in_cells(cells[k], None, jacobians[k]) for k in order)
+    return replace(isolated, real=tuple(isolated.real[k] for k in order)), exponent, poses
 
 
 def isolated_poses(problem: ForwardProblem, width: Fraction) -> tuple[IsolatedSolutions, int, tuple[Pose, ...]] | None:

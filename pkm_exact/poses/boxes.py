@@ -17,9 +17,11 @@ from flint import arb, arb_poly
 
 from pkm_exact.errors import InputError, InternalContradictionError
 from pkm_exact.geometry.study import evaluate, motion_quadrics
+from pkm_exact.poses.leg_jacobian import LegJacobian
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.poses.pose_representation import PoseRepresentation
 from pkm_exact.precision import working_precision
+from pkm_exact.roots.interval import common_ends
 from pkm_exact.roots.isolation import RealRoot, isolated_and_enclosed, real_root_enclosures, refined_enclosures
 from pkm_exact.wording import shown
 
@@ -150,7 +152,7 @@ def disjoint_cells(
     while True:
         decided: list[list[Interval | None]] = [[None] * size for _ in range(count)]
         cells = _cells(enclosures, exponent, decided if known is None else known(exponent))
-        if _are_disjoint(cells, apart):
+        if not any(meeting_boxes([row[:apart] for row in cells])):
             return exponent, cells
         exponent += 8
 
@@ -230,16 +232,17 @@ def _shifted(mantissa: int, shift: int) -> int:
 
 
 def _cell(low: int, high: int, exponent: int) -> Interval:
-    return Interval(Fraction(low, 1 << exponent), Fraction(high, 1 << exponent))
+    return Interval.on_grid(low, high, exponent)
 
 
-def pose_in_cells(row: Sequence[Interval], parameter: Interval | None) -> Pose:
+def pose_in_cells(row: Sequence[Interval], parameter: Interval | None, jacobian: LegJacobian | None = None) -> Pose:
     """The pose with these intervals of position, rotation and quaternion."""
     return Pose(
         parameter,
         (row[0], row[1], row[2]),
-        tuple(tuple(row[3 + 3 * i : 6 + 3 * i]) for i in range(3)),
+        (tuple(row[3:6]), tuple(row[6:9]), tuple(row[9:12])),
         (row[12], row[13], row[14], row[15]),
+        jacobian=jacobian,
     )
 
 
@@ -248,21 +251,32 @@ def in_order(poses: Iterable[Pose]) -> tuple[Pose, ...]:
 
     The order is the same whatever method found them.
     """
-    return tuple(sorted(poses, key=_key))
+    listed = list(poses)
+    return tuple(listed[place] for place in order_of([pose.box for pose in listed]))
 
 
-def _key(pose: Pose) -> list[tuple[Fraction, Fraction]]:
-    box = [*pose.position, *(entry for row in pose.rotation for entry in row)]
-    return [(interval.lo, interval.hi) for interval in box]
+def order_of(boxes: Sequence[Sequence[Interval]]) -> list[int]:
+    """The places of boxes from left to right."""
+    keys, _ = common_ends([box[:1] for box in boxes])
+    if len({first for (first,) in keys}) < len(keys):  # else the first coordinate tells
+        keys, _ = common_ends(boxes)
+    return sorted(range(len(keys)), key=keys.__getitem__)
 
 
-def _are_disjoint(cells: Sequence[Sequence[Interval]], apart: int) -> bool:
-    """Whether no two boxes meet: in the order of the first coordinate, where mostly neighbours alone may."""
-    listed = sorted((row[:apart] for row in cells), key=lambda row: row[0].lo)
-    for place, first in enumerate(listed):
-        for second in listed[place + 1 :]:
-            if second[0].lo > first[0].hi:
+def meeting_boxes(boxes: Sequence[Sequence[Interval]]) -> Iterator[tuple[int, int]]:
+    """Which boxes meet: in the order of the first coordinate, where mostly neighbours alone may.
+
+    Examples
+    --------
+    >>> unit, next_one, far = ([Interval.on_grid(a, a + 1, 0)] for a in (0, 1, 3))
+    >>> list(meeting_boxes([far, unit, next_one]))
+    [(1, 2)]
+    """
+    ends, _ = common_ends([box[:1] for box in boxes])
+    listed = sorted((low, high, place) for place, ((low, high),) in enumerate(ends))
+    for number, (_, high, first) in enumerate(listed):
+        for low, _, second in listed[number + 1 :]:
+            if low > high:
                 break
-            if all(a.overlaps(b) for a, b in zip(first, second, strict=True)):
-                return False
-    return True
+            if all(a.overlaps(b) for a, b in zip(boxes[first], boxes[second], strict=True)):
+                yield first, second

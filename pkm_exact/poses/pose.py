@@ -68,10 +68,14 @@ class Pose:
         return None if self.jacobian is None else self.jacobian.condition
 
     @property
+    def box(self) -> tuple[Interval, ...]:
+        """Position and rotation matrix, by rows: in one of these the boxes of two poses differ."""
+        return (*self.position, *self.rotation[0], *self.rotation[1], *self.rotation[2])
+
+    @property
     def half_width(self) -> Fraction:
         """Half the greatest width of the box, over all coordinates of position, rotation and quaternion."""
-        intervals = (*self.position, *(entry for row in self.rotation for entry in row), *self.quaternion)
-        return max(interval.width for interval in intervals) / 2
+        return max(interval.width for interval in (*self.box, *self.quaternion)) / 2
 
     def to_numpy(self) -> PoseArrays:
         """The pose in doubles: midpoints, and half-widths that cover the exact values, rounding included.

@@ -30,6 +30,7 @@ from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.geometry.study import translation_coordinates
+from pkm_exact.poses.boxes import meeting_boxes
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.wrenches import least_multiplicity
 from pkm_exact.precision import working_precision
@@ -108,21 +109,11 @@ def require_apart(poses: Sequence[Pose]) -> None:
     ------
     InternalContradictionError
     """
-    listed = sorted(range(len(poses)), key=lambda number: poses[number].position[0].lo)
-    boxes = {number: _box(poses[number]) for number in listed}
-    for place, first in enumerate(listed):
-        for second in listed[place + 1 :]:
-            if boxes[second][0].lo > boxes[first][0].hi:
-                break
-            meet = all(a.overlaps(b) for a, b in zip(boxes[first], boxes[second], strict=True))
-            require(not meet, "the boxes of two poses meet", first=first, second=second)
+    for first, second in meeting_boxes([pose.box for pose in poses]):
+        require(False, "the boxes of two poses meet", first=first, second=second)
     parameters = sorted((pose.parameter for pose in poses if pose.parameter is not None), key=lambda place: place.lo)
     for left, right in pairwise(parameters):
         require(left.hi <= right.lo and left != right, "two poses have one parameter", left=left, right=right)
-
-
-def _box(pose: Pose) -> list[Interval]:
-    return [*pose.position, *(entry for row in pose.rotation for entry in row)]
 
 
 def require_on_robot(
@@ -268,7 +259,7 @@ def _enclosures(poses: Sequence[Pose], exponent: int) -> list[list[arb]]:
     """Position (3), rotation (9) and quaternion (4) of each pose, as balls that are its intervals, exactly."""
     middles, radii = [], []
     for pose in poses:
-        for interval in (*_box(pose), *pose.quaternion):
+        for interval in (*pose.box, *pose.quaternion):
             low, high = _in_cells(interval.lo, exponent), _in_cells(interval.hi, exponent)
             middles.append(low + high)
             radii.append(high - low)

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, Context, Decimal
 from fractions import Fraction
 from math import inf, nextafter
-from typing import Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 DIGITS_OF_EXACT: Final = 15
 """Decimals shown of a number that is known exactly."""
 _LONGEST_FRACTION: Final = 24
 _GREATEST: Final = nextafter(inf, 0)
 _UPWARDS: Final = Context(prec=2, rounding=ROUND_CEILING, Emin=MIN_EMIN, Emax=MAX_EMAX)
+
+Cell: TypeAlias = tuple[int, int, int]
+"""Ends in units of 2^-exponent, and the exponent, at least 0."""
+Ends: TypeAlias = tuple[int, int] | tuple[Fraction, Fraction]
 
 
 @dataclass(frozen=True, repr=False)
@@ -47,6 +52,36 @@ class Interval:
         # As fractions compare, in a third of the time: answers have hundreds of intervals.
         if self.lo.numerator * self.hi.denominator > self.hi.numerator * self.lo.denominator:
             raise ValueError(f"interval ends out of order: {self.lo} > {self.hi}")
+
+    @classmethod
+    def on_grid(cls, low: int, high: int, exponent: int) -> Interval:
+        """The interval from low to high, low at most high, in units of 2^-exponent; the exponent is at least 0.
+
+        Its ends become fractions when they are asked for: answers have hundreds of intervals.
+
+        Examples
+        --------
+        >>> Interval.on_grid(2, 3, 2) == Interval(Fraction(1, 2), Fraction(3, 4))
+        True
+        """
+        found = object.__new__(cls)
+        found.__dict__["_cell"] = low, high, exponent
+        return found
+
+    if not TYPE_CHECKING:  # else any name would pass for an attribute
+
+        def __getattr__(self, name: str) -> Fraction:
+            """An end of an interval on a grid, when it is first asked for."""
+            if name not in ("lo", "hi") or self.cell is None:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+            *ends, exponent = self.cell
+            value = self.__dict__[name] = Fraction(ends[name == "hi"], 1 << exponent)
+            return value
+
+    @property
+    def cell(self) -> Cell | None:
+        """What it was made of, if it is one on a grid."""
+        return self.__dict__.get("_cell")
 
     @property
     def width(self) -> Fraction:
@@ -124,6 +159,23 @@ class Interval:
         farthest = max(self.hi - Fraction(text), Fraction(text) - self.lo)
         bound = _UPWARDS.divide(Decimal(farthest.numerator), Decimal(farthest.denominator))
         return f"[{text} +/- {bound.normalize():.1e}]"
+
+
+def common_ends(rows: Sequence[Sequence[Interval]]) -> tuple[list[list[Ends]], int]:
+    """The ends of intervals in units of 2^-exponent, and the exponent: integers where all are on one grid.
+
+    Examples
+    --------
+    >>> half, cell = Interval(Fraction(1, 2), Fraction(1)), Interval.on_grid(2, 3, 2)
+    >>> common_ends([[cell]]), common_ends([[cell], [half]]) == ([[(cell.lo, cell.hi)], [(half.lo, half.hi)]], 0)
+    (([[(2, 3)]], 2), True)
+    """
+    cells = [interval.cell for row in rows for interval in row]
+    exponents = {None if cell is None else cell[2] for cell in cells}
+    if len(exponents) != 1 or None in exponents:
+        return [[(interval.lo, interval.hi) for interval in row] for row in rows], 0
+    found = iter(cells)
+    return [[next(found)[:2] for _ in row] for row in rows], exponents.pop()
 
 
 def decimal(interval: Interval) -> str:
