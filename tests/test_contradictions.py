@@ -296,7 +296,7 @@ def test_a_wrong_step_of_the_numeric_engine_gives_no_answer(fault: str, monkeypa
 def test_wrong_boxes_that_are_believed_give_no_answer(is_real: bool, in_doubles: bool, monkeypatch: Patch) -> None:
     certification = import_module("pkm_exact.numeric.certification")
     doubles = import_module("pkm_exact.numeric.double_boxes")
-    right = doubles._box if in_doubles else certification.nearest_box
+    right = doubles.box_at if in_doubles else certification.nearest_box
 
     def aside(*arguments: Any) -> Any:
         box = right(*arguments)
@@ -304,7 +304,7 @@ def test_wrong_boxes_that_are_believed_give_no_answer(is_real: bool, in_doubles:
         return replace(box, centre=(first, (real + 1000, imaginary), *rest)) if box.is_real == is_real else box
 
     if in_doubles:
-        monkeypatch.setattr(doubles, "_box", aside)
+        monkeypatch.setattr(doubles, "box_at", aside)
     else:
         monkeypatch.setattr(certification, "_in_doubles", lambda _, points: ([None] * len(points), points))
         monkeypatch.setattr(certification, "nearest_box", aside)

@@ -14,6 +14,7 @@ from samples import model, shipped
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric import certification, far_solutions
 from pkm_exact.numeric.certified_boxes import centre, certified
+from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.far_solutions import TRIED
 from pkm_exact.numeric.grids import GRIDS, first_grid
 from pkm_exact.numeric.poses import certified_solutions
@@ -33,7 +34,7 @@ def _problem(number: int) -> ForwardProblem:
 def _by_balls(problem: ForwardProblem, monkeypatch: Patch) -> Any:
     """Every grid is tried, from the first one on."""
     with monkeypatch.context() as changed:
-        changed.setattr(certification, "far_solutions", lambda _, points: [None] * len(points))
+        changed.setattr(certification, "_in_doubles", lambda _, points: ([None] * len(points), points))
         changed.setattr(certification, "_first_grid", lambda *_: GRIDS[0])
         return certified_solutions(problem, seeds(problem))[1]
 
@@ -77,28 +78,59 @@ def test_points_that_are_no_solutions_prove_nothing() -> None:
     system, isolated = certified_solutions(problem, seeds(problem))
     boxes = [box for box in isolated.pairs if box.exponents[0] in TRIED]
     points = np.array([[complex(entry.mid()) for entry in centre(system, box).entries()] for box in boxes])
-    found = far_solutions.far_solutions(system, points)
-    assert [far and far.box for far in found] == boxes
-    assert [far and far.box for far in far_solutions.far_solutions(system, points.conj())] == boxes
+    assert far_solutions.far_solutions(system, points).boxes == boxes
+    assert far_solutions.far_solutions(system, points.conj()).boxes == boxes
     random = np.random.default_rng(2)
     for size in (1e-12, 1e-9, 1e-6, 1e-2):
-        moved = points * (1 + size * random.standard_normal(points.shape))
-        for far, box in zip(far_solutions.far_solutions(system, moved), boxes, strict=True):
-            assert far is None or far.box in (None, box)
-    for wrong in (0 * points, points * np.nan, points[:0]):
-        assert far_solutions.far_solutions(system, wrong) == [None] * len(wrong)
+        moved: Any = points * (1 + size * random.standard_normal(points.shape))
+        for far, box in zip(far_solutions.far_solutions(system, moved).boxes, boxes, strict=True):
+            assert far in (None, box)
+    useless: list[Any] = [0 * points, points * np.nan, points[:0], points * 1e300]
+    for wrong in useless:
+        assert far_solutions.far_solutions(system, wrong).boxes == [None] * len(wrong)
 
 
-@pytest.mark.parametrize(("bound", "value"), [("CLOSE", 0.0), ("SLACK", 3.0), ("TRIED", ()), ("TRIED", (72,))])
+BOUNDS = [
+    *(("CLOSE", 2.0**20), ("STEPS", 1), ("LARGEST", 1.0), ("ASTRAY", 0.0), ("NEAR", 0.0), ("SURE", 0.2)),
+    *(("TRIED", (44,)), ("SLACK", 3.0), ("BITS", 200)),
+]
+
+
+@pytest.mark.parametrize(("bound", "value"), BOUNDS)
 def test_what_is_not_as_usual_is_left_to_others(bound: str, value: Any, monkeypatch: Patch) -> None:
     problem = shipped("rolland-6-6")
     expected = certified_solutions(problem, seeds(problem))[1]
     monkeypatch.setattr(far_solutions, bound, value)
-    again = certified_solutions(problem, seeds(problem))[1]
-    if bound == "SLACK":
-        assert again.count == expected.count
-    else:
-        assert again == expected
+    assert certified_solutions(problem, seeds(problem))[1] == expected
+
+
+def test_values_at_integers_are_exact_but_for_one_rounding() -> None:
+    """Also of equations that are mixed, so that the square of the distance is in one of them only."""
+    problem, random = shipped("rolland-6-6"), Random(4)
+    system = ChartSystem(problem, (3, -1, 2, 1))
+    mixed, original = system.mixed, system.in_doubles
+    assert mixed is not None
+    assert original is not None
+    points = [[(random.randrange(-(1 << 70), 1 << 70), random.randrange(1 << 70)) for _ in range(8)] for _ in range(2)]
+    found = mixed.values(points, 64)
+    for x, values in zip(points, found, strict=True):
+        z = [(Fraction(a, 1 << 64), Fraction(b, 1 << 64)) for a, b in x]
+        plain = [_value(quadric, z) for quadric in system.quadrics]
+        real, imaginary = (sum(w * v[k] for w, v in zip(system.chart, z, strict=False)) for k in (0, 1))
+        plain.append((Fraction(real - 1), Fraction(imaginary)))
+        scaled = [[part / 2 ** int(k) for part in v] for v, k in zip(plain, original.forms.powers, strict=True)]
+        for row, value in zip(mixed.mixing.tolist(), values.tolist(), strict=True):
+            for k, part in enumerate((value.real, value.imag)):
+                exact = sum(Fraction(w) * v[k] for w, v in zip(row, scaled, strict=True))
+                assert abs(Fraction(part) - exact) <= abs(exact) / 2**52
+    place = mixed.monomials.index((4, 4))
+    assert sum(row[place] != 0 for row in mixed.coefficients.tolist()) == 1
+
+
+def _value(quadric: Any, z: list[tuple[Fraction, Fraction]]) -> tuple[Fraction, Fraction]:
+    terms = [(c, z[i], z[j]) for (i, j), c in quadric.items()]
+    real = sum((c * (a[0] * b[0] - a[1] * b[1]) for c, a, b in terms), Fraction(0))
+    return real, sum((c * (a[0] * b[1] + a[1] * b[0]) for c, a, b in terms), Fraction(0))
 
 
 def test_the_first_grid_is_the_first_that_bears_the_width() -> None:

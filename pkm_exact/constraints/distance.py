@@ -22,24 +22,22 @@ from pkm_exact.constraints.form import Form, Vector, form, outer, scaled
 @lru_cache(maxsize=64)
 def _form_of_joints(metric: tuple[int, int, int], base: Vector, platform: Vector) -> Form:
     """The form without the length: many robots differ in that alone."""
-    return form(
-        Fraction(1),
-        scaled(metric, platform, 2),
-        scaled(metric, base, -2),
-        outer(metric, base, platform, -2),
-        _sum_of_squares(metric, base, platform),
-    )
-
-
-def _sum_of_squares(metric: tuple[int, int, int], base: Vector, platform: Vector) -> Fraction:
-    """|A|^2 + |B|^2."""
     values = (*base, *platform)
     if not all(type(value) is Fraction for value in values):  # knees may be sums of square roots
-        return sum((g * (a * a + b * b) for g, a, b in zip(metric, base, platform, strict=True)), Fraction(0))
+        squares = sum((g * (a * a + b * b) for g, a, b in zip(metric, base, platform, strict=True)), Fraction(0))
+        coefficients = scaled(metric, platform, 2), scaled(metric, base, -2), outer(metric, base, platform, -2)
+        return form(Fraction(1), *coefficients, squares)
     # In integers, over one denominator: far fewer fractions are reduced.
     unit = lcm(*(value.denominator for value in values))
     a, b = ([value.numerator * (unit // value.denominator) for value in side] for side in (base, platform))
-    return Fraction(sum(g * (m * m + n * n) for g, m, n in zip(metric, a, b, strict=True)), unit * unit)
+    area = unit * unit
+    return form(
+        Fraction(1),
+        [Fraction(2 * g * n, unit) for g, n in zip(metric, b, strict=True)],
+        [Fraction(-2 * g * m, unit) for g, m in zip(metric, a, strict=True)],
+        [Fraction(-2 * g * m * n, area) for g, m in zip(metric, a, strict=True) for n in b],
+        Fraction(sum(g * (m * m + n * n) for g, m, n in zip(metric, a, b, strict=True)), area),
+    )
 
 
 @dataclass(frozen=True)

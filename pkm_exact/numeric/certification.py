@@ -19,7 +19,7 @@ from pkm_exact.numeric.box_order import in_order, meeting
 from pkm_exact.numeric.certified_boxes import GUARD_BITS, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX, double_boxes
-from pkm_exact.numeric.far_solutions import FarSolution, far_solutions
+from pkm_exact.numeric.far_solutions import far_solutions
 from pkm_exact.numeric.grids import GRIDS, dyadic, first_grid, grid_exponents, nearest_box, size_exponent
 from pkm_exact.numeric.study_system import Complex
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
@@ -56,12 +56,10 @@ def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None
     boxes, points = _in_doubles(system, _without_conjugates(points))
     found: dict[Box, acb_mat | Complex] = {box: point for box, point in zip(boxes, points, strict=True) if box}
     rest = _without_conjugates(points[[box is None for box in boxes]])
-    left = _starts(system, rest)
+    left = [_start(system, point) for point in rest]
     for exponent in GRIDS:
         now = [start for start in left if start.exponent <= exponent]
         left = [start for start in left if start.exponent > exponent]
-        found |= {start.box: start.point for start in now if start.box is not None}
-        now = [start for start in now if start.box is None]
         limits = [limit for start in now if (limit := _limit(system, start, exponent)) is not None]
         candidates = {nearest_box(system, limit.point, exponent): limit for limit in limits if limit.known >= exponent}
         good = certified(system, list(candidates))
@@ -90,6 +88,12 @@ def _in_doubles(system: ChartSystem, points: Complex) -> tuple[list[Box | None],
     if system.in_doubles is None:
         return [None] * len(points), points
     found = double_boxes(system.in_doubles, points, GRIDS[0])
+    rest = [place for place, box in enumerate(found.boxes) if box is None]
+    if rest:
+        far = far_solutions(system, found.points[rest])
+        found.solutions.update(far.solutions)
+        for place, box in zip(rest, far.boxes, strict=True):
+            found.boxes[place] = box
     system.double_solutions.update(found.solutions)
     return [box if box is not None and _is_decided(box) else None for box in found.boxes], found.points
 
@@ -105,27 +109,15 @@ class _Start:
         It is known far better than this grid tells; 0 if nothing is known.
     exponent : int
         Of the first grid that is to be tried.
-    box : Box or None
-        On this grid, if it is proved already.
     """
 
     point: acb_mat
     known: int = 0
     exponent: int = 0
-    box: Box | None = None
 
 
-def _starts(system: ChartSystem, points: Complex) -> list[_Start]:
-    """Approximations, refined at once as far as is mostly needed: grids that are too coarse are not tried then."""
-    sizes = np.abs(points).max(axis=1, initial=0)
-    complex_ones = np.flatnonzero(np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes)
-    far = dict(zip(complex_ones.tolist(), far_solutions(system, points[complex_ones]), strict=True))
-    return [_start(system, point, far.get(place)) for place, point in enumerate(points)]
-
-
-def _start(system: ChartSystem, point: Complex, far: FarSolution | None) -> _Start:
-    if far is not None:
-        return _Start(far.point, far.known, far.grid, far.box)
+def _start(system: ChartSystem, point: Complex) -> _Start:
+    """An approximation, refined at once as far as is mostly needed: grids that are too coarse are not tried then."""
     column = _column(point)
     limit = refined(system, column, FIRST_REFINED)
     if limit is None or not limit[1]:

@@ -19,6 +19,7 @@ from pkm_exact.geometry.study import Quadric, motion_quadrics, pose_quadrics, su
 from pkm_exact.numeric.charts import chart_values
 from pkm_exact.numeric.double_forms import DoubleForms
 from pkm_exact.numeric.double_krawczyk import DoubleEquations, DoubleSolution
+from pkm_exact.numeric.mixed_equations import MixedEquations
 from pkm_exact.poses.isolated_solutions import Box
 
 
@@ -80,17 +81,31 @@ class ChartSystem:
         return [self.chart[index] if index < 4 else 0 for index in self.support]
 
     @cached_property
+    def _placed(self) -> list[Quadric]:
+        """The quadrics by places in the support."""
+        place = {index: position for position, index in enumerate(self.support)}
+        return [{(place[k], place[m]): value for (k, m), value in quadric.items()} for quadric in self.quadrics]
+
+    @cached_property
     def in_doubles(self) -> DoubleEquations | None:
         """The same equations for points in doubles; None if the numbers are too large for that."""
-        place = {index: position for position, index in enumerate(self.support)}
-        polynomials = [{(place[k], place[m]): value for (k, m), value in quadric.items()} for quadric in self.quadrics]
-        polynomials.append({(place[k], self.size): weight for k, weight in enumerate(self.chart) if weight})
-        polynomials[-1][self.size, self.size] = -1
+        last = {(place, self.size): weight for place, weight in enumerate(self._last) if weight}
+        last[self.size, self.size] = -1
         norm = motion_quadrics(self.problem.metric)[-1]
         try:
             weights = np.array([float(norm.get((k, k), 0)) for k in self.support])
-            kinds = [*(index // 4 for index in self.support), 0]
-            return DoubleEquations(self.support, DoubleForms.of(polynomials, kinds), weights)
+            forms = DoubleForms.of([*self._placed, last], [*(index // 4 for index in self.support), 0])
+            return DoubleEquations(self.support, forms, weights)
+        except OverflowError:
+            return None
+
+    @cached_property
+    def mixed(self) -> MixedEquations | None:
+        """And with |C|^2 in one of them only."""
+        original = self.in_doubles
+        try:
+            kinds = [index // 4 for index in self.support]
+            return None if original is None else MixedEquations.of(original, self._placed, self._last, kinds)
         except OverflowError:
             return None
 

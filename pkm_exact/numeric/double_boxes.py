@@ -1,7 +1,7 @@
 """Boxes of solutions that doubles suffice to prove: those, to the bit, that ball arithmetic would find.
 
 The box is the one around the grid point nearest to the solution, which is proved to be the nearest. Where a doubt is
-left, as between two grid points, the solution is left to ball arithmetic (``certification``).
+left, as between two grid points, the solution is left to others (``far_solutions``, ``certification``).
 """
 
 from __future__ import annotations
@@ -77,49 +77,75 @@ def double_boxes(equations: DoubleEquations, points: Complex, exponent: int) -> 
         Approximate solutions in the equations' chart.
     exponent : int
     """
-    sizes = np.abs(points).max(axis=1, initial=0)
-    complex_ones = np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes
     found = DoubleBoxes([None] * len(points), points.copy())
-    with np.errstate(all="ignore"):
-        for chosen, values in ((~complex_ones, points.real), (complex_ones, points)):
-            if chosen.any():
-                _add_boxes(equations, values[chosen], exponent, np.flatnonzero(chosen), found)
+    if len(points):
+        with np.errstate(all="ignore"):
+            near, has_arrived = _arrived(equations, *real_or_complex(points), exponent)
+            found.points[has_arrived] = near.points[has_arrived]
+            _add_boxes(equations, near, has_arrived, exponent, found)
     return found
 
 
+def real_or_complex(points: Complex) -> tuple[NDArray[Any], NDArray[np.bool_]]:
+    """The points, of which those that are not clearly complex become real; which those are."""
+    sizes = np.abs(points).max(axis=1, initial=0)
+    are_real = ~(np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes)
+    return points.real if are_real.all() else np.where(are_real[:, None], points.real, points), are_real
+
+
+@dataclass(frozen=True, eq=False)
+class _Near:
+    """Points near solutions.
+
+    Attributes
+    ----------
+    begun, points : (p, n) arrays
+        From where Newton's method led, and where to.
+    are_real : (p,) array of bool
+    values, off : (p, n) arrays
+        F there, and how far that is off at most.
+    """
+
+    begun: NDArray[Any]
+    points: NDArray[Any]
+    are_real: NDArray[np.bool_]
+    values: NDArray[Any]
+    off: Real
+
+
 def _add_boxes(
-    equations: DoubleEquations, begun: NDArray[Any], exponent: int, places: NDArray[np.intp], found: DoubleBoxes
+    equations: DoubleEquations, near: _Near, decided: NDArray[np.bool_], exponent: int, found: DoubleBoxes
 ) -> None:
-    """The boxes of points that are all real, or all complex, at their places in what is found."""
-    points, values, off, has_arrived = _arrived(equations, begun, exponent)
-    found.points[places[has_arrived]] = points[has_arrived]
-    exponents, units, decided = _grids(equations, points, exponent)
+    """The boxes of those points, at their places in what is found."""
+    points, are_real = near.points, near.are_real
+    exponents, units, is_sure = grids_of(equations, points, exponent)
     grid = np.floor(np.stack([points.real, points.imag], axis=-1) / units[:, :, None] + 0.5)
     centres = (grid[..., 0] + 1j * grid[..., 1] if np.iscomplexobj(points) else grid[..., 0]) * units
-    inverses = inverses_of(equations.jacobians(centres))
-    proofs = double_proofs(equations, inverses, centres, RADIUS * units, ROOM, (points - centres, values, off))
-    decided &= proofs.proved & (np.abs(grid) < GREATEST).all(axis=(1, 2))
+    inverses = inverses_at(equations, centres, are_real)
+    place = points - centres, near.values, near.off
+    proofs = double_proofs(equations, inverses, centres, RADIUS * units, ROOM, place)
+    decided = decided & is_sure & proofs.proved & (np.abs(grid) < GREATEST).all(axis=(1, 2))
     distance = np.maximum(np.abs(proofs.moved.real), np.abs(proofs.moved.imag)) + proofs.errors
     decided &= (distance < SURE * units).all(axis=1)
-    decided &= (np.abs(begun - centres) <= NEAR * 2.0**exponent * units).all(axis=1)
-    if np.iscomplexobj(points):  # what is real after all is left to others
-        decided &= centres.imag.any(axis=1)
+    decided &= (np.abs(near.begun - centres) <= NEAR * 2.0**exponent * units).all(axis=1)
+    decided &= are_real | centres.imag.any(axis=1)  # what is real after all is left to others
     chosen = np.flatnonzero(decided)
     rows = zip(exponents[chosen].tolist(), grid[chosen].astype(np.int64).tolist(), strict=True)
     for row, (sizes, numbers) in zip(chosen.tolist(), rows, strict=True):
-        box = _box(sizes, numbers, equations.support)
-        found.boxes[places[row]] = box
+        box = box_at(sizes, numbers, equations.support)
+        found.boxes[row] = box
         if box.is_real:
-            found.solutions[box] = DoubleSolution(points[row], proofs.steps[row], proofs.errors[row])
+            found.solutions[box] = DoubleSolution(points[row].real, proofs.steps[row].real, proofs.errors[row])
 
 
 def _arrived(
-    equations: DoubleEquations, begun: NDArray[Any], exponent: int
-) -> tuple[NDArray[Any], NDArray[Any], Real, NDArray[np.bool_]]:
-    """Where Newton's method leads until steps are far smaller than units; F there and its error; if it is so."""
-    points, inverses = newton_step(equations, begun)
+    equations: DoubleEquations, begun: NDArray[Any], are_real: NDArray[np.bool_], exponent: int
+) -> tuple[_Near, NDArray[np.bool_]]:
+    """Where Newton's method leads until steps are far smaller than units, and where it does so."""
+    inverses = inverses_at(equations, begun, are_real)
+    points = newton_step(equations, begun, inverses)
     values, off = equations.forms.at(points)
-    units = _grids(equations, points, exponent)[1]
+    units = grids_of(equations, points, exponent)[1]
     left, sizes = np.arange(len(points)), np.zeros(len(points))
     for _ in range(STEPS):
         steps = products(inverses, values[left])
@@ -129,14 +155,22 @@ def _arrived(
         if not len(left):
             break
         points[left] -= steps[moves]
-        inverses = inverses_of(equations.jacobians(points[left]))
+        inverses = inverses_at(equations, points[left], are_real[left])
         values[left], off[left] = equations.forms.at(points[left])
     has_arrived = (np.abs(points - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
     has_arrived &= sizes < ARRIVED
-    return points, values, off, has_arrived
+    return _Near(begun, points, are_real, values, off), has_arrived
 
 
-def _grids(
+def inverses_at(equations: DoubleEquations, points: NDArray[Any], are_real: NDArray[np.bool_]) -> NDArray[Any]:
+    """Those of F', real at points that are real."""
+    inverses = inverses_of(equations.jacobians(points))
+    if np.iscomplexobj(inverses):
+        inverses.imag[are_real] = 0
+    return inverses
+
+
+def grids_of(
     equations: DoubleEquations, points: NDArray[Any], exponent: int
 ) -> tuple[NDArray[np.intp], Real, NDArray[np.bool_]]:
     """The exponents of the grids of e and f, (p, 2), as ``certification`` chooses them; units; whether it is sure."""
@@ -158,7 +192,7 @@ def _grids(
     return exponents, np.ldexp(1.0, -exponents[:, halves]), is_sure
 
 
-def _box(exponents: Sequence[int], grid: Sequence[Sequence[int]], support: Sequence[int]) -> Box:
+def box_at(exponents: Sequence[int], grid: Sequence[Sequence[int]], support: Sequence[int]) -> Box:
     """Of the box and its conjugate, the one whose first coordinate that is not real has a positive imaginary part."""
     centre = [(0, 0)] * 8
     sign = next((-1 if imaginary < 0 else 1 for _, imaginary in grid if imaginary), 1)

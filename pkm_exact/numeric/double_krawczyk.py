@@ -13,8 +13,8 @@ box, the box holds exactly one solution x* (``krawczyk_operator``). Where it is 
 F(x) is computed with twice as many bits (``double_forms``), so that x* is known to about a unit in the last place.
 Complex boxes are rectangles, and bounds are those of the larger of real and imaginary part: that of a product c z is at
 most (|Re c| + |Im c|) times that of z. So entries of Y and C are measured by |Re| + |Im|, and an entry of F' that
-varies by v in both parts does so by 2 v. Roundings are those of ``double_rounding``; what needs more than doubles have
-is left to ball arithmetic.
+varies by v in both parts does so by 2 v. Where Y, m, x and F(x) are real, the box is one of real points. Roundings are
+those of ``double_rounding``; what needs more than doubles have is left to others.
 """
 
 from __future__ import annotations
@@ -120,12 +120,12 @@ class DoubleSolution:
     error: Real
 
 
-def newton_step(equations: DoubleEquations, points: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """The points moved by Newton's method, and the inverses of F' where they were; infinite where it is singular."""
-    matrices = equations.jacobians(points)
-    inverses = inverses_of(matrices)
+def newton_step(equations: DoubleEquations, points: NDArray[Any], inverses: NDArray[Any]) -> NDArray[Any]:
+    """The points moved by Newton's method, with the inverses of F' there."""
     constants, slopes, _ = equations.slopes
-    return points - products(inverses, products(matrices + slopes, points) / 2 + constants), inverses
+    values = products(equations.jacobians(points) + slopes, points) / 2 + constants
+    found: NDArray[Any] = points - products(inverses, values)
+    return found
 
 
 def inverses_of(matrices: NDArray[Any]) -> NDArray[Any]:
@@ -147,6 +147,7 @@ def double_proofs(
     radii: Real,
     room: int,
     near: tuple[NDArray[Any], NDArray[Any], Real],
+    wider: Real | float = 0.0,
 ) -> Proofs:
     """Boxes around the centres of which the proof succeeds.
 
@@ -156,24 +157,26 @@ def double_proofs(
     inverses : (p, n, n) array
         Y.
     centres : (p, n) array
-        m, rounded; real if all the boxes are.
+        m, rounded.
     radii : (p, n) array
         r, powers of 2.
     room : int
         Boxes must be mapped into what is so many times smaller; N(e) is not 0 in boxes so many times larger either.
     near : three (p, n) arrays
         x - m and F(x), rounded, and how far F(x) is off at most.
+    wider : (p, n, n) array, optional
+        How much Y F'(X) is to vary at least, entry by entry, for what is proved.
     """
-    size, parts = centres.shape[1], 2 if np.iscomplexobj(centres) else 1
-    off_by = gamma(parts * TERMS)
-    shift, values, off = near
+    size, (shift, values, off) = centres.shape[1], near
+    parts = np.where(_are_real(inverses, centres, shift, values), 1.0, 2.0)[:, None]
+    off_by = gamma(TERMS) * parts
     jacobians = equations.jacobians(centres)
     moderate = are_moderate(inverses.reshape(len(centres), -1), centres, radii, shift)
     sizes, away = _sums(inverses), _largest(shift)
     about = equations.variations(_sums(centres)) + np.abs(equations.slopes[1])
-    width = parts * (sizes @ equations.variations(radii))
+    width = np.maximum(parts[:, None] * (sizes @ equations.variations(radii)), wider)
     contraction = _sums(np.eye(size) - inverses @ jacobians) * (1 + gamma(4)) + width
-    contraction += off_by * (sizes @ (_sums(jacobians) + about))
+    contraction += off_by[:, None] * (sizes @ (_sums(jacobians) + about))
     contraction = contraction * OUTWARD + SMALL
     step = products(inverses, values)
     step_off = products(sizes, off + off_by * _largest(values)) * OUTWARD + SMALL
@@ -190,6 +193,12 @@ def double_proofs(
         errors=(times[:, None] * narrow + step_off) * OUTWARD + SMALL,
         moved=moved,
     )
+
+
+def _are_real(*tables: NDArray[Any]) -> NDArray[np.bool_]:
+    """For each row of tables whether all of its numbers are real."""
+    parts = [table.imag.reshape(len(table), -1).any(axis=1) for table in tables if np.iscomplexobj(table)]
+    return np.logical_not(np.logical_or.reduce(parts)) if parts else np.ones(len(tables[0]), dtype=np.bool_)
 
 
 def _sums(values: NDArray[Any]) -> Real:

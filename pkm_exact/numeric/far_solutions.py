@@ -1,170 +1,210 @@
-"""Complex solutions for whose boxes doubles do not suffice, as where the platform is far off: the usual ones at once.
+"""Solutions for whose boxes doubles do not suffice, as where the platform is far off: values in integers, all at once.
 
-From where doubles lead, one Newton step with 128 bits and one with more than twice the bits of the grid lead to the
-limit; its box there is tested with the same matrix Y, the inverse of F' at the last point y but one. For a box X of
-radii r around m, and y in it, the image of X under Krawczyk's operator (``krawczyk_operator``) lies within
-
-    (y - m) - Y F(y) + (1 - Y F'(X)) ((X - m) + (m - y)),
-
-for F(y) - F(m) = F'((m + y) / 2) (y - m). What is not as usual is left to ``certification``, which would find the same.
+Points are integers in units of 2^-128, so that values of the equations at them are exact, and Newton's method leads as
+near to a solution as its grid asks for. All else is a matter of few digits, and done in doubles as before
+(``double_krawczyk``), with equations that do not cancel (``mixed_equations``). Boxes are those that ball arithmetic
+would find, on the first grid that bears a proof there (``grids.first_grid``). What is not as usual, and where it is
+doubtful which grid is the first, is left to ``certification``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isfinite
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
-from flint import acb, acb_mat, arb
+from numpy.typing import NDArray
 
-from pkm_exact.balls import box_around_zero, unit_matrix_for
-from pkm_exact.numeric.certified_boxes import GUARD_BITS, centre, is_motion, reaches
 from pkm_exact.numeric.chart_equations import ChartSystem
-from pkm_exact.numeric.double_krawczyk import inverses_of
-from pkm_exact.numeric.grids import GRIDS, first_grid, nearest_box
+from pkm_exact.numeric.double_boxes import (
+    ASTRAY,
+    NEAR,
+    SURE,
+    DoubleBoxes,
+    box_at,
+    grids_of,
+    inverses_at,
+    real_or_complex,
+)
+from pkm_exact.numeric.double_krawczyk import SLACK, DoubleEquations, DoubleSolution, Proofs, double_proofs, products
+from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U
+from pkm_exact.numeric.grids import GRIDS, WIDEST
+from pkm_exact.numeric.mixed_equations import Integers, MixedEquations
 from pkm_exact.numeric.study_system import Complex, Real
-from pkm_exact.poses.isolated_solutions import RADIUS, ROOM, Box
-from pkm_exact.precision import working_precision
+from pkm_exact.poses.isolated_solutions import RADIUS, ROOM
 
 BITS: Final = 128
-"""FLINT is much quicker up to so many bits."""
+"""Of the units of points."""
 TRIED: Final = (44, 72)
 """Grids that are tried here."""
-FINE_BITS: Final = 2 * max(TRIED) + GUARD_BITS
-SLACK: Final = 1.01
-"""Boxes must be mapped into what is so many times smaller than need be: the proof holds with another Y as well then."""
-CLOSE: Final = 2.0**-32
-"""The next step, by radii, as far as the last one tells: which grid point is nearest is then certain."""
+STEPS: Final = 5
+"""Newton steps at most."""
+CLOSE: Final = 2.0**-4
+"""Steps that are this small, in units of the finest grid, are the last ones."""
+LARGEST: Final = 2.0**200
+"""Coordinates are smaller."""
 
 
 @dataclass(frozen=True, eq=False)
-class FarSolution:
-    """A limit of Newton's method, and the box around it.
+class _Limits:
+    """Where Newton's method leads.
 
     Attributes
     ----------
-    point : acb_mat
-        Far more exact than the grid.
-    known : int
-        Exponent of this grid.
-    grid : int
-        That of the first grid that is to be tried.
-    box : Box or None
-        Proved, on that grid.
+    points : Integers
+        In units of 2^-BITS.
+    near : (p, n) array
+        The same, rounded.
+    inverses : (p, n, n) array
+        Of G' there.
+    values : (p, n) array
+        G there, both parts rounded once.
+    steps : (p, n) array
+        The next ones.
     """
 
-    point: acb_mat
-    known: int
-    grid: int
-    box: Box | None
+    points: Integers
+    near: NDArray[Any]
+    inverses: NDArray[Any]
+    values: NDArray[Any]
+    steps: NDArray[Any]
 
 
-def far_solutions(system: ChartSystem, points: Complex) -> list[FarSolution | None]:
-    """The solutions near points that are not real; None where Newton's method is not as quick as it is mostly.
+def far_solutions(system: ChartSystem, points: Complex) -> DoubleBoxes:
+    """The boxes of the solutions near the given points; None where it is not as usual.
 
     Parameters
     ----------
     system : ChartSystem
     points : (p, n) complex array
+        Approximate solutions.
     """
-    found: list[FarSolution | None] = []
-    for point, width in zip(points, _widths(system, points).tolist(), strict=True):
-        grid = first_grid(width, GRIDS[0]) if isfinite(width) else GRIDS[0]
-        limit = _limit(system, point) if grid in TRIED else None
-        far = None if limit is None else _far_solution(system, limit, grid)
-        if limit is not None and far is not None and far.box is None and far.grid != grid and far.grid in TRIED:
-            far = _far_solution(system, limit, far.grid, far.grid)
-        found.append(far)
-    return found
-
-
-@dataclass(frozen=True, eq=False)
-class _Limit:
-    """The last point y of Newton's method but one, the matrix Y there, Y F(y), and the last point."""
-
-    near: acb_mat
-    inverse: acb_mat
-    step: acb_mat
-    point: acb_mat
-
-
-def _widths(system: ChartSystem, points: Complex) -> Real:
-    """About how wide Y F'(X) is for boxes X on the first grid, by their radii."""
-    equations = system.in_doubles
-    if equations is None or not len(points):
-        return np.full(len(points), np.nan)
+    found = DoubleBoxes([None] * len(points), points)
+    mixed, original = system.mixed, system.in_doubles
+    fit = np.isfinite(points).all(axis=1) & (np.abs(points) < LARGEST).all(axis=1) & points.any(axis=1)
+    places = np.flatnonzero(fit)
+    if mixed is None or original is None or not len(places):
+        return found
+    begun, are_real = real_or_complex(points[places])
     with np.errstate(all="ignore"):
-        inverses = inverses_of(equations.jacobians(points))
-        sizes = np.abs(points)
-        halves = np.array(system.support) // 4
-        shift = [sizes[:, halves == half].max(axis=1, initial=0) for half in (0, 1)]
-        radii = np.where(halves, np.maximum(shift[1] / shift[0], 1)[:, None], 1.0) * (RADIUS * 2.0 ** -GRIDS[0])
-        around = 2 * (np.abs(inverses.real) + np.abs(inverses.imag)) @ equations.variations(radii)
-        width: Real = ((around @ radii[:, :, None])[:, :, 0] / radii).max(axis=1)
-    return width
-
-
-def _limit(system: ChartSystem, point: Complex) -> _Limit | None:
-    start = acb_mat(len(point), 1, [acb(float(value.real), float(value.imag)) for value in point])
-    try:
-        with working_precision(BITS):
-            jacobian = system.jacobian(start)
-            near = (start - jacobian.solve(system.values(jacobian, start), algorithm="approx")).mid()
-        with working_precision(FINE_BITS):
-            jacobian = system.jacobian(near)
-            values = system.values(jacobian, near)
-        with working_precision(BITS):
-            inverse = jacobian.solve(unit_matrix_for(near), algorithm="approx").mid()
-    except ZeroDivisionError:
-        return None
-    with working_precision(FINE_BITS):
-        step = inverse * values
-        return _Limit(near, inverse, step, (near - step).mid())
-
-
-def _far_solution(system: ChartSystem, limit: _Limit, exponent: int, least: int = GRIDS[0]) -> FarSolution | None:
-    """One of them, on this grid if it is the first one from the least one on."""
-    near, inverse, step = limit.near, limit.inverse, limit.step
-    with working_precision(FINE_BITS):
-        box = nearest_box(system, limit.point, exponent)
-        middle = _on_the_side_of(limit.point, centre(system, box))
-        offset = near - middle
-        image = offset - step
-    radii = reaches(system, box)
-    away = _relative(offset, radii).max()
-    if box.is_real or not away < 1:
-        return None
-    with working_precision(BITS):
-        around = box_around_zero(radii, acb_mat, real=False)
-        contracted = (unit_matrix_for(near) - inverse * system.jacobian(middle + around)) * around
-        widths, moved, steps = (_relative(column, radii) for column in (contracted, image, step))
-        width = widths.max()
-        if not width * steps.max() ** 2 < CLOSE:
-            return None
-        grid = first_grid(width, exponent) if min(box.exponents) >= exponent - GRIDS[0] else GRIDS[0]
-        grid = max(grid, least)
-        if grid == exponent and (moved * (1 - width / 8) + widths / (1 + width / 8)).max() * ROOM > SLACK:
-            grid = GRIDS[GRIDS.index(grid) + 1]  # with any matrix Y it would be too wide
-        is_inside = SLACK * ROOM * (moved + (1 + away) * widths).max() < 1
-        is_proved = grid == exponent and is_inside and is_motion(system, middle + ROOM * around)
-    return FarSolution(limit.point, exponent, grid, box if is_proved else None)
-
-
-def _on_the_side_of(point: acb_mat, middle: acb_mat) -> acb_mat:
-    """The middle of the box, or of its conjugate: a box stands for both."""
-    pairs = zip(point.entries(), middle.entries(), strict=True)
-    is_other = any(b.imag != 0 and (a.imag < 0) != (b.imag < 0) for a, b in pairs)
-    return middle.conjugate() if is_other else middle
-
-
-def _relative(column: acb_mat, radii: Sequence[arb]) -> Real:
-    """How large entries are at most, the larger of real and imaginary part, beside the radii; rounded up."""
-    sizes = [
-        float(part.upper() / radius)
-        for entry, radius in zip(column.entries(), radii, strict=True)
-        for part in (abs(entry.real), abs(entry.imag))
-    ]
-    found: Real = np.array(sizes).reshape(-1, 2).max(axis=1) * (1 + 2.0**-40)
+        try:
+            limits = _limits(mixed, begun, are_real)
+        except OverflowError:
+            return found
+        left = (np.abs(limits.near - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
+        widths, usual = _widths((mixed, original), limits, are_real)
+        left &= usual & (widths.max(axis=1) > WIDEST)
+        for grid in TRIED:
+            narrower = np.ldexp(widths, GRIDS[0] - grid)
+            rows = np.flatnonzero(left & (narrower.max(axis=1) <= WIDEST))
+            if len(rows):
+                is_hopeless = _add_boxes((mixed, original), limits, (begun, narrower), rows, grid, (places, found))
+                left[rows] = is_hopeless
     return found
+
+
+def _limits(mixed: MixedEquations, begun: NDArray[Any], are_real: NDArray[np.bool_]) -> _Limits:
+    parts = np.ldexp(np.stack([begun.real, begun.imag], axis=-1), BITS).tolist()
+    points: Integers = [[(int(a), int(b)) for a, b in row] for row in parts]
+    units = grids_of(mixed.equations, begun, max(TRIED))[1]
+    for number in range(STEPS):
+        near = _rounded(points, BITS, begun)
+        inverses = inverses_at(mixed.equations, near, are_real)
+        values = mixed.values(points, BITS)
+        values = values if np.iscomplexobj(begun) else values.real
+        steps = products(inverses, values)
+        sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag))
+        if number == STEPS - 1 or not (sizes >= CLOSE * units).any():
+            break
+        moves = np.ldexp(np.stack([steps.real, steps.imag], axis=-1), BITS)
+        moves[~np.isfinite(moves).all(axis=(1, 2))] = 0
+        points = [
+            [(a - int(c), b - int(d)) for (a, b), (c, d) in zip(x, row, strict=True)]
+            for x, row in zip(points, moves.tolist(), strict=True)
+        ]
+    return _Limits(points, near, inverses, values, steps)
+
+
+def _rounded(points: Integers, bits: int, like: NDArray[Any]) -> NDArray[Any]:
+    parts = np.ldexp(np.array(points, dtype=np.float64), -bits)
+    return parts[..., 0] + 1j * parts[..., 1] if np.iscomplexobj(like) else parts[..., 0]
+
+
+def _widths(
+    equations: tuple[MixedEquations, DoubleEquations], limits: _Limits, are_real: NDArray[np.bool_]
+) -> tuple[Real, NDArray[np.bool_]]:
+    """How wide Y F'(X) is on the first grid, coordinate by coordinate, by the radii; where the grids are as usual."""
+    exponents, units, is_sure = grids_of(equations[0].equations, limits.near, max(TRIED))
+    radii = RADIUS * np.ldexp(units, max(TRIED) - GRIDS[0])
+    widths = products(_variations(equations, limits.inverses, radii, are_real), radii) / radii
+    return widths, is_sure & (max(TRIED) - exponents[:, 1] <= GRIDS[0])
+
+
+def _variations(
+    equations: tuple[MixedEquations, DoubleEquations], inverses: NDArray[Any], radii: Real, are_real: NDArray[np.bool_]
+) -> Real:
+    """(p, n, n): how much Y A F' varies, entry by entry, when it is computed as by balls: in F, not in G."""
+    mixed, original = equations
+    plain = inverses @ mixed.mixing
+    sizes = np.abs(plain.real) + np.abs(plain.imag)
+    found: Real = np.where(are_real, 1.0, 2.0)[:, None, None] * (sizes @ original.variations(radii))
+    return found
+
+
+def _add_boxes(
+    equations: tuple[MixedEquations, DoubleEquations],
+    limits: _Limits,
+    known: tuple[NDArray[Any], Real],
+    rows: NDArray[np.intp],
+    grid: int,
+    into: tuple[NDArray[np.intp], DoubleBoxes],
+) -> NDArray[np.bool_]:
+    """The boxes of some limits on a grid, as far as they are proved; for which surely none can be.
+
+    Parameters
+    ----------
+    known : two (p, n) arrays
+        Where Newton's method began, and the widths at all limits on this grid.
+    """
+    (mixed, _), (begun, widths), (places, found) = equations, known, into
+    near, values = limits.near[rows], limits.values[rows]
+    exponents, units, decided = grids_of(mixed.equations, near, grid)
+    halves = [index // 4 for index in mixed.equations.support]
+    shifts = [[BITS - row[half] for half in halves] for row in exponents.tolist()]
+    points = [limits.points[row] for row in rows.tolist()]
+    centres = [
+        [((a + (1 << k - 1)) >> k, (b + (1 << k - 1)) >> k) for (a, b), k in zip(x, row, strict=True)]
+        for x, row in zip(points, shifts, strict=True)
+    ]
+    beside = [
+        [(a - (c << k), b - (d << k)) for (a, b), (c, d), k in zip(x, centre, row, strict=True)]
+        for x, centre, row in zip(points, centres, shifts, strict=True)
+    ]
+    middle = _rounded(centres, 0, near) * units
+    are_real = ~(near.imag.any(axis=1)) if np.iscomplexobj(near) else np.ones(len(near), dtype=np.bool_)
+    inverses = inverses_at(mixed.equations, middle, are_real)
+    wider = _variations(equations, inverses, RADIUS * units, are_real)
+    off = (np.abs(values.real) + np.abs(values.imag)) * U * OUTWARD + SMALL
+    place = _rounded(beside, BITS, near), values, off
+    proofs = double_proofs(mixed.equations, inverses, middle, RADIUS * units, ROOM, place, wider)
+    distance = np.maximum(np.abs(proofs.moved.real), np.abs(proofs.moved.imag)) + proofs.errors
+    decided &= proofs.proved & (distance < SURE * units).all(axis=1)
+    decided &= (np.abs(begun[rows] - middle) <= NEAR * 2.0**grid * units).all(axis=1)
+    decided &= are_real | middle.imag.any(axis=1)
+    for row in np.flatnonzero(decided).tolist():
+        box = box_at(exponents[row].tolist(), centres[row], mixed.equations.support)
+        found.boxes[places[rows[row]]] = box
+        if box.is_real:
+            found.solutions[box] = _solution(points[row], near[row].real, proofs, row)
+    # With any matrix Y there is as much as that (``grids.first_grid``).
+    width = widths[rows].max(axis=1, keepdims=True)
+    least = (distance - proofs.errors) / (RADIUS * units) * (1 - width / 8) + widths[rows] / (1 + width / 8)
+    is_hopeless: NDArray[np.bool_] = (least.max(axis=1) * ROOM > SLACK) & ~decided
+    return is_hopeless
+
+
+def _solution(point: list[tuple[int, int]], near: Real, proofs: Proofs, row: int) -> DoubleSolution:
+    """The point, rounded, with what it lacks in the step."""
+    lacking = [a - int(b) for (a, _), b in zip(point, np.ldexp(near, BITS).tolist(), strict=True)]
+    step = proofs.steps[row].real - np.ldexp(np.array(lacking, dtype=np.float64), -BITS)
+    return DoubleSolution(near, step, (proofs.errors[row] + 2 * U * np.abs(step)) * OUTWARD + SMALL)
