@@ -17,8 +17,9 @@ from pkm_exact.numeric.certified_boxes import centre, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.far_solutions import TRIED
 from pkm_exact.numeric.grids import GRIDS, first_grid
-from pkm_exact.numeric.poses import certified_solutions
+from pkm_exact.numeric.poses import approximations, certified_solutions, real_poses
 from pkm_exact.numeric.seeds import seeds
+from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.poses.isolated_solutions import Box
 
 Patch = pytest.MonkeyPatch
@@ -136,3 +137,18 @@ def _value(quadric: Any, z: list[tuple[Fraction, Fraction]]) -> tuple[Fraction, 
 def test_the_first_grid_is_the_first_that_bears_the_width() -> None:
     assert [first_grid(width, 44) for width in (0.55, 0.56, 0.5 * 2**28, 2**28, 2.0**-16 / 2)] == [44, 72, 72, 120, 28]
     assert first_grid(float("inf"), 44) == GRIDS[-1]
+
+
+def test_real_solutions_close_to_each_other_are_proved_too(monkeypatch: Patch) -> None:
+    robot = model("3-rpr-double-q")
+    first, *rest = (leg.length_squared for leg in robot.problem(robot.configuration()).distances)
+    problem = robot.problem([first + Fraction(1, 10**11), *rest])
+    found = approximations(problem)
+    system, isolated = certified_solutions(problem, found)
+    near = [box for box in isolated.real if box.exponents[0] == 44 and box in system.double_solutions]
+    assert len(near) == 2
+    poses = real_poses(system, isolated, DEFAULT_WIDTH)
+    with monkeypatch.context() as changed:
+        changed.setattr(certification, "_in_doubles", lambda _, points: ([None] * len(points), points))
+        system, again = certified_solutions(problem, found)
+    assert (again, real_poses(system, again, DEFAULT_WIDTH)) == (isolated, poses)
