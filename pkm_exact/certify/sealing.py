@@ -42,8 +42,11 @@ def _text(value: object, line: str) -> str:
         return encode_basestring_ascii(value)
     inner = line + " "
     if isinstance(value, dict) and value:
-        return "{" + ",".join([f"{inner}{_text(k, inner)}: {_text(v, inner)}" for k, v in value.items()]) + line + "}"
+        entries = [f"{inner}{encode_basestring_ascii(k)}: {_text(v, inner)}" for k, v in value.items()]
+        return "{" + ",".join(entries) + line + "}"
     if isinstance(value, list | tuple) and value:
         entries = [encode_basestring_ascii(v) if isinstance(v, str) else _text(v, inner) for v in value]
         return "[" + inner + f",{inner}".join(entries) + line + "]"
+    if type(value) is int:
+        return str(value)
     return json.dumps(value, allow_nan=False)

@@ -16,8 +16,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from fractions import Fraction
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
+
+from pkm_exact.roots.interval import common_ends
 
 if TYPE_CHECKING:
     from pkm_exact.motions.motion import Motion
@@ -76,14 +77,15 @@ def pose_signature(
 
 def _direction(vector: Sequence[Interval]) -> str:
     """The axis that all vectors of a box are nearest to."""
-    sizes = [_size(entry) for entry in vector]
-    for axis, entry in enumerate(vector):
+    (ends,), _ = common_ends([vector])
+    sizes = [_size(low, high) for low, high in ends]
+    for axis, (low, _) in enumerate(ends):
         if all(sizes[axis][0] > most for other, (_, most) in enumerate(sizes) if other != axis):
-            return _AXES[axis][0 if entry.lo > 0 else 1]
+            return _AXES[axis][0 if low > 0 else 1]
     return _UNDECIDED
 
 
-def _size(entry: Interval) -> tuple[Fraction, Fraction]:
+def _size(low: Any, high: Any) -> tuple[Any, Any]:
     """Bounds of the absolute value."""
-    low, high = sorted((abs(entry.lo), abs(entry.hi)))
-    return (Fraction(0) if entry.lo <= 0 <= entry.hi else low), high
+    least, most = sorted((abs(low), abs(high)))
+    return (0 if low <= 0 <= high else least), most

@@ -19,7 +19,16 @@ def ends(interval: Interval) -> list[str]:
     >>> ends(Interval(Fraction(0), Fraction(1, 2)))
     ['0', '1/2']
     """
-    return [str(interval.lo), str(interval.hi)]
+    if interval.cell is None:
+        return [str(interval.lo), str(interval.hi)]
+    low, high, exponent = interval.cell
+    return [_dyadic(low, exponent), _dyadic(high, exponent)]
+
+
+def _dyadic(value: int, exponent: int) -> str:
+    """The value times 2^-exponent, as a fraction is written."""
+    twos = min((value & -value).bit_length() - 1, exponent) if value else exponent
+    return f"{value >> twos}/{1 << exponent - twos}" if twos < exponent else str(value >> twos)
 
 
 def pose_entry(pose: Pose) -> dict[str, Any]:

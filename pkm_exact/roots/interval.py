@@ -189,13 +189,21 @@ def decimal(interval: Interval) -> str:
     '-0.375000000000000'
     """
     # In integers, and not in fractions, which are ten times slower: a sweep writes a hundred decimals per row.
-    (low, below), (high, above) = interval.lo.as_integer_ratio(), interval.hi.as_integer_ratio()
+    (low, below), (high, above) = _ratios(interval)
     width = high * below - low * above
     digits = len(str(max(1, below * above // width))) - 1 if width else DIGITS_OF_EXACT
     scaled = _nearest((high * below + low * above) * 10**digits, 2 * below * above)
     sign = "-" if scaled < 0 else ""
     whole, rest = divmod(abs(scaled), 10**digits)
     return f"{sign}{whole}.{rest:0{digits}d}" if digits else f"{sign}{whole}"
+
+
+def _ratios(interval: Interval) -> tuple[tuple[int, int], tuple[int, int]]:
+    """Numerators and denominators of the ends."""
+    if interval.cell is None:
+        return interval.lo.as_integer_ratio(), interval.hi.as_integer_ratio()
+    low, high, exponent = interval.cell
+    return (low, 1 << exponent), (high, 1 << exponent)
 
 
 def _nearest(numerator: int, denominator: int) -> int:
