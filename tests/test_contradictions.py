@@ -306,7 +306,7 @@ def test_wrong_boxes_that_are_believed_give_no_answer(is_real: bool, in_doubles:
     if in_doubles:
         monkeypatch.setattr(doubles, "box_at", aside)
     else:
-        monkeypatch.setattr(certification, "_in_doubles", lambda _, points: ([None] * len(points), points))
+        monkeypatch.setattr(certification, "_in_doubles", lambda _, points, __: ([None] * len(points), points))
         monkeypatch.setattr(certification, "nearest_box", aside)
     monkeypatch.setattr(certification, "certified", lambda _, boxes: [True] * len(boxes))
     with pytest.raises(InternalContradictionError):

@@ -47,7 +47,7 @@ SEEDS = [2, *(pytest.param(n, marks=pytest.mark.slow) for n in (1039, *range(3, 
 
 def _no_doubles(monkeypatch: Patch) -> None:
     """All boxes by ball arithmetic, on the first grids that are tried there."""
-    monkeypatch.setattr(certification, "_in_doubles", lambda _, points: ([None] * len(points), points))
+    monkeypatch.setattr(certification, "_in_doubles", lambda _, points, __: ([None] * len(points), points))
     monkeypatch.setattr(certification, "_first_grid", lambda *_: certification.GRIDS[0])
 
 

@@ -35,7 +35,7 @@ def _problem(number: int) -> ForwardProblem:
 def _by_balls(problem: ForwardProblem, monkeypatch: Patch) -> Any:
     """Every grid is tried, from the first one on."""
     with monkeypatch.context() as changed:
-        changed.setattr(certification, "_in_doubles", lambda _, points: ([None] * len(points), points))
+        changed.setattr(certification, "_in_doubles", lambda _, points, __: ([None] * len(points), points))
         changed.setattr(certification, "_first_grid", lambda *_: GRIDS[0])
         return certified_solutions(problem, seeds(problem))[1]
 
@@ -149,6 +149,6 @@ def test_real_solutions_close_to_each_other_are_proved_too(monkeypatch: Patch) -
     assert len(near) == 2
     poses = real_poses(system, isolated, DEFAULT_WIDTH)
     with monkeypatch.context() as changed:
-        changed.setattr(certification, "_in_doubles", lambda _, points: ([None] * len(points), points))
+        changed.setattr(certification, "_in_doubles", lambda _, points, __: ([None] * len(points), points))
         system, again = certified_solutions(problem, found)
     assert (again, real_poses(system, again, DEFAULT_WIDTH)) == (isolated, poses)

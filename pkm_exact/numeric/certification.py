@@ -18,7 +18,7 @@ from pkm_exact.balls import Balls, unit_matrix_for
 from pkm_exact.numeric.box_order import in_order, meeting
 from pkm_exact.numeric.certified_boxes import GUARD_BITS, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
-from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX, double_boxes
+from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX, DoubleBoxes, double_boxes
 from pkm_exact.numeric.far_solutions import far_solutions
 from pkm_exact.numeric.grids import GRIDS, dyadic, first_grid, grid_exponents, nearest_box, size_exponent
 from pkm_exact.numeric.study_system import Complex
@@ -42,7 +42,9 @@ SAME = 1e-10
 """Points this close to each other, relative to their size, are taken for the same."""
 
 
-def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None = None) -> IsolatedSolutions:
+def isolated_solutions(
+    system: ChartSystem, points: Complex, watch: Watch | None = None, known: DoubleBoxes | None = None
+) -> IsolatedSolutions:
     """The solutions near the given points, each once; points at which nothing can be proved are left out.
 
     Parameters
@@ -52,11 +54,13 @@ def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None
         Approximate solutions in the system's chart; only the coordinates of its support.
     watch : callable, optional
         Gets how many solutions are certified, after each grid.
+    known : DoubleBoxes, optional
+        Of these points, none of which is the conjugate of another one.
     """
-    boxes, points = _in_doubles(system, _without_conjugates(points))
+    boxes, points = _in_doubles(system, points if known else _without_conjugates(points), known)
     found: dict[Box, acb_mat | Complex] = {box: point for box, point in zip(boxes, points, strict=True) if box}
-    rest = _without_conjugates(points[[box is None for box in boxes]])
-    left = [_start(system, point) for point in rest]
+    rest = points[[box is None for box in boxes]]
+    left = [_start(system, point) for point in _without_conjugates(rest)] if len(rest) else []
     for exponent in GRIDS:
         now = [start for start in left if start.exponent <= exponent]
         left = [start for start in left if start.exponent > exponent]
@@ -83,18 +87,18 @@ def isolated_solutions(system: ChartSystem, points: Complex, watch: Watch | None
     )
 
 
-def _in_doubles(system: ChartSystem, points: Complex) -> tuple[list[Box | None], Complex]:
+def _in_doubles(system: ChartSystem, points: Complex, known: DoubleBoxes | None) -> tuple[list[Box | None], Complex]:
     """The box of each point that doubles suffice to prove; None where they do not; the points, more exactly."""
     if system.in_doubles is None:
         return [None] * len(points), points
-    found = double_boxes(system.in_doubles, points, GRIDS[0])
+    found = double_boxes(system.in_doubles, points, GRIDS[0]) if known is None else known
     rest = [place for place, box in enumerate(found.boxes) if box is None]
     if rest:
         far = far_solutions(system, found.points[rest])
-        found.solutions.update(far.solutions)
-        for place, box in zip(rest, far.boxes, strict=True):
-            found.boxes[place] = box
-    system.double_solutions.update(found.solutions)
+        for place, box, solution in zip(rest, far.boxes, far.solutions, strict=True):
+            found.boxes[place], found.solutions[place] = box, solution
+    pairs = zip(found.boxes, found.solutions, strict=True)
+    system.double_solutions.update({box: solution for box, solution in pairs if box and solution})
     return [box if box is not None and _is_decided(box) else None for box in found.boxes], found.points
 
 

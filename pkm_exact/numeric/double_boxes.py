@@ -7,7 +7,7 @@ left, as between two grid points, the solution is left to others (``far_solution
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -58,13 +58,18 @@ class DoubleBoxes:
         The box of each point; None where doubles do not suffice.
     points : (p, n) complex array
         Where Newton's method arrived from there; the point itself where it did not, or too far off.
-    solutions : dict of Box to DoubleSolution
+    solutions : list of DoubleSolution or None
         Of the real boxes.
     """
 
     boxes: list[Box | None]
     points: Complex
-    solutions: dict[Box, DoubleSolution] = field(default_factory=dict)
+    solutions: list[DoubleSolution | None]
+
+    @classmethod
+    def none(cls, points: Complex) -> DoubleBoxes:
+        """Nothing is proved yet."""
+        return cls([None] * len(points), points, [None] * len(points))
 
 
 def double_boxes(equations: DoubleEquations, points: Complex, exponent: int) -> DoubleBoxes:
@@ -77,7 +82,7 @@ def double_boxes(equations: DoubleEquations, points: Complex, exponent: int) -> 
         Approximate solutions in the equations' chart.
     exponent : int
     """
-    found = DoubleBoxes([None] * len(points), points.copy())
+    found = DoubleBoxes.none(points.copy())
     if len(points):
         with np.errstate(all="ignore"):
             near, has_arrived = _arrived(equations, *real_or_complex(points), exponent)
@@ -135,7 +140,7 @@ def _add_boxes(
         box = box_at(sizes, numbers, equations.support)
         found.boxes[row] = box
         if box.is_real:
-            found.solutions[box] = DoubleSolution(points[row].real, proofs.steps[row].real, proofs.errors[row])
+            found.solutions[row] = DoubleSolution(points[row].real, proofs.steps[row].real, proofs.errors[row])
 
 
 def _arrived(
@@ -148,15 +153,16 @@ def _arrived(
     units = grids_of(equations, points, exponent)[1]
     left, sizes = np.arange(len(points)), np.zeros(len(points))
     for _ in range(STEPS):
-        steps = products(inverses, values[left])
+        steps = products(inverses[left], values[left])
         sizes[left] = (np.abs(steps) / units[left]).max(axis=1)
         moves = ~(sizes[left] < SETTLED)
         left = left[moves]
         if not len(left):
             break
         points[left] -= steps[moves]
-        inverses = inverses_at(equations, points[left], are_real[left])
-        values[left], off[left] = equations.forms.at(points[left])
+        rows = slice(None) if equations.are_stacked else left
+        inverses[rows] = inverses_at(equations, points[rows], are_real[rows])
+        values[rows], off[rows] = equations.forms.at(points[rows])
     has_arrived = (np.abs(points - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
     has_arrived &= sizes < ARRIVED
     return _Near(begun, points, are_real, values, off), has_arrived

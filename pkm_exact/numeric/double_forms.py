@@ -34,13 +34,16 @@ LACKING: Final = 2.0**-95
 class DoubleForms:
     """Polynomials sum a_ij x_i x_j, i <= j, in x_0, .., x_n-1 and x_n = 1, each scaled by a power of 2.
 
+    Several lists of polynomials with the same monomials may be stacked: then as many points, one after another, are for
+    each of them.
+
     Attributes
     ----------
     first, second : (t,) arrays of int
         i and j of the monomials that occur.
-    head, tail : (q, t) arrays
+    head, tail : (.., q, t) arrays
         Coefficients: those of the polynomials are head + tail to a part u^2.
-    powers : (q,) array of int
+    powers : (.., q) array of int
         Exponents of 2 of what the polynomials are divided by.
     kinds : (n + 1,) array of int
         Which coordinates are of about one size.
@@ -79,19 +82,33 @@ class DoubleForms:
         table = np.ldexp(table, -np.array(powers)[:, None])
         return cls(first, second, table[0], table[1], np.array(powers), sorts)
 
+    @classmethod
+    def stacked(cls, several: Sequence[DoubleForms]) -> DoubleForms | None:
+        """Lists of polynomials as one; None if they have different monomials."""
+        first = several[0]
+        if not all(np.array_equal(_places_of(first), _places_of(other)) for other in several):
+            return None
+        head, tail, powers = (
+            np.stack([getattr(forms, name) for forms in several]) for name in ("head", "tail", "powers")
+        )
+        return cls(first.first, first.second, head, tail, powers, first.kinds)
+
     @cached_property
     def _table(self) -> _Table:
         begins, counts, kinds = _classes(self.first.tobytes(), self.second.tobytes(), self.kinds.tobytes())
-        sizes = np.maximum.reduceat(np.abs(self.head), begins, axis=1)
+        sizes = np.maximum.reduceat(np.abs(self.head), begins, axis=-1)
         exponents = np.frexp(sizes)[1].astype(np.intp)
-        scaled = -exponents.repeat(counts, axis=1)
-        slices = _slices(np.ldexp(self.head, scaled), np.ldexp(self.tail, scaled)).transpose(0, 2, 1)
-        matrix = np.zeros((LEVELS, len(self.first), len(counts), LEVELS, len(self.head)))
-        for place, (begin, count) in enumerate(zip(begins.tolist(), counts.tolist(), strict=True)):
+        scaled = -exponents.repeat(counts, axis=-1)
+        slices = _slices(np.ldexp(self.head, scaled), np.ldexp(self.tail, scaled))
+        slices = np.moveaxis(np.moveaxis(slices, 0, -3), -1, -3)  # (.., t, l, q)
+        lead, (size, count) = self.head.shape[:-2], self.head.shape[-2:]
+        matrix = np.zeros((*lead, LEVELS, count, len(counts), LEVELS, size))
+        for place, (begin, number) in enumerate(zip(begins.tolist(), counts.tolist(), strict=True)):
             for level in range(LEVELS):
-                rows = matrix[level, begin : begin + count, place, level:]
-                rows[...] = slices[: LEVELS - level, begin : begin + count].transpose(1, 0, 2)
-        return _Table(kinds, exponents.T.copy(), counts, matrix.reshape(LEVELS * len(self.first), -1))
+                rows = matrix[..., level, begin : begin + number, place, level:, :]
+                rows[...] = slices[..., begin : begin + number, : LEVELS - level, :]
+        exponents = np.moveaxis(exponents, -1, -2).copy()
+        return _Table(kinds, exponents, counts, matrix.reshape(*lead, LEVELS * count, -1))
 
     @cached_property
     def _members(self) -> list[NDArray[np.intp]]:
@@ -135,11 +152,13 @@ class DoubleForms:
         coefficients. Products of slices that are left out, i + j >= 5, are below 2^-108 each.
         """
         rows, points = parts.shape[1:3]
-        table = self._table
-        slices = parts.transpose(1, 2, 0, 3).reshape(rows * points, -1)
-        shifts = exponents[:, table.kinds].sum(axis=2)[:, :, None] + table.exponents  # (p, classes, q)
+        table, size = self._table, self.head.shape[-2]
+        lead = self.head.shape[:-2]
+        slices = parts.transpose(1, 2, 0, 3).reshape(rows, *lead, -1, table.matrix.shape[-2])
+        each = table.exponents.repeat(points // lead[0], axis=0) if lead else table.exponents
+        shifts = exponents[:, table.kinds].sum(axis=2)[:, :, None] + each  # (p, classes, q)
         sums = (slices @ table.matrix).reshape(rows, points, len(table.counts), LEVELS, -1)
-        terms = np.ldexp(sums, shifts[:, :, None]).reshape(rows, points, -1, len(self.head)).transpose(0, 1, 3, 2)
+        terms = np.ldexp(sums, shifts[:, :, None]).reshape(rows, points, -1, size).transpose(0, 1, 3, 2)
         lost = np.ldexp((LACKING * table.counts)[:, None], shifts).sum(axis=1)
         first, second, bound = twofold_sums(terms, np.zeros(1))
         return first, second, (bound + lost) * OUTWARD + SMALL
@@ -152,11 +171,11 @@ class _Table:
     Attributes
     ----------
     kinds : (c, 2) array of int
-    exponents : (c, q) array of int
+    exponents : (.., c, q) array of int
         Of the largest coefficients.
     counts : (c,) array of int
         Numbers of monomials.
-    matrix : (l t, c l q) array
+    matrix : (.., l t, c l q) array
         With slices of products, level after level, it gives the sums of all products of levels i + j = s, for each s.
     """
 
@@ -164,6 +183,10 @@ class _Table:
     exponents: NDArray[np.intp]
     counts: NDArray[np.intp]
     matrix: Real
+
+
+def _places_of(forms: DoubleForms) -> NDArray[np.intp]:
+    return np.stack([forms.first, forms.second])
 
 
 @lru_cache(maxsize=32)

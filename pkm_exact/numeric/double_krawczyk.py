@@ -55,32 +55,54 @@ class DoubleEquations:
     forms: DoubleForms
     norm: Real
 
+    @classmethod
+    def stacked(cls, several: Sequence[DoubleEquations]) -> DoubleEquations | None:
+        """Those of several problems, each for as many points one after another; None if they differ too much."""
+        forms = DoubleForms.stacked([equations.forms for equations in several])
+        return None if forms is None else cls(several[0].support, forms, several[0].norm)
+
+    @property
+    def are_stacked(self) -> bool:
+        """Whether they are those of several problems."""
+        return self.forms.head.ndim > 2
+
     @cached_property
-    def slopes(self) -> tuple[Real, Real, Real]:
-        """F and F' at 0, (n,) and (n, n), and the derivative of F', (n, n, n); all at most u off, relatively."""
+    def _slopes(self) -> tuple[Real, Real, Real]:
+        """F and F' at 0, (.., n) and (.., n, n), and the derivative of F', (.., n, n, n); all at most u off."""
         size = len(self.norm)
-        full = np.zeros((len(self.forms.head), size + 1, size + 1))
-        i, j = self.forms.first, self.forms.second
-        full[:, i, j] = self.forms.head
-        constants = full[:, size, size].copy()
-        full = full + full.transpose(0, 2, 1)  # diagonal entries doubled, exactly
-        return constants, full[:, :size, size].copy(), full[:, :size, :size].copy()
+        full = np.zeros((*self.forms.head.shape[:-1], size + 1, size + 1))
+        full[..., self.forms.first, self.forms.second] = self.forms.head
+        constants = full[..., size, size].copy()
+        full = full + np.swapaxes(full, -1, -2)  # diagonal entries doubled, exactly
+        return constants, full[..., :size, size].copy(), full[..., :size, :size].copy()
 
     @cached_property
     def _tables(self) -> tuple[Real, Real]:
-        table = self.slopes[2].reshape(-1, len(self.norm))
-        return table.T.copy(), np.abs(table).T.copy()
+        slopes = self._slopes[2]
+        table = np.swapaxes(slopes.reshape(*slopes.shape[:-3], -1, len(self.norm)), -1, -2)
+        return table.copy(), np.abs(table)
+
+    def at_zero(self, count: int) -> tuple[Real, Real]:
+        """F and F' at 0, at most u off, relatively: for all points, or for each of so many."""
+        constants, slopes, _ = self._slopes
+        if not self.are_stacked:
+            return constants, slopes
+        each = count // len(constants)
+        return constants.repeat(each, axis=0), slopes.repeat(each, axis=0)
 
     def jacobians(self, points: Real | Complex) -> NDArray[Any]:
         """F' at (p, n) points, rounded."""
-        constant = self.slopes[1]
-        found: NDArray[Any] = (points @ self._tables[0]).reshape(len(points), *constant.shape) + constant
+        found: NDArray[Any] = self._times(points, self._tables[0]) + self.at_zero(len(points))[1]
         return found
 
     def variations(self, radii: Real) -> Real:
         """(p, n, n) bounds of how much entries of F' change within radii; the absolute values of what adds up to F'."""
-        found: Real = (radii @ self._tables[1]).reshape(len(radii), *self.slopes[1].shape)
-        return found
+        return self._times(radii, self._tables[1])
+
+    def _times(self, rows: NDArray[Any], table: Real) -> NDArray[Any]:
+        size = len(self.norm)
+        found: NDArray[Any] = rows.reshape(*table.shape[:-2], -1, size) @ table
+        return found.reshape(len(rows), -1, size)
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +144,7 @@ class DoubleSolution:
 
 def newton_step(equations: DoubleEquations, points: NDArray[Any], inverses: NDArray[Any]) -> NDArray[Any]:
     """The points moved by Newton's method, with the inverses of F' there."""
-    constants, slopes, _ = equations.slopes
+    constants, slopes = equations.at_zero(len(points))
     values = products(equations.jacobians(points) + slopes, points) / 2 + constants
     found: NDArray[Any] = points - products(inverses, values)
     return found
@@ -173,7 +195,7 @@ def double_proofs(
     jacobians = equations.jacobians(centres)
     moderate = are_moderate(inverses.reshape(len(centres), -1), centres, radii, shift)
     sizes, away = _sums(inverses), _largest(shift)
-    about = equations.variations(_sums(centres)) + np.abs(equations.slopes[1])
+    about = equations.variations(_sums(centres)) + np.abs(equations.at_zero(len(centres))[1])
     width = np.maximum(parts[:, None] * (sizes @ equations.variations(radii)), wider)
     contraction = _sums(np.eye(size) - inverses @ jacobians) * (1 + gamma(4)) + width
     contraction += off_by[:, None] * (sizes @ (_sums(jacobians) + about))

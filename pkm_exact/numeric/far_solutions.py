@@ -79,7 +79,7 @@ def far_solutions(system: ChartSystem, points: Complex) -> DoubleBoxes:
     points : (p, n) complex array
         Approximate solutions.
     """
-    found = DoubleBoxes([None] * len(points), points)
+    found = DoubleBoxes.none(points)
     mixed, original = system.mixed, system.in_doubles
     fit = np.isfinite(points).all(axis=1) & (np.abs(points) < LARGEST).all(axis=1) & points.any(axis=1)
     places = np.flatnonzero(fit)
@@ -110,9 +110,8 @@ def _limits(mixed: MixedEquations, begun: NDArray[Any], are_real: NDArray[np.boo
     for number in range(STEPS):
         near = _rounded(points, BITS, begun)
         inverses = inverses_at(mixed.equations, near, are_real)
-        values = mixed.values(points, BITS)
-        values = values if np.iscomplexobj(begun) else values.real
-        steps = products(inverses, values)
+        values: NDArray[Any] = mixed.values(points, BITS)
+        steps = products(inverses, values if np.iscomplexobj(begun) else values.real)
         sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag))
         if number == STEPS - 1 or not (sizes >= CLOSE * units).any():
             break
@@ -122,7 +121,7 @@ def _limits(mixed: MixedEquations, begun: NDArray[Any], are_real: NDArray[np.boo
             [(a - int(c), b - int(d)) for (a, b), (c, d) in zip(x, row, strict=True)]
             for x, row in zip(points, moves.tolist(), strict=True)
         ]
-    return _Limits(points, near, inverses, values, steps)
+    return _Limits(points, near, inverses, values if np.iscomplexobj(begun) else values.real, steps)
 
 
 def _rounded(points: Integers, bits: int, like: NDArray[Any]) -> NDArray[Any]:
@@ -181,7 +180,7 @@ def _add_boxes(
         for x, centre, row in zip(points, centres, shifts, strict=True)
     ]
     middle = _rounded(centres, 0, near) * units
-    are_real = ~(near.imag.any(axis=1)) if np.iscomplexobj(near) else np.ones(len(near), dtype=np.bool_)
+    are_real = np.logical_not(near.imag.any(axis=1))
     inverses = inverses_at(mixed.equations, middle, are_real)
     wider = _variations(equations, inverses, RADIUS * units, are_real)
     off = (np.abs(values.real) + np.abs(values.imag)) * U * OUTWARD + SMALL
@@ -192,10 +191,10 @@ def _add_boxes(
     decided &= (np.abs(begun[rows] - middle) <= NEAR * 2.0**grid * units).all(axis=1)
     decided &= are_real | middle.imag.any(axis=1)
     for row in np.flatnonzero(decided).tolist():
-        box = box_at(exponents[row].tolist(), centres[row], mixed.equations.support)
-        found.boxes[places[rows[row]]] = box
+        box, at = box_at(exponents[row].tolist(), centres[row], mixed.equations.support), places[rows[row]]
+        found.boxes[at] = box
         if box.is_real:
-            found.solutions[box] = _solution(points[row], near[row].real, proofs, row)
+            found.solutions[at] = _solution(points[row], near[row].real, proofs, row)
     # With any matrix Y there is as much as that (``grids.first_grid``).
     width = widths[rows].max(axis=1, keepdims=True)
     least = (distance - proofs.errors) / (RADIUS * units) * (1 - width / 8) + widths[rows] / (1 + width / 8)

@@ -170,9 +170,9 @@ def common_ends(rows: Sequence[Sequence[Interval]]) -> tuple[list[list[Ends]], i
     >>> common_ends([[cell]]), common_ends([[cell], [half]]) == ([[(cell.lo, cell.hi)], [(half.lo, half.hi)]], 0)
     (([[(2, 3)]], 2), True)
     """
-    cells = [interval.cell for row in rows for interval in row]
-    exponents = {None if cell is None else cell[2] for cell in cells}
-    if len(exponents) != 1 or None in exponents:
+    cells = [interval.cell or (0, 0, -1) for row in rows for interval in row]
+    exponents = {exponent for _, _, exponent in cells}
+    if len(exponents) != 1 or -1 in exponents:
         return [[(interval.lo, interval.hi) for interval in row] for row in rows], 0
     found = iter(cells)
     return [[next(found)[:2] for _ in row] for row in rows], exponents.pop()
