@@ -1,9 +1,9 @@
 """Rows of a sweep beside solves of their own, by the numeric engine: in turn, in one process.
 
-Rows share what is found once for all of them (``batch.row_solver``); that their boxes are those of solves of their own
-is checked. What a sweep makes of a row beside its solution, its certificate with the digest and its line, is the third
-time. Lengths differ from those of the model by 0.4 percent at most. Processor time, which a loaded machine changes
-little; threads of numpy's linear algebra are one.
+Rows share what is found once for all of them (``batch.row_solver``), and go through arrays together, of whose time each
+has an equal share; that their boxes are those of solves of their own is checked. What a sweep makes of a row beside its
+solution, its certificate with the digest and its line, is the third time. Lengths differ from those of the model by 0.4
+percent at most. Processor time, which a loaded machine changes little; threads of numpy's linear algebra are one.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import argparse
 import os
 import sys
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from random import Random
 from statistics import median
@@ -29,7 +30,7 @@ REACH = Fraction(4, 1000)
 def main() -> int:
     """Run, and print a Markdown table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--rows", type=int, default=31, help="rows, after one to warm up (default 31)")
+    parser.add_argument("--rows", type=int, default=64, help="rows (default 64)")
     arguments = parser.parse_args()
     for library in ("OPENBLAS", "MKL", "OMP"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
@@ -49,7 +50,7 @@ def _measured(name: str, count: int) -> tuple[list[float], list[float], list[flo
     """Processor seconds of solves of their own, of rows, and of their certificates and lines."""
     # Numpy reads the number of threads when it is loaded.
     from pkm_exact import read_robot
-    from pkm_exact.batch.row_solver import RowSolver
+    from pkm_exact.batch.row_solver import TOGETHER, RowSolver
     from pkm_exact.certify.build import certificate_bytes
     from pkm_exact.numeric_engine import solve_krawczyk
     from pkm_exact.policy import Policy
@@ -58,24 +59,34 @@ def _measured(name: str, count: int) -> tuple[list[float], list[float], list[flo
     from pkm_exact.sweep.record import solution_line
 
     robot = read_robot(MODELS / f"{name}.toml")
-    problems = _problems(name, count + 1)
+    problems = _problems(name, count)
     solver = RowSolver.of(problems, DEFAULT_WIDTH, Policy())
     times: tuple[list[float], list[float], list[float]] = ([], [], [])
-    for number, problem in enumerate(problems):
-        found = []
-        for solve, values in zip((solve_krawczyk, solver.solution), times[:2], strict=True):
-            fresh = type(problem)(problem.constraints, problem.metric, problem.motion)
-            begun = process_time()
-            found.append(solve(fresh))
-            if number:
-                values.append(process_time() - begun)
-        if found[0].poses != found[1].poses or found[0].isolated != found[1].isolated:
-            raise SystemExit(f"{name}, row {number}: the boxes are not those of a solve of its own")
+
+    def fresh(problem: ForwardProblem) -> ForwardProblem:
+        return type(problem)(problem.constraints, problem.metric, problem.motion)
+
+    solve_krawczyk(problems[0])
+    for first in range(0, count, TOGETHER):
+        rows = [fresh(problem) for problem in problems[first : first + TOGETHER]]
         begun = process_time()
-        solution_line(
-            LengthRow(number, number, ()), robot, None, found[1], certificate_bytes(robot, None, found[1]), None
-        )
-        if number:
+        near = solver.near(rows)
+        shared = (process_time() - begun) / len(rows)
+        for number, (problem, known) in enumerate(zip(rows, near, strict=True), first):
+            found = []
+            for solve, values, before in (
+                (solve_krawczyk, times[0], 0.0),
+                (partial(solver.solution, near=known), times[1], shared),
+            ):
+                asked = problem if before else fresh(problem)
+                begun = process_time()
+                found.append(solve(asked))
+                values.append(process_time() - begun + before)
+            if found[0].poses != found[1].poses or found[0].isolated != found[1].isolated:
+                raise SystemExit(f"{name}, row {number}: the boxes are not those of a solve of its own")
+            begun = process_time()
+            content = certificate_bytes(robot, None, found[1])
+            solution_line(LengthRow(number, number, ()), robot, None, found[1], content, None)
             times[2].append(process_time() - begun)
     return times
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
-from typing import Final
+from typing import Final, TypeAlias
 
 from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.completeness.completeness_proof import CompletenessProof, goes_shortly
@@ -23,7 +23,7 @@ from pkm_exact.final_checks import consistent
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.nearby import from_home
-from pkm_exact.numeric.poses import Approximations, approximations, certified_solutions, is_tracked, real_poses
+from pkm_exact.numeric.poses import Approximations, Charted, approximations, certified_solutions, is_tracked, real_poses
 from pkm_exact.numeric.seeds import has_seeds, seeds
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.policy import Policy
@@ -32,6 +32,8 @@ from pkm_exact.poses.isolated_solutions import IsolatedSolutions
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Stages
 
+Search: TypeAlias = tuple[str, Callable[[], Approximations | Charted | None]]
+"""The name of a stage, and what finds solutions in it."""
 ATTEMPTS: Final = 2
 """Times that all paths are tracked, each time along other paths, before the exact engine takes over."""
 PATHS: Final = "path tracking"
@@ -51,23 +53,31 @@ def solve_krawczyk(
     policy: Policy | None = None,
     progress: Callable[[str], None] | None = None,
     start: StartSection | None = None,
+    near: Charted | None = None,
 ) -> Solution:
-    """The answer to ``pkm_exact.solve_krawczyk``, which says what is asked and what is raised, as data only."""
+    """The answer to ``pkm_exact.solve_krawczyk``, which says what is asked and what is raised, as data only.
+
+    What is found near the start's home already (``rows_together``) can be given.
+    """
     policy, stages = policy or Policy(), Stages(progress)
     exponent_for_width(width)  # refuses what is no width before the work
     with attached(problem, stages, method="krawczyk", width=width, policy=policy):
-        found = _by_numbers(problem, width, policy, stages, start) if is_tracked(problem) else None
+        found = (
+            _by_numbers(problem, width, policy, stages, _searches(problem, policy, stages, start, near))
+            if is_tracked(problem)
+            else None
+        )
         if found is not None:
             return consistent(found)
     return solve_exactly_instead(problem, width=width, policy=policy, progress=progress)
 
 
 def _by_numbers(
-    problem: ForwardProblem, width: Fraction, policy: Policy, stages: Stages, start: StartSection | None
+    problem: ForwardProblem, width: Fraction, policy: Policy, stages: Stages, searches: Iterator[Search]
 ) -> Solution | None:
     """The answer of the numeric engine, or None if it cannot certify all solutions."""
     degree, most = problem.solution_bound, -1
-    for stage, find in _searches(problem, policy, stages, start):
+    for stage, find in searches:
         stages.enter(stage)
         try:
             found = find()
@@ -92,12 +102,15 @@ def _by_numbers(
 
 
 def _searches(
-    problem: ForwardProblem, policy: Policy, stages: Stages, start: StartSection | None
-) -> Iterator[tuple[str, Callable[[], Approximations | None]]]:
+    problem: ForwardProblem, policy: Policy, stages: Stages, start: StartSection | None, near: Charted | None
+) -> Iterator[Search]:
     """Ways to find all solutions, each with the name of its stage. What is certified does not depend on the way."""
-    ways: list[tuple[str, Callable[[], Approximations | None]]] = []
-    if start is not None:
+    ways: list[Search] = []
+    if near is not None:
+        yield NEIGHBOUR, lambda: near
+    elif start is not None:
         yield NEIGHBOUR, partial(from_home, problem, start)
+    if start is not None:
         ways.append((PATHS, partial(approximations, problem, start, 0, stages.amount)))
     if has_seeds(problem):
         ways.insert(0 if start and start.has_long_paths else len(ways), (TEMPLATE, partial(seeds, problem)))

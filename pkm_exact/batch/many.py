@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pkm_exact.batch.row_solver import RowSolver
+from pkm_exact.batch.row_solver import TOGETHER, RowSolver
 from pkm_exact.errors import InputError, PkmExactError
 from pkm_exact.geometry.kinds import KINDS
 from pkm_exact.geometry.problem import ForwardProblem
@@ -26,6 +26,7 @@ from pkm_exact.indices.index import Output
 from pkm_exact.indices.pose_indices import shown_in
 from pkm_exact.interactive.answer_notes import digit_notes
 from pkm_exact.interactive.facade import exact_length, exact_width
+from pkm_exact.numeric.poses import Charted
 from pkm_exact.policy import Policy
 from pkm_exact.poses.arrays import array_value, rotations_of
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
@@ -176,11 +177,15 @@ def solve_many(
     ]
     solver = RowSolver.of([problem for problem in problems if isinstance(problem, ForwardProblem)], width, policy)
     rows, poses = np.zeros(len(problems), ROW), []
-    for number, problem in enumerate(problems):
-        rows[number], found = _row(solver, number, problem, robot.written_digit)
-        poses.append(found)
-        if progress is not None:
-            progress(number + 1)
+    for first in range(0, len(problems), TOGETHER):
+        few = problems[first : first + TOGETHER]
+        near = iter(solver.near([problem for problem in few if isinstance(problem, ForwardProblem)]))
+        for number, problem in enumerate(few, first):
+            known = next(near) if isinstance(problem, ForwardProblem) else None
+            rows[number], found = _row(solver, number, problem, known, robot.written_digit)
+            poses.append(found)
+            if progress is not None:
+                progress(number + 1)
     return ManySolutions(rows, np.concatenate([np.zeros(0, pose_dtype()), *poses]))
 
 
@@ -228,13 +233,13 @@ def _problem(
 
 
 def _row(
-    solver: RowSolver, number: int, problem: ForwardProblem | str, digit: Fraction | None
+    solver: RowSolver, number: int, problem: ForwardProblem | str, near: Charted | None, digit: Fraction | None
 ) -> tuple[tuple[Any, ...], NDArray[Record]]:
     """The entries of one row and of its poses."""
     if isinstance(problem, str):
         return (ERROR, "", 0, 0, problem), np.zeros(0, pose_dtype())
     try:
-        solution = solver.solution(problem)
+        solution = solver.solution(problem, near)
         poses = np.array([_entry(number, pose) for pose in solution.poses], pose_dtype())
     except PkmExactError as error:
         return (ERROR, "", 0, 0, f"lengths, row {number + 1}: {error}"), np.zeros(0, pose_dtype())

@@ -16,6 +16,8 @@ import numpy as np
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.nearby import from_home, nearby_start
+from pkm_exact.numeric.poses import Charted
+from pkm_exact.numeric.rows_together import near_home
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.numeric_engine import solve_exactly_instead, solve_krawczyk
 from pkm_exact.policy import Policy
@@ -24,6 +26,8 @@ from pkm_exact.solution import Solution
 METHODS: Final = ("krawczyk", "exact")
 SOME: Final = 5
 """Rows that tell whether they are near enough to each other."""
+TOGETHER: Final = 32
+"""Rows that go through arrays together at most: they stay in the cache."""
 SHARED_START: Final = 3
 """Rows from which a start section of their own pays."""
 
@@ -67,7 +71,13 @@ class RowSolver:
         # A robot with fewer solutions for all lengths: their number will not prove any list complete.
         return cls(method, width, policy, start, is_numeric=start is not None)
 
-    def solution(self, problem: ForwardProblem) -> Solution:
+    def near(self, problems: Sequence[ForwardProblem]) -> list[Charted | None]:
+        """What can be found of rows at once, for ``solution``."""
+        if self.start is None or not self.is_numeric or len(problems) < 2:
+            return [None] * len(problems)
+        return near_home(problems, self.start)
+
+    def solution(self, problem: ForwardProblem, near: Charted | None = None) -> Solution:
         """The answer to one row.
 
         Raises
@@ -78,7 +88,7 @@ class RowSolver:
         if self.method == "exact":
             return solve(problem, width=self.width, policy=self.policy)
         if self.is_numeric:
-            return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start)
+            return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start, near=near)
         return solve_exactly_instead(problem, width=self.width, policy=self.policy)
 
 

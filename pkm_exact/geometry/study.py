@@ -142,7 +142,7 @@ def pose_quartics(problem: ForwardProblem) -> list[Quartic]:
     return list(_pose_quadrics(problem)[2])
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=64)
 def _pose_quadrics(problem: ForwardProblem) -> tuple[tuple[Quadric, ...], tuple[Quadric, ...], tuple[Quartic, ...]]:
     """The same; every step of a solve asks for them."""
     kept = set(problem.motion.support)

@@ -71,6 +71,12 @@ class DoubleBoxes:
         """Nothing is proved yet."""
         return cls([None] * len(points), points, [None] * len(points))
 
+    def parts(self, count: int) -> list[DoubleBoxes]:
+        """So many parts of the same size."""
+        size = len(self.boxes) // count
+        places = [slice(size * k, size * (k + 1)) for k in range(count)]
+        return [DoubleBoxes(self.boxes[place], self.points[place], self.solutions[place]) for place in places]
+
 
 def double_boxes(equations: DoubleEquations, points: Complex, exponent: int) -> DoubleBoxes:
     """The boxes of the solutions near the given points, on the grid 2^-exponent, and on a coarser one where f is large.

@@ -17,6 +17,7 @@ from pkm_exact.geometry.study import support
 from pkm_exact.numeric.certification import isolated_solutions
 from pkm_exact.numeric.certified_boxes import GUARD_BITS, centre, enclosing_balls
 from pkm_exact.numeric.chart_equations import ChartSystem
+from pkm_exact.numeric.double_boxes import DoubleBoxes
 from pkm_exact.numeric.double_jacobians import double_jacobians
 from pkm_exact.numeric.double_poses import double_cells, double_coordinates
 from pkm_exact.numeric.fine_jacobians import fine_jacobians
@@ -63,6 +64,27 @@ class Approximations:
     points: Complex
 
 
+@dataclass(frozen=True, eq=False)
+class Charted:
+    """Approximate solutions in a chart, none of them the conjugate of another one, and what doubles prove of them.
+
+    Attributes
+    ----------
+    system : ChartSystem
+    points : (p, n) complex array
+    boxes : DoubleBoxes
+    """
+
+    system: ChartSystem
+    points: Complex
+    boxes: DoubleBoxes
+
+    @property
+    def problem(self) -> ForwardProblem:
+        """Whose solutions they are."""
+        return self.system.problem
+
+
 def is_tracked(problem: ForwardProblem) -> bool:
     """Whether paths lead to its solutions: it has as many linear forms as freedoms, and no quadrics.
 
@@ -104,16 +126,22 @@ def approximations(
 
 
 def certified_solutions(
-    problem: ForwardProblem, found: Approximations, watch: Watch | None = None
+    problem: ForwardProblem, found: Approximations | Charted, watch: Watch | None = None
 ) -> tuple[ChartSystem, IsolatedSolutions]:
     """The chart's equations, and what can be certified of approximate solutions."""
+    if isinstance(found, Charted):
+        return found.system, isolated_solutions(found.system, found.points, watch, found.boxes)
     points = rational_coordinates(found.points, found.section)
-    used = support(problem)
-    chart = _chart(points[:, :4], [int(k in used) for k in range(4)])
-    system = ChartSystem(problem, chart)
-    values = points[:, :4] @ np.array(chart, dtype=float)
+    system = ChartSystem(problem, chart_near(points, problem))
+    values = points[:, :4] @ np.array(system.chart, dtype=float)
     good = values != 0
-    return system, isolated_solutions(system, (points[good] / values[good, None])[:, list(used)], watch)
+    return system, isolated_solutions(system, (points[good] / values[good, None])[:, list(system.support)], watch)
+
+
+def chart_near(points: Complex, problem: ForwardProblem) -> tuple[int, int, int, int]:
+    """The chart for solutions near these points."""
+    used = support(problem)
+    return _chart(points[:, :4], [int(k in used) for k in range(4)])
 
 
 def _chart(e: Complex, used: Sequence[int]) -> tuple[int, int, int, int]:

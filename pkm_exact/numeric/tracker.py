@@ -138,9 +138,11 @@ def _sizes(x: Complex) -> Real:
 
 
 def _gradients(x: Complex, quadrics: Complex) -> Complex:
-    """(p, q, n): Q_k x for every point and quadric, half the gradients."""
+    """(p, q, n): Q_k x for every point and quadric, half the gradients; of several lists each has as many points."""
     count, size = x.shape
-    return (x @ quadrics.reshape(-1, size).T).reshape(count, len(quadrics), size)
+    *lead, number = quadrics.shape[:-2]
+    tables = np.swapaxes(quadrics.reshape(*lead, -1, size), -1, -2)
+    return (x.reshape(*lead, -1, size) @ tables).reshape(count, number, size)
 
 
 def _system(half: Complex, x: Complex, sizes: Real) -> Complex:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from hashlib import sha256
@@ -19,6 +20,7 @@ from pkm_exact.failures.failure_report import internal_error
 from pkm_exact.geometry.machine import Machine
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.robot import Robot
+from pkm_exact.numeric.poses import Charted
 from pkm_exact.policy import Policy
 from pkm_exact.sweep.asked_indices import AskedIndices
 from pkm_exact.sweep.lengths import LengthRow, LengthsFile, problem_of, robot_at
@@ -78,11 +80,30 @@ class SweepJob:
     joints: bool = False
     table: bool = False
 
-    def answer(self, row: LengthRow) -> Answer:
+    def answers(self, rows: Sequence[LengthRow]) -> Iterator[Answer]:
+        """The answers to some rows, in their order; what can be is found of all of them at once."""
+        known = self._known(rows) if len(rows) > 1 else {}
+        for row in rows:
+            yield self.answer(row, known.pop(row.number, None))
+
+    def _known(self, rows: Sequence[LengthRow]) -> dict[int, Charted]:
+        """What is found at once; nothing, whatever happens: rows are solved by themselves then."""
+        problems: dict[int, ForwardProblem] = {}
+        with suppress(Exception):
+            for row in rows:
+                with suppress(PkmExactError):
+                    robot, name = robot_at(self.robot, row, self.names) if self.joints else (self.robot, None)
+                    problems[row.number] = _problem(robot, name, row, self.names, squared=self.squared)
+            near = self.solver.near(list(problems.values()))
+            return {number: found for number, found in zip(problems, near, strict=True) if found is not None}
+        return {}
+
+    def answer(self, row: LengthRow, near: Charted | None = None) -> Answer:
         """The answer to a row, whatever happens on the way: the other rows are not affected."""
         try:
             robot, name = robot_at(self.robot, row, self.names) if self.joints else (self.robot, None)
-            solution = self.solver.solution(_problem(robot, name, row, self.names, squared=self.squared))
+            problem = _problem(robot, name, row, self.names, squared=self.squared) if near is None else near.problem
+            solution = self.solver.solution(problem) if near is None else self.solver.solution(problem, near)
             data = certificate_bytes(robot, name, solution)
             line = solution_line(row, robot, name, solution, data, self.indices, degrees=self.table)
             return Answer(row.number, line, data if self.certificates else None)

@@ -1,6 +1,6 @@
-"""Worker processes on this machine, each with one row at a time.
+"""Worker processes on this machine, each with some rows at a time, of which it finds at once what can be.
 
-A worker that is killed, because memory ran out perhaps, takes down the row that it has, and no other: when all other
+A worker that is killed, because memory ran out perhaps, takes down the row that it is at, and no other: when all other
 rows are finished this one is tried once more alone, and then given up.
 """
 
@@ -14,6 +14,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from typing import Any, Final, cast
 
+from pkm_exact.batch.row_solver import TOGETHER
 from pkm_exact.errors import PkmExactError
 from pkm_exact.processes import end_with_parent, process_apart
 from pkm_exact.sweep.job import Answer, SweepJob
@@ -40,15 +41,15 @@ class LocalWorkers:
     def __init__(self, job: SweepJob, count: int) -> None:
         self._job, self._count = job, count
         self._idle: list[_Worker] = []
-        self._busy: dict[Connection, tuple[_Worker, LengthRow]] = {}
+        self._busy: dict[Connection, tuple[_Worker, deque[LengthRow]]] = {}
         self._waiting: deque[LengthRow] = deque()
         self._suspects: deque[LengthRow] = deque()
         self._alone: LengthRow | None = None
 
     @property
     def capacity(self) -> int:
-        """Number of rows that they can have at the same time: one each, and one that waits for it."""
-        return 2 * self._count
+        """Number of rows that they can have at the same time: those of each, and as many that wait for it."""
+        return 2 * TOGETHER * self._count
 
     def submit(self, row: LengthRow) -> None:
         """Let them answer a row."""
@@ -68,18 +69,23 @@ class LocalWorkers:
 
     def _received(self, ready: Connection) -> Answer | None:
         """The answer of a worker that has sent something, or has come to an end."""
-        worker, row = self._busy[ready]
+        worker, rows = self._busy[ready]
         message = worker.receive()
         if message is True:
             return None
+        row = rows.popleft()
+        if isinstance(message, Answer):
+            if not rows:
+                del self._busy[ready]
+                self._alone = None
+                self._idle.append(worker)
+            return message
         del self._busy[ready]
         is_alone, self._alone = row is self._alone, None
-        if isinstance(message, Answer):
-            self._idle.append(worker)
-            return message
         if is_alone:
             return _given_up(row, worker)
         self._suspects.append(row)
+        self._waiting.extendleft(reversed(rows))
         return None
 
     def _assign(self) -> None:
@@ -87,15 +93,16 @@ class LocalWorkers:
         if self._suspects:
             if not self._busy:
                 self._alone = self._suspects.popleft()
-                self._start(self._alone)
+                self._start([self._alone])
             return
         while self._waiting and self._alone is None and len(self._busy) < self._count:
-            self._start(self._waiting.popleft())
+            share = -(-len(self._waiting) // (self._count - len(self._busy)))
+            self._start([self._waiting.popleft() for _ in range(min(TOGETHER, share))])
 
-    def _start(self, row: LengthRow) -> None:
+    def _start(self, rows: list[LengthRow]) -> None:
         worker = self._idle.pop() if self._idle else _Worker(self._job)
-        self._busy[worker.receiver] = worker, row
-        worker.send(row)
+        self._busy[worker.receiver] = worker, deque(rows)
+        worker.send(rows)
 
     def close(self) -> None:
         """End all processes."""
@@ -115,10 +122,10 @@ class _Worker:
         theirs.close()
         self._is_ready = False
 
-    def send(self, row: LengthRow) -> None:
-        """Give it a row; if it is not there any more, ``receive`` will tell."""
+    def send(self, rows: list[LengthRow]) -> None:
+        """Give it some rows; if it is not there any more, ``receive`` will tell."""
         with suppress(BrokenPipeError):
-            self._sender.send(row)
+            self._sender.send(rows)
 
     def receive(self) -> Answer | bool:
         """What it sent: True when it is there, then answers; False if it has come to an end."""
@@ -165,13 +172,14 @@ def _given_up(row: LengthRow, worker: _Worker) -> Answer:
     return Answer(row.number, error_line(row, sentence))
 
 
-def _serve(sender: Connection, rows: Connection, job: SweepJob) -> None:
+def _serve(sender: Connection, receiver: Connection, job: SweepJob) -> None:
     """What a process does: a sign that it is there, then an answer for every row."""
     end_with_parent()
     sender.send(True)
     while True:
         try:
-            row: LengthRow = rows.recv()
+            rows: list[LengthRow] = receiver.recv()
         except EOFError:
             return
-        sender.send(job.answer(row))
+        for answer in job.answers(rows):
+            sender.send(answer)
