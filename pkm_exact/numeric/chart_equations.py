@@ -16,10 +16,10 @@ from flint import acb_mat, arb, arb_mat, fmpz_mat
 from pkm_exact.balls import Balls, unit_matrix_for
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, motion_quadrics, pose_quadrics, support
+from pkm_exact.numeric.chart_mixture import MixedEquations
 from pkm_exact.numeric.charts import chart_values
 from pkm_exact.numeric.double_forms import DoubleForms
 from pkm_exact.numeric.double_krawczyk import DoubleEquations, DoubleSolution
-from pkm_exact.numeric.mixed_equations import MixedEquations
 from pkm_exact.poses.isolated_solutions import Box
 
 

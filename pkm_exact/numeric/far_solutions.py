@@ -2,7 +2,7 @@
 
 Points are integers in units of 2^-128, so that values of the equations at them are exact, and Newton's method leads as
 near to a solution as its grid asks for. All else is a matter of few digits, and done in doubles as before
-(``double_krawczyk``), with equations that do not cancel (``mixed_equations``). Boxes are those that ball arithmetic
+(``double_krawczyk``), with equations that do not cancel (``chart_mixture``). Boxes are those that ball arithmetic
 would find, on the first grid that bears a proof there (``grids.first_grid``). What is not as usual, and where it is
 doubtful which grid is the first, is left to ``certification``.
 """
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pkm_exact.numeric.chart_equations import ChartSystem
+from pkm_exact.numeric.chart_mixture import Integers, MixedEquations
 from pkm_exact.numeric.double_boxes import (
     ASTRAY,
     NEAR,
@@ -29,7 +30,6 @@ from pkm_exact.numeric.double_boxes import (
 from pkm_exact.numeric.double_krawczyk import SLACK, DoubleEquations, DoubleSolution, Proofs, double_proofs, products
 from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U
 from pkm_exact.numeric.grids import GRIDS, WIDEST
-from pkm_exact.numeric.mixed_equations import Integers, MixedEquations
 from pkm_exact.numeric.study_system import Complex, Real
 from pkm_exact.poses.isolated_solutions import RADIUS, ROOM
 
