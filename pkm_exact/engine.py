@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -10,7 +10,8 @@ from functools import cached_property
 from flint import fmpz_poly
 
 from pkm_exact.algebra.groebner import UnluckyPrimeError
-from pkm_exact.claim import Claim
+from pkm_exact.algebra.representation import UnivariateRepresentation
+from pkm_exact.claim import Claim, CompletenessRoute
 from pkm_exact.claim_wording import DETECTED_NOTE, NO_SOLUTION_NOTE
 from pkm_exact.completeness.completeness_proof import (
     CompletenessProof,
@@ -25,13 +26,16 @@ from pkm_exact.failures.contradiction import attached
 from pkm_exact.final_checks import consistent
 from pkm_exact.formulations.registry import formulation_codes, formulation_for
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.notes import inconsistent_note, isolated_note, motion_note, open_question, singular_notes, turn_notes
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, RootEnclosures, exponent_for_width, in_order, pose_boxes
 from pkm_exact.poses.jacobian import pose_jacobians
+from pkm_exact.poses.modular import candidate_charts, candidate_forms
 from pkm_exact.poses.modular_start import Start
+from pkm_exact.poses.parameters import Parameters
 from pkm_exact.poses.pose import Pose
-from pkm_exact.poses.pose_representation import PoseRepresentation
+from pkm_exact.poses.pose_representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.search import PoseSearch
 from pkm_exact.poses.self_motion import (
     Mobility,
@@ -61,6 +65,45 @@ def solve(
         return consistent(run.solution(width))
 
 
+def solve_without_elimination(
+    problem: ForwardProblem, *, width: Fraction = DEFAULT_WIDTH, policy: Policy | None = None
+) -> Solution | None:
+    """The answer of ``solve`` where the chart and form tried first show as many isolated poses as there can be.
+
+    None if they do not, or doubles do not lead to all of them. Nothing is taken from doubles but what is then verified
+    over Q; that no pose is missing is proved by their number, and so no elimination need count them.
+    """
+    run = _Run(problem, formulation_codes()[0], policy or Policy(), Stages(None))
+    with attached(problem, run.stages, method="exact", formulation=run.code, width=width, policy=run.policy):
+        found = run.general_solution(width)
+        return None if found is None else consistent(found)
+
+
+def _proposal(
+    problem: ForwardProblem, chosen: Parameters, limit_bits: int, watch: Callable[[int], None]
+) -> UnivariateRepresentation | None:
+    """The representation that numerical solutions propose."""
+    if problem.motion != SPATIAL:
+        return None
+    # Floating point is needed for this alone.
+    from pkm_exact.numeric.proposed_representation import proposed_representation
+
+    return proposed_representation(problem, chosen.chart, chosen.form, chosen.modular.degree, limit_bits, watch)
+
+
+def _proposed_poses(problem: ForwardProblem, policy: Policy) -> PoseRepresentation | None:
+    """The poses that numerical solutions propose in the chart and form tried first, as many as there can be."""
+    if problem.motion != SPATIAL:
+        return None
+    # Floating point is needed for this alone.
+    from pkm_exact.numeric.proposed_representation import proposed_representation
+
+    chart = next(candidate_charts(policy.seed, policy.seed))
+    form = next(candidate_forms(chart, policy.seed, policy.seed))
+    lifted = proposed_representation(problem, chart, form, problem.solution_bound, policy.lifting_bits)
+    return None if lifted is None else pose_representation(chart, problem, lifted)
+
+
 @dataclass(frozen=True)
 class _Run:
     """One solve: its stages, and what they cost."""
@@ -73,7 +116,7 @@ class _Run:
     @cached_property
     def search(self) -> PoseSearch:
         """The search for the poses of the problem itself."""
-        return PoseSearch(self.problem, self.code, self.policy, self.stages)
+        return PoseSearch(self.problem, self.code, self.policy, self.stages, proposal=_proposal)
 
     def solution(self, width: Fraction) -> Solution:
         """The answer, by whichever way the robot goes; boxes are no wider than asked."""
@@ -95,6 +138,26 @@ class _Run:
                 continue
             return self._listed(start, representation, proof, width)
         raise InternalContradictionError("there are more poses than any prime shows")
+
+    def general_solution(self, width: Fraction) -> Solution | None:
+        """The answer if there are as many poses as there can be, in the chart and form that are tried first."""
+        if self.policy.lifting != "numeric":
+            return None
+        self.stages.enter("self-motion")
+        if self._self_motion() is not None:
+            return None
+        self.stages.enter("numeric lifting")
+        representation = _proposed_poses(self.problem, self.policy)
+        if representation is None:
+            return None
+        self.stages.enter("verification")
+        if not representation.is_verified(self.problem):
+            return None
+        self.stages.enter("completeness")
+        if not are_isolated(representation, self.problem, self.policy):
+            return None
+        proof = CompletenessProof(CompletenessRoute.REFINED_BEZOUT, representation.univariate.degree)
+        return self._listed(None, representation, proof, width)
 
     def _without_list(self, start: Start, exponent: int, width: Fraction) -> Solution:
         """The answer where there are infinitely many solutions modulo two primes, or none."""
@@ -142,15 +205,16 @@ class _Run:
         return proof
 
     def _listed(
-        self, start: Start, representation: PoseRepresentation, proof: CompletenessProof | None, width: Fraction
+        self, start: Start | None, representation: PoseRepresentation, proof: CompletenessProof | None, width: Fraction
     ) -> Solution:
-        """All poses in boxes, and what is proved about their list."""
+        """All poses in boxes, and what is proved about their list; without an elimination there is a proof."""
         self.stages.enter("real roots and boxes")
         enclosures = RootEnclosures(representation, self.problem.metric)
         exponent, poses = pose_boxes(enclosures, width)
         self.stages.enter("Jacobians")
         poses, singular = self._with_jacobians(poses, enclosures, proof)
-        count = proof.total if proof else start.count or 0
+        count = proof.total if proof else (start and start.count) or 0
+        turned = () if start is None else turn_notes(start.frame.turn, start.frame.attempt)
         question = () if proof else (open_question(count, representation.univariate.degree),)
         self.stages.leave()
         return Solution(
@@ -164,7 +228,7 @@ class _Run:
             representation=representation,
             box_exponent=exponent,
             poses=poses,
-            notes=(*turn_notes(start.frame.turn, start.frame.attempt), *singular, *question),
+            notes=(*turned, *singular, *question),
             statistics=self._statistics(start),
         )
 
@@ -266,7 +330,9 @@ class _Run:
             notes=(note,),
         )
 
-    def _statistics(self, start: Start) -> Statistics:
+    def _statistics(self, start: Start | None) -> Statistics:
+        if start is None:
+            return Statistics(seconds=dict(self.stages.seconds))
         return Statistics(
             tuple(start.frame.elimination.primes_used),
             tuple(start.frame.elimination.primes_unlucky),

@@ -23,9 +23,10 @@ class Policy:
     seed : int
         Seed of every random choice (primes, separating forms, combinations of equations). Where a choice may fail,
         the data are joined to it (``seed_for``).
-    lifting : {"newton", "multimodular"}
+    lifting : {"numeric", "newton", "multimodular"}
         How a representation modulo a prime becomes one over Q. "newton" lifts p-adically and needs simple
-        solutions; "multimodular" repeats the elimination at many primes.
+        solutions; "multimodular" repeats the elimination at many primes. "numeric" asks real and complex solutions
+        first, where doubles lead to all of them, and lifts otherwise. All of them give the same, verified exactly.
     attempts : int
         Primes, forms or charts tried after a failed choice before the engine gives up.
     lifting_bits : int
@@ -47,7 +48,7 @@ class Policy:
 
     prime_bits: int = 62
     seed: int = 20081125
-    lifting: str = "newton"
+    lifting: str = "numeric"
     attempts: int = 12
     lifting_bits: int = 1 << 17
     degree_limit: int = 40

@@ -17,6 +17,7 @@ from flint import nmod_mat, nmod_poly
 
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.quotient import QuotientAlgebra
+from pkm_exact.algebra.representation import UnivariateRepresentation
 
 
 @dataclass(frozen=True)
@@ -79,6 +80,18 @@ class ModularRepresentation:
         """The coordinates as polynomials in T modulo h: g_x / g_1."""
         inverse = self.denominator.xgcd(self.eliminant)[1]
         return tuple(numerator * inverse % self.eliminant for numerator in self.numerators)
+
+    def is_image_of(self, lifted: UnivariateRepresentation) -> bool:
+        """Whether it is a representation over Q modulo the prime; no if that has no image with as many solutions."""
+        prime = self.eliminant.modulus()
+        h = nmod_poly(lifted.polynomial, prime)
+        if h.degree() != lifted.degree or h != self.eliminant * h.leading_coefficient():
+            return False
+        slope = h.derivative()
+        return all(
+            ((nmod_poly(numerator, prime) * self.denominator - own * slope) % h).degree() < 0
+            for numerator, own in zip(lifted.numerator_polynomials, self.numerators, strict=True)
+        )
 
 
 def squarefree_part(polynomial: nmod_poly) -> nmod_poly:

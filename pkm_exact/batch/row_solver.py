@@ -13,7 +13,7 @@ from typing import Final
 
 import numpy as np
 
-from pkm_exact.engine import solve
+from pkm_exact.engine import solve, solve_without_elimination
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.nearby import from_home, nearby_start
 from pkm_exact.numeric.poses import Charted
@@ -86,7 +86,8 @@ class RowSolver:
             As ``engine.solve``, if that has to be called.
         """
         if self.method == "exact":
-            return solve(problem, width=self.width, policy=self.policy)
+            found = solve_without_elimination(problem, width=self.width, policy=self.policy)
+            return solve(problem, width=self.width, policy=self.policy) if found is None else found
         if self.is_numeric:
             return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start, near=near)
         return solve_exactly_instead(problem, width=self.width, policy=self.policy)

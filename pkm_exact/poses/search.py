@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Final
+from functools import cached_property, partial
+from typing import Final, TypeAlias
 
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.lifting import Acceptance, lift_by_newton, lift_by_primes
@@ -36,6 +36,12 @@ LEAST_DOUBT: Final = 2048
 """Below so many bits a lift is not in doubt: to finish costs less than to ask."""
 
 
+Proposal: TypeAlias = Callable[
+    [ForwardProblem, Parameters, int, Callable[[int], None]], UnivariateRepresentation | None
+]
+"""What may know the representation on the free coordinates, if it needs no more bits than a limit; is told of bits."""
+
+
 @dataclass
 class PoseSearch:
     """The search for the poses of one problem.
@@ -49,6 +55,8 @@ class PoseSearch:
     stages : Stages
     failures : int
         Representations that failed.
+    proposal : callable, optional
+        Asked before solutions that are all simple are lifted.
     """
 
     problem: ForwardProblem
@@ -56,6 +64,7 @@ class PoseSearch:
     policy: Policy
     stages: Stages
     failures: int = 0
+    proposal: Proposal | None = None
 
     @cached_property
     def starts(self) -> StartSearch:
@@ -124,6 +133,9 @@ class PoseSearch:
             from pkm_exact.poses.chart_system import chart_system
 
             equations = SystemEquations(chart_system(self.problem, chosen.chart), seed)
+        proposed = self._proposed(start, chosen)
+        if proposed is not None:
+            return proposed
         form = [chosen.form[k] for k in free_coordinates(chosen.chart, self.problem)]
         bits = self.policy.lifting_bits
         images = _further_images(start, chosen, self.problem, self.policy.attempts)
@@ -144,6 +156,20 @@ class PoseSearch:
         lifted = pose_representation(chosen.chart, self.problem, union(parts))
         return lifted if len(parts) == 1 or lifted.is_verified(self.problem) else None
 
+    def _proposed(self, start: Start, chosen: Parameters) -> PoseRepresentation | None:
+        """What is proposed for simple solutions, if it is right: modulo the prime, and then over Q."""
+        if self.proposal is None or self.policy.lifting != "numeric":
+            return None
+        parts = chosen.modular.parts(start.frame.formulated.fibre)
+        if list(parts) != [1]:
+            return None
+        accept = self._acceptance(chosen, "numeric lifting")
+        expected = expected_bits(self.problem, chosen.modular.degree)
+        found = self.proposal(self.problem, chosen, self.policy.lifting_bits, partial(self._tell, expected))
+        if found is None or not parts[1].is_image_of(found) or not accept(found):
+            return None
+        return pose_representation(chosen.chart, self.problem, found)
+
     def _watch(
         self, modular: ModularRepresentation, start: Start, chosen: Parameters, stage: str
     ) -> Callable[[int], None]:
@@ -153,13 +179,16 @@ class PoseSearch:
 
         def watch(bits: int) -> None:
             nonlocal doubtful
-            self.stages.amount(Amount(bits, expected if bits < expected else None, "bits", "about"))
+            self._tell(expected, bits)
             if bits > doubtful:
                 doubtful *= 2
                 self._require_agreement(start, chosen)
                 self.stages.enter(stage)
 
         return watch
+
+    def _tell(self, expected: int, bits: int) -> None:
+        self.stages.amount(Amount(bits, expected if bits < expected else None, "bits", "about"))
 
     def _require_agreement(self, start: Start, chosen: Parameters) -> None:
         """The next prime has as many poses of each multiplicity, in the chart and form chosen.
