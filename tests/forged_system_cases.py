@@ -173,6 +173,11 @@ def _lost_rank(bits: int, *more: str) -> Content:
     return ranked(names, texts, represented(points, (1, *(0 for _ in points[0][1:]))), weight, 2 * weight)
 
 
+def _reversed(content: Content) -> Content:
+    """The polynomials in the other order."""
+    return content | {"polynomials": content["polynomials"][::-1]}
+
+
 def _divisible_at_one_power() -> Content:
     """A polynomial that is 0 at the first of two points only, a true multiple of h at T = 2^80, and of h there alone.
 
@@ -344,6 +349,7 @@ MIXED: dict[str, Row] = {
     ),
     "a root at the prime whose derivative is 0 modulo it alone": (_lost_factor(), "rejected"),
     "a gradient that is a multiple of another modulo the prime": (_lost_rank(26), "rejected"),
+    "a gradient of which another is a multiple modulo the prime": (_reversed(_lost_rank(26)), "rejected"),
     "gradients that are so in space": (_lost_rank(26, "z^2"), "rejected"),
     "a double root at 0, a simple one at a prime": (
         ranked("x", (f"x^3-{P}*x^2",), one(0, -P, 1), [2, 1], 3),
@@ -665,6 +671,15 @@ INFINITY: dict[str, Row] = {
     "an end of another form": (
         counted(DOUBLE_END, represented([(0, 0), (1, 1)], (1, 0)), put(ONE_END, [0, 2], "separating_form"), 2),
         "rejected",
+    ),
+    "an end twice and another once": (
+        counted(
+            ("x^2*y-3*x^2-y^2+3*y", "x^2*y+x*y-2*y^2-4*x^2-4*x+8*y"),
+            represented([(0, 0), (1, 1), (2, 4), (-2, 4), (2, 3), (-3, 3)], (1, 10)),
+            at_infinity([(1, 0), (0, 1)], (1, 1), (1, 2), 3),
+            6,
+        ),
+        "accepted",
     ),
     "an end four times": (counted(NODES, represented(BESIDE, (1, 0)), put(ONE_END, 4, "multiplicity"), 5), "accepted"),
     "an end four times, called three": (
