@@ -22,6 +22,7 @@ POWERS: dict[str, tuple[int, list[list[int]]]] = {
     "of numbers below 0, square roots": (2, [[2, 1], [-9, 4]]),
     "no real one, square roots": (2, [[1, 1]]),
     "no real one, fourth roots": (4, [[7, 1], [3, 2]]),
+    "of conjugates, square roots": (2, [[1, 1, 1]]),
     "cube roots on both sides": (3, [[1, 1], [-8, 1]]),
     "cube roots below 0": (3, [[8, 1], [27, 8], [3, 1]]),
     "irrational cube roots of neighbours": (3, [[-2, 1], [-3, 1], [2, 1], [3, 1]]),
@@ -35,6 +36,11 @@ POWERS: dict[str, tuple[int, list[list[int]]]] = {
     "close square roots": (2, [[-2, 1], [-2 * NEAR - 1, NEAR]]),
     "close to a whole number": (3, [[-1, 1], [-NEAR - 1, NEAR]]),
     "close to 1 from below": (2, [[-1, 1], [1 - NEAR, NEAR]]),
+    "square roots of numbers little below 0": (2, [[1, 2], [1, 2**70], [-1, 1]]),
+    "in the cell beside 0": (3, [[-1, 2**100 + 1], [-1, 1]]),
+    "a little above squares": (2, [[-NEAR - 1, NEAR], [-9 * NEAR - 1, NEAR]]),
+    "two close to 0, square roots": (2, [[-1, 2**140], [-3, 2**140]]),
+    "four close to 0, cube roots": (3, [[-1, 2**210], [-3, 2**210], [1, 2**210], [3, 2**210]]),
     "fine but exact": (2, [[-1, 2**80], [-1, 2**82], [-3, 2**80]]),
 }
 """m, and the factors of the polynomial in S = T^m."""
