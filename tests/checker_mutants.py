@@ -27,7 +27,7 @@ from zipfile import ZipFile
 
 from checker_mutations import PACKAGE, SOURCES, Mutant, mutants
 from mutant_hints import neighbours, read_hints, short, told_by_hints, write_hints
-from mutant_runs import Example, Outcome, Reach, examples_in, measured, outcomes
+from mutant_runs import Example, Outcome, Reach, examples_in, lines_of, measured, outcomes
 
 HERE = Path(__file__).parent
 BUILD = PACKAGE / "build" / "checker-mutants"
@@ -122,16 +122,16 @@ class Journal:
 # The run
 
 
-def _reach(checker: str, examples: list[Example], journal: Journal) -> Reach:
-    """What reaches what, from the last run if nothing has changed."""
+def _reach(checker: str, examples: list[Example], journal: Journal, left: Sequence[Mutant]) -> Reach:
+    """What reaches the lines of mutants, from the last run if nothing has changed and these were among its lines."""
     path = BUILD / f"{checker}-{journal.corpus}.reach"
-    state = f"{journal.checker} {journal.corpus}"
+    state, wanted = f"{journal.checker} {journal.corpus}", lines_of(left)
     if path.exists():
-        known, reach = pickle.loads(path.read_bytes())  # noqa: S301 - our own, in build
-        if known == state:
+        known, lines, reach = pickle.loads(path.read_bytes())  # noqa: S301 - our own, in build
+        if known == state and wanted <= lines:
             return reach  # type: ignore[no-any-return]
-    reach = measured(checker, examples)
-    path.write_bytes(pickle.dumps((state, reach)))
+    reach = measured(checker, examples, wanted)
+    path.write_bytes(pickle.dumps((state, wanted, reach)))
     return reach
 
 
@@ -147,7 +147,7 @@ def _outcomes(
     left = [mutant for mutant in pending if mutant.key not in told]
     if left:
         print(f"{checker} checker: hints told {len(told)} mutants, {len(left)} are searched for", flush=True)
-        yield from outcomes(left, _reach(checker, examples, journal), most, neighbours(hints))
+        yield from outcomes(left, _reach(checker, examples, journal, left), most, neighbours(hints))
 
 
 def run(checker: str, examples: list[Example], only: str, most: float) -> list[tuple[Mutant, Outcome]]:

@@ -12,7 +12,7 @@ import sys
 import time
 from array import array
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import cache, partial
 from importlib.machinery import ModuleSpec
@@ -128,12 +128,7 @@ class Reach:
         """
         if self.everywhere:
             return list(range(len(self.examples)))
-        if mutant.function:
-            lines = {(str(mutant.path), line) for line in mutant.lines}
-            guarded = {(str(mutant.path), line) for line in mutant.guarded}
-        else:
-            names = re.findall(r"\w+", re.split("[:=]", mutant.was)[0])
-            lines = guarded = {line for name in names for line in uses(mutant.checker, name)}
+        lines, guarded = _lines_of(mutant)
         found = {number for line in lines for number in self.by_line.get(line, ())}
         found &= set(self.differ.get(mutant.key, found))
         there = sorted(found & {number for line in guarded for number in self.refused.get(line, ())})
@@ -141,13 +136,27 @@ class Reach:
         return list(dict.fromkeys([*there[:4], *accepted[:6], *there, *accepted, *sorted(found)]))
 
 
-def measured(checker: str, examples: Sequence[Example]) -> Reach:
-    """Check all examples, note the answers and the time, and then again, note the lines that are reached.
+def _lines_of(mutant: Mutant) -> tuple[set[Line], set[Line]]:
+    """Where a mutant is, or where a constant is used; and what a check there guards."""
+    if mutant.function:
+        lines, guarded = ({(str(mutant.path), line) for line in lines} for lines in (mutant.lines, mutant.guarded))
+        return lines, guarded
+    names = re.findall(r"\w+", re.split("[:=]", mutant.was)[0])
+    used = {line for name in names for line in uses(mutant.checker, name)}
+    return used, used
+
+
+def lines_of(chosen: Sequence[Mutant]) -> frozenset[Line]:
+    """Where mutants are, or where constants are used."""
+    return frozenset(line for mutant in chosen for lines in _lines_of(mutant) for line in lines)
+
+
+def measured(checker: str, examples: Sequence[Example], wanted: Set[Line]) -> Reach:
+    """Check all examples, note the answers and the time, and then again, note which of the lines are reached.
 
     Cheap ones are tried first, but of those that reach the same lines with the same answer only three at a time.
     """
     answer = check(checker)
-    files = {str(path) for path in SOURCES[checker]}
     traces = []
     for example in examples:
         data = example.data
@@ -155,7 +164,7 @@ def measured(checker: str, examples: Sequence[Example]) -> Reach:
         example.answer = answer(data)
         example.cost = time.process_time() - start
         forget(checker)
-        traces.append(_traced(partial(answer, data), files))
+        traces.append(_traced(partial(answer, data), wanted))
     seen: Counter[Any] = Counter()
     ranks = [0] * len(examples)
     for number in sorted(range(len(examples)), key=lambda number: examples[number].cost):
@@ -193,11 +202,13 @@ def _numbers() -> array[int]:
     return array("H")
 
 
-def _traced(call: Callable[[], Any], files: set[str]) -> tuple[set[Line], set[Line]]:
-    """The lines that are reached, and those from which a refusal comes, through one function after another.
+def _traced(call: Callable[[], Any], wanted: Set[Line]) -> tuple[set[Line], set[Line]]:
+    """Which lines are reached, and those from which a refusal comes, through one function after another.
 
-    A function whose lines are all reached is not traced any longer, nor one that is called very often.
+    A function whose lines are all reached is not traced any longer, nor one that is called very often. Of functions
+    without such a line it is noted that they are called.
     """
+    files = {name for name, _ in wanted}
     left: dict[CodeType, set[int]] = {}
     calls: Counter[CodeType] = Counter()
     reached: set[Line] = set()
@@ -217,7 +228,7 @@ def _traced(call: Callable[[], Any], files: set[str]) -> tuple[set[Line], set[Li
         if code.co_filename not in files:
             return None
         if code not in left:
-            left[code] = {line for _, _, line in code.co_lines() if line is not None}
+            left[code] = {line for _, _, line in code.co_lines() if (code.co_filename, line) in wanted}
             reached.add((code.co_filename, code.co_firstlineno))
         calls[code] += 1
         return local if left[code] and calls[code] <= OFTEN else None

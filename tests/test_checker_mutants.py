@@ -19,7 +19,7 @@ from checker_mutations import CERTIFY, SOURCES, Mutant, mutants
 from forgeries import on_circle
 from limit_cases import cases
 from mutant_hints import read_hints, short, told_by_hints, write_hints
-from mutant_runs import Example, Reach, check, examples_in, measured, outcome
+from mutant_runs import Example, Reach, check, examples_in, lines_of, measured, outcome
 
 from pkm_exact.certify.build import canonical_bytes, sealed
 
@@ -119,7 +119,7 @@ def reaches(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Reach]:
     with ZipFile(path, "w") as archive:
         for number, data in enumerate(content):
             archive.writestr(f"{sha256(data).hexdigest()[:16]} test_{number}", data)
-    return {checker: measured(checker, examples_in(path)) for checker in SOURCES}
+    return {checker: measured(checker, examples_in(path), lines_of(mutants(checker))) for checker in SOURCES}
 
 
 def _named(checker: str, function: str, was: str, becomes: str) -> Mutant:
