@@ -12,6 +12,7 @@ import pytest
 from samples import model, shipped
 
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.numeric import certification, far_solutions
 from pkm_exact.numeric.certified_boxes import centre, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
@@ -152,3 +153,11 @@ def test_real_solutions_close_to_each_other_are_proved_too(monkeypatch: Patch) -
         changed.setattr(certification, "_in_doubles", lambda _, points, __: ([None] * len(points), points))
         system, again = certified_solutions(problem, found)
     assert (again, real_poses(system, again, DEFAULT_WIDTH)) == (isolated, poses)
+
+
+def test_an_equation_that_is_a_multiple_of_another_is_left_to_others() -> None:
+    legs = model("3-rpr-merlet-p").problem([Fraction(50), Fraction(26), Fraction(25)]).distances
+    system = ChartSystem(ForwardProblem((legs[0], legs[0], legs[1]), motion=PLANAR), (3, -1, 0, 0))
+    assert system.in_doubles is not None and system.mixed is None
+    found = far_solutions.far_solutions(system, np.ones((1, 4), dtype=complex))
+    assert found.boxes == [None]

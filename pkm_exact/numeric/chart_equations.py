@@ -101,12 +101,12 @@ class ChartSystem:
 
     @cached_property
     def mixed(self) -> MixedEquations | None:
-        """And with |C|^2 in one of them only."""
+        """And with |C|^2 in one of them only; None if numbers are too large, or an equation is a multiple of another."""
         original = self.in_doubles
         try:
             kinds = [index // 4 for index in self.support]
             return None if original is None else MixedEquations.of(original, self._placed, self._last, kinds)
-        except OverflowError:
+        except (OverflowError, ValueError):
             return None
 
     def jacobian(self, point: Balls) -> Balls:

@@ -58,10 +58,14 @@ class MixedEquations:
         ------
         OverflowError
             If a number is too large for doubles.
+        ValueError
+            If one quadric is a multiple of another.
         """
         size = len(chart)
         weights = _weights(quadrics, kinds.index(1) if 1 in kinds else size)
         mixed = [_combination(row, quadrics) for row in weights]
+        if not all(mixed):
+            raise ValueError("dependent quadrics")
         last = {(place, size): weight for place, weight in enumerate(chart) if weight} | {(size, size): -1}
         forms = DoubleForms.of([*mixed, last], [*kinds, 0])
         mixing = np.eye(size)
