@@ -8,8 +8,10 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from fractions import Fraction
 from multiprocessing import Pipe
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
@@ -18,6 +20,7 @@ from samples import solved
 from pkm_exact.comparison.compare import compare_formulations
 from pkm_exact.comparison.numeric import compare_numeric
 from pkm_exact.comparison.worker import run_apart
+from pkm_exact.constraints.distance import Distance
 from pkm_exact.engine import solve
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
@@ -84,6 +87,22 @@ def test_the_estimate_of_the_lifting_is_one(name: str) -> None:
     problem = _problem(name)
     reached = _recorded(solve, problem, policy=Policy(lifting="newton")).amounts["p-adic lifting"][-1].done
     assert reached / 2 < expected_bits(problem, 40) < reached * 2
+
+
+@pytest.mark.parametrize("unit", [Fraction(10**60), Fraction(1, 10**60)])
+def test_the_estimate_does_not_depend_on_the_unit_of_length(unit: Fraction) -> None:
+    random = Random(5)
+    joints = [[tuple(Fraction(random.randint(-9, 9)) for _ in range(3)) for _ in range(2)] for _ in range(6)]
+    expected = [
+        expected_bits(
+            ForwardProblem(
+                tuple(Distance(*(tuple(u * x for x in point) for point in pair), 99 * u * u) for pair in joints)
+            ),
+            40,
+        )
+        for u in (Fraction(1), unit)
+    ]
+    assert expected[0] == expected[1] > 0
 
 
 def test_lifting_by_primes_tells_bits() -> None:
