@@ -158,6 +158,7 @@ def test_real_solutions_close_to_each_other_are_proved_too(monkeypatch: Patch) -
 def test_an_equation_that_is_a_multiple_of_another_is_left_to_others() -> None:
     legs = model("3-rpr-merlet-p").problem([Fraction(50), Fraction(26), Fraction(25)]).distances
     system = ChartSystem(ForwardProblem((legs[0], legs[0], legs[1]), motion=PLANAR), (3, -1, 0, 0))
-    assert system.in_doubles is not None and system.mixed is None
+    assert system.in_doubles is not None
+    assert system.mixed is None
     found = far_solutions.far_solutions(system, np.ones((1, 4), dtype=complex))
     assert found.boxes == [None]

@@ -243,7 +243,7 @@ def test_boxes_are_narrowed_to_the_same_poses_with_and_without_newton(
 ) -> None:
     """Not at all, around balls too small to hold the solution, and around larger ones than usual."""
     expected = solve_krawczyk(shipped("rolland-6-6")).poses
-    monkeypatch.setattr(certification, "_in_doubles", lambda _, points: ([None] * len(points), points))
+    monkeypatch.setattr(certification, "_in_doubles", lambda _, points, _known: ([None] * len(points), points))
     near_limit, found = numeric_poses._near_limit, []
 
     def noted(*arguments: Any) -> Any:

@@ -41,6 +41,7 @@ POWERS: dict[str, tuple[int, list[list[int]]]] = {
     "a little above squares": (2, [[-NEAR - 1, NEAR], [-9 * NEAR - 1, NEAR]]),
     "two close to 0, square roots": (2, [[-1, 2**140], [-3, 2**140]]),
     "four close to 0, cube roots": (3, [[-1, 2**210], [-3, 2**210], [1, 2**210], [3, 2**210]]),
+    "a little below a whole number, and far out": (1, [[1 - 3 * 2**40, 1, *[0] * 18, -3 * 2**40, 1]]),
     "fine but exact": (2, [[-1, 2**80], [-1, 2**82], [-3, 2**80]]),
 }
 """m, and the factors of the polynomial in S = T^m."""
