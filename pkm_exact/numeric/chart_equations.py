@@ -101,7 +101,7 @@ class ChartSystem:
 
     @cached_property
     def mixed(self) -> MixedEquations | None:
-        """And with |C|^2 in one of them only; None if numbers are too large, or an equation is a multiple of another."""
+        """And with |C|^2 in one of them only; None if numbers are too large, or two equations are alike."""
         original = self.in_doubles
         try:
             kinds = [index // 4 for index in self.support]
