@@ -46,6 +46,7 @@ from pkm_exact.poses.self_motion import (
     translational_motion,
 )
 from pkm_exact.poses.singularity import are_isolated, singularity
+from pkm_exact.poses.study_equations import Chart
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Progress, Stages
@@ -79,8 +80,13 @@ def solve_without_elimination(
         return None if found is None else consistent(found)
 
 
-def _proposal(
-    problem: ForwardProblem, chosen: Parameters, limit_bits: int, watch: Callable[[int], None]
+def _proposed(
+    problem: ForwardProblem,
+    chart: Chart,
+    form: Sequence[int],
+    degree: int,
+    limit_bits: int,
+    watch: Callable[[int], None] | None = None,
 ) -> UnivariateRepresentation | None:
     """The representation that numerical solutions propose."""
     if problem.motion != SPATIAL:
@@ -88,19 +94,21 @@ def _proposal(
     # Floating point is needed for this alone.
     from pkm_exact.numeric.proposed_representation import proposed_representation
 
-    return proposed_representation(problem, chosen.chart, chosen.form, chosen.modular.degree, limit_bits, watch)
+    return proposed_representation(problem, chart, form, degree, limit_bits, watch)
+
+
+def _proposal(
+    problem: ForwardProblem, chosen: Parameters, limit_bits: int, watch: Callable[[int], None]
+) -> UnivariateRepresentation | None:
+    """What is proposed in the chart and form that were chosen modulo a prime."""
+    return _proposed(problem, chosen.chart, chosen.form, chosen.modular.degree, limit_bits, watch)
 
 
 def _proposed_poses(problem: ForwardProblem, policy: Policy) -> PoseRepresentation | None:
-    """The poses that numerical solutions propose in the chart and form tried first, as many as there can be."""
-    if problem.motion != SPATIAL:
-        return None
-    # Floating point is needed for this alone.
-    from pkm_exact.numeric.proposed_representation import proposed_representation
-
+    """The poses that are proposed in the chart and form tried first, as many as there can be."""
     chart = next(candidate_charts(policy.seed, policy.seed))
     form = next(candidate_forms(chart, policy.seed, policy.seed))
-    lifted = proposed_representation(problem, chart, form, problem.solution_bound, policy.lifting_bits)
+    lifted = _proposed(problem, chart, form, problem.solution_bound, policy.lifting_bits)
     return None if lifted is None else pose_representation(chart, problem, lifted)
 
 
