@@ -11,6 +11,7 @@ from samples import solved
 
 from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric.poses import Charted
 from pkm_exact.solution import Solution
 
 
@@ -18,7 +19,7 @@ from pkm_exact.solution import Solution
 class Quick(RowSolver):
     """Answers a problem without solving it, to test what is around."""
 
-    def solution(self, problem: ForwardProblem) -> Solution:
+    def solution(self, problem: ForwardProblem, _near: Charted | None = None) -> Solution:
         return replace(solved("3-rpr-merlet-p"), problem=problem)
 
 
@@ -28,7 +29,7 @@ class Deadly(Quick):
 
     folder: str = ""
 
-    def solution(self, problem: ForwardProblem) -> Solution:
+    def solution(self, problem: ForwardProblem, _near: Charted | None = None) -> Solution:
         first = problem.distances[0].length_squared
         once = Path(self.folder) / "once"
         if first == 13**2 or (first == 11**2 and not once.exists()):

@@ -103,7 +103,7 @@ class SweepJob:
         try:
             robot, name = robot_at(self.robot, row, self.names) if self.joints else (self.robot, None)
             problem = _problem(robot, name, row, self.names, squared=self.squared) if near is None else near.problem
-            solution = self.solver.solution(problem) if near is None else self.solver.solution(problem, near)
+            solution = self.solver.solution(problem, near)
             data = certificate_bytes(robot, name, solution)
             line = solution_line(row, robot, name, solution, data, self.indices, degrees=self.table)
             return Answer(row.number, line, data if self.certificates else None)
