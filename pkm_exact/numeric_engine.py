@@ -24,6 +24,7 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.nearby import from_home
 from pkm_exact.numeric.poses import Approximations, Charted, approximations, certified_solutions, is_tracked, real_poses
+from pkm_exact.numeric.poses_in_doubles import PosesInDoubles
 from pkm_exact.numeric.seeds import has_seeds, seeds
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.policy import Policy
@@ -94,7 +95,8 @@ def _by_numbers(
         most = count
         proof = _proof(problem, count, policy, stages)
         if proof is not None:
-            return _solution(system, isolated, proof, width, stages)
+            poses = found.poses if isinstance(found, Charted) else None
+            return _solution((system, isolated, poses), proof, width, stages)
         if not can_close(Conditions.of(problem), policy):
             break
     stages.leave()
@@ -157,11 +159,15 @@ def solve_exactly_instead(
 
 
 def _solution(
-    system: ChartSystem, isolated: IsolatedSolutions, proof: CompletenessProof, width: Fraction, stages: Stages
+    found: tuple[ChartSystem, IsolatedSolutions, PosesInDoubles | None],
+    proof: CompletenessProof,
+    width: Fraction,
+    stages: Stages,
 ) -> Solution:
-    """The answer when all solutions are certified."""
+    """The answer when all solutions are certified; what doubles tell of the poses may be known already."""
+    system, isolated, known = found
     stages.enter("boxes and Jacobians")
-    isolated, exponent, poses = real_poses(system, isolated, width)
+    isolated, exponent, poses = real_poses(system, isolated, width, known)
     stages.leave()
     return Solution(
         problem=system.problem,

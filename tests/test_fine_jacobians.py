@@ -20,7 +20,7 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.double_jacobians import decided
 from pkm_exact.numeric.double_krawczyk import DoubleSolution
 from pkm_exact.numeric.double_poses import study_points
-from pkm_exact.numeric.fine_jacobians import _coefficients, _entries, _forms, _product, _values, fine_jacobians
+from pkm_exact.numeric.fine_jacobians import _entries, _forms, _of_each, _product, _values, fine_jacobians
 from pkm_exact.numeric.poses import approximations, box_enclosures, certified_solutions
 from pkm_exact.numeric.seeds import has_seeds, seeds
 from pkm_exact.poses.jacobian import _regular_jacobian, characteristic_length, pose_jacobians
@@ -59,7 +59,7 @@ def test_entries_are_within_their_bounds(name: str) -> None:
     system, solutions, boxes = _real(problem)
     length, twist = characteristic_length(problem), list(problem.motion.twist)
     values = _values(study_points(solutions, system.support))
-    head, tail, bound = _entries(_coefficients(problem, length), values, twist)
+    head, tail, bound = _entries(_of_each([problem], length), values, twist)
     with working_precision(300):
         norms = [(arb(a) + arb(b), c) for a, b, c in zip(*(part[:, 0].tolist() for part in values), strict=True)]
         rows = BallRows(problem, length)

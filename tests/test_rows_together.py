@@ -13,7 +13,7 @@ from samples import model
 from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.double_krawczyk import DoubleEquations
-from pkm_exact.numeric.rows_together import near_home
+from pkm_exact.numeric.rows_together import rows_together
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
@@ -46,10 +46,14 @@ def test_rows_that_home_does_not_lead_to_are_left_out(monkeypatch: pytest.Monkey
     robot = model("3-rpr-merlet-p")
     far = robot.problem([Fraction(10**6), Fraction(1), Fraction(1)])
     large = robot.problem([Fraction(10**350), Fraction(1), Fraction(1)])
-    assert [near is None for near in near_home([*problems[:2], far], solver.start)] == [False, False, True]
-    assert near_home([*problems[:2], large], solver.start) == [None] * 3
+    assert [near is None for near in rows_together([*problems[:2], far], solver.start, DEFAULT_WIDTH)] == [
+        False,
+        False,
+        True,
+    ]
+    assert rows_together([*problems[:2], large], solver.start, DEFAULT_WIDTH) == [None] * 3
     monkeypatch.setattr(DoubleEquations, "stacked", lambda _: None)
-    assert near_home(problems, solver.start) == [None] * 4
+    assert rows_together(problems, solver.start, DEFAULT_WIDTH) == [None] * 4
 
 
 def test_stacked_equations_are_those_of_each() -> None:

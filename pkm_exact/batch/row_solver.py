@@ -17,7 +17,7 @@ from pkm_exact.engine import solve, solve_without_elimination
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.nearby import from_home, nearby_start
 from pkm_exact.numeric.poses import Charted
-from pkm_exact.numeric.rows_together import near_home
+from pkm_exact.numeric.rows_together import rows_together
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.numeric_engine import solve_exactly_instead, solve_krawczyk
 from pkm_exact.policy import Policy
@@ -75,7 +75,7 @@ class RowSolver:
         """What can be found of rows at once, for ``solution``."""
         if self.start is None or not self.is_numeric or len(problems) < 2:
             return [None] * len(problems)
-        return near_home(problems, self.start)
+        return rows_together(problems, self.start, self.width)
 
     def solution(self, problem: ForwardProblem, near: Charted | None = None) -> Solution:
         """The answer to one row.

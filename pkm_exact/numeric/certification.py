@@ -57,10 +57,10 @@ def isolated_solutions(
     known : DoubleBoxes, optional
         Of these points, none of which is the conjugate of another one.
     """
-    boxes, points = _in_doubles(system, points if known else _without_conjugates(points), known)
+    boxes, points = _in_doubles(system, points if known else without_conjugates(points), known)
     found: dict[Box, acb_mat | Complex] = {box: point for box, point in zip(boxes, points, strict=True) if box}
     rest = points[[box is None for box in boxes]]
-    left = [_start(system, point) for point in _without_conjugates(rest)] if len(rest) else []
+    left = [_start(system, point) for point in without_conjugates(rest)] if len(rest) else []
     for exponent in GRIDS:
         now = [start for start in left if start.exponent <= exponent]
         left = [start for start in left if start.exponent > exponent]
@@ -162,7 +162,7 @@ def _limit(system: ChartSystem, start: _Start, exponent: int) -> _Start | None:
     return None if limit is None else _Start(limit[0], exponent * limit[1])
 
 
-def _without_conjugates(points: Complex) -> Complex:
+def without_conjugates(points: Complex) -> Complex:
     """The points without those that are clearly complex and the conjugate of an earlier one: a box stands for both."""
     sizes = np.abs(points).max(axis=1, initial=0)
     complex_ones = np.flatnonzero(np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes)

@@ -85,7 +85,7 @@ class MixedEquations:
             If a value is too large for doubles.
         """
         large = [[(fmpz(a), fmpz(b)) for a, b in x] for x in points]
-        products = fmpz_mat([[part for x in large for part in _product(x[i], x[j])] for i, j in self.monomials])
+        products = fmpz_mat([[part for x in large for part in _product(*x[i], *x[j])] for i, j in self.monomials])
         rows = [[float(int(value)) for value in row] for row in (self.coefficients * products).tolist()]
         found = np.ldexp(np.array(rows).T.reshape(len(points), 2, -1), -2 * bits - self.equations.forms.powers[:-1])
         unit = 1 << bits
@@ -103,8 +103,8 @@ def _imaginary(chart: Sequence[int], x: Sequence[tuple[int, int]]) -> int:
     return sum(w * b for w, (_, b) in zip(chart, x, strict=True))
 
 
-def _product(left: tuple[fmpz, fmpz], right: tuple[fmpz, fmpz]) -> tuple[fmpz, fmpz]:
-    (a, b), (c, d) = left, right
+def _product(a: fmpz, b: fmpz, c: fmpz, d: fmpz) -> tuple[fmpz, fmpz]:
+    """(a + b i) (c + d i)."""
     return a * c - b * d, a * d + b * c
 
 

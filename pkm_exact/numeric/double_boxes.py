@@ -42,6 +42,8 @@ SETTLED: Final = 2.0**-20
 """Those that are larger are followed by another one all the same: how far off a solution may be is in proportion."""
 ASTRAY: Final = 2.0**-16
 """Where Newton's method leads farther than this, relative to the point, it is not followed."""
+HOPELESS: Final = 1.0
+"""Widths of Y F'(X), by the radii of X, from which on no proof succeeds (``grids.first_grid``)."""
 GREATEST_SHIFT: Final = 1000
 """Numbers that are 0 count as smaller than others by so many bits."""
 GREATEST: Final = 2.0**52
@@ -57,7 +59,7 @@ class DoubleBoxes:
     boxes : list of Box or None
         The box of each point; None where doubles do not suffice.
     points : (p, n) complex array
-        Where Newton's method arrived from there; the point itself where it did not, or too far off.
+        Where Newton's method led to from there; the point itself where that is too far off.
     solutions : list of DoubleSolution or None
         Of the real boxes.
     """
@@ -71,10 +73,10 @@ class DoubleBoxes:
         """Nothing is proved yet."""
         return cls([None] * len(points), points, [None] * len(points))
 
-    def parts(self, count: int) -> list[DoubleBoxes]:
-        """So many parts of the same size."""
-        size = len(self.boxes) // count
-        places = [slice(size * k, size * (k + 1)) for k in range(count)]
+    def parts(self, counts: Sequence[int]) -> list[DoubleBoxes]:
+        """Parts of one size, of each the first so many points."""
+        size = len(self.boxes) // len(counts)
+        places = [slice(size * k, size * k + count) for k, count in enumerate(counts)]
         return [DoubleBoxes(self.boxes[place], self.points[place], self.solutions[place]) for place in places]
 
 
@@ -92,7 +94,7 @@ def double_boxes(equations: DoubleEquations, points: Complex, exponent: int) -> 
     if len(points):
         with np.errstate(all="ignore"):
             near, has_arrived = _arrived(equations, *real_or_complex(points), exponent)
-            found.points[has_arrived] = near.points[has_arrived]
+            found.points[:] = near.points
             _add_boxes(equations, near, has_arrived, exponent, found)
     return found
 
@@ -113,6 +115,8 @@ class _Near:
     begun, points : (p, n) arrays
         From where Newton's method led, and where to.
     are_real : (p,) array of bool
+    inverses : (p, n, n) array
+        Of F' there or nearby.
     values, off : (p, n) arrays
         F there, and how far that is off at most.
     """
@@ -120,6 +124,7 @@ class _Near:
     begun: NDArray[Any]
     points: NDArray[Any]
     are_real: NDArray[np.bool_]
+    inverses: NDArray[Any]
     values: NDArray[Any]
     off: Real
 
@@ -132,9 +137,9 @@ def _add_boxes(
     exponents, units, is_sure = grids_of(equations, points, exponent)
     grid = np.floor(np.stack([points.real, points.imag], axis=-1) / units[:, :, None] + 0.5)
     centres = (grid[..., 0] + 1j * grid[..., 1] if np.iscomplexobj(points) else grid[..., 0]) * units
-    inverses = inverses_at(equations, centres, are_real)
     place = points - centres, near.values, near.off
-    proofs = double_proofs(equations, inverses, centres, RADIUS * units, ROOM, place)
+    # Inverses at the points serve as well: boxes are far larger than what lies between these and the centres.
+    proofs = double_proofs(equations, near.inverses, centres, RADIUS * units, ROOM, place)
     decided = decided & is_sure & proofs.proved & (np.abs(grid) < GREATEST).all(axis=(1, 2))
     distance = np.maximum(np.abs(proofs.moved.real), np.abs(proofs.moved.imag)) + proofs.errors
     decided &= (distance < SURE * units).all(axis=1)
@@ -152,26 +157,42 @@ def _add_boxes(
 def _arrived(
     equations: DoubleEquations, begun: NDArray[Any], are_real: NDArray[np.bool_], exponent: int
 ) -> tuple[_Near, NDArray[np.bool_]]:
-    """Where Newton's method leads until steps are far smaller than units, and where it does so."""
+    """Where Newton's method leads until steps are far smaller than units, and where it does so.
+
+    Where no box can be proved it takes one step with more exact values of F.
+    """
     inverses = inverses_at(equations, begun, are_real)
     points = newton_step(equations, begun, inverses)
     values, off = equations.forms.at(points)
     units = grids_of(equations, points, exponent)[1]
-    left, sizes = np.arange(len(points)), np.zeros(len(points))
-    for _ in range(STEPS):
+    left, sizes, is_hopeless = np.arange(len(points)), np.zeros(len(points)), np.zeros(len(points), dtype=np.bool_)
+    for number in range(STEPS):
         steps = products(inverses[left], values[left])
         sizes[left] = (np.abs(steps) / units[left]).max(axis=1)
         moves = ~(sizes[left] < SETTLED)
         left = left[moves]
+        points[left] -= steps[moves]
+        if number == 0 and len(left):
+            rows = equations.places(left, len(points))
+            is_hopeless[rows] = _widths(equations, inverses[rows], units[rows], are_real[rows]) > HOPELESS
+            left = left[~is_hopeless[left]]
         if not len(left):
             break
-        points[left] -= steps[moves]
-        rows = slice(None) if equations.are_stacked else left
+        rows = equations.places(left, len(points))
         inverses[rows] = inverses_at(equations, points[rows], are_real[rows])
         values[rows], off[rows] = equations.forms.at(points[rows])
-    has_arrived = (np.abs(points - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
-    has_arrived &= sizes < ARRIVED
-    return _Near(begun, points, are_real, values, off), has_arrived
+    is_near = (np.abs(points - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
+    has_arrived = is_near & (sizes < ARRIVED) & ~is_hopeless
+    points = np.where((is_near & (has_arrived | is_hopeless))[:, None], points, begun)
+    return _Near(begun, points, are_real, inverses, values, off), has_arrived
+
+
+def _widths(equations: DoubleEquations, inverses: NDArray[Any], units: Real, are_real: NDArray[np.bool_]) -> Real:
+    """How wide Y F'(X) is in the largest coordinate, by the radii of X, roughly."""
+    radii, sizes = RADIUS * units, np.abs(inverses.real) + np.abs(inverses.imag)
+    widths = products(sizes, products(equations.variations(radii), radii)) / radii
+    found: Real = widths.max(axis=1) * np.where(are_real, 1, 2)
+    return found
 
 
 def inverses_at(equations: DoubleEquations, points: NDArray[Any], are_real: NDArray[np.bool_]) -> NDArray[Any]:
@@ -183,9 +204,12 @@ def inverses_at(equations: DoubleEquations, points: NDArray[Any], are_real: NDAr
 
 
 def grids_of(
-    equations: DoubleEquations, points: NDArray[Any], exponent: int
+    equations: DoubleEquations, points: NDArray[Any], exponent: int | NDArray[np.intp]
 ) -> tuple[NDArray[np.intp], Real, NDArray[np.bool_]]:
-    """The exponents of the grids of e and f, (p, 2), as ``certification`` chooses them; units; whether it is sure."""
+    """The exponents of the grids of e and f, (p, 2), as ``certification`` chooses them; units; whether it is sure.
+
+    That of e is given, for all or for each point.
+    """
     halves = np.array(equations.support) // 4
     largest = np.maximum(np.abs(points.real), np.abs(points.imag))
     sizes = [largest[:, halves == half].max(axis=1, initial=0) for half in (0, 1)]

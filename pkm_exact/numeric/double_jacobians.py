@@ -15,7 +15,7 @@ all matrices on the way from L R to A are regular, and their determinants have o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from math import sqrt
 from typing import Final, TypeAlias
@@ -40,12 +40,17 @@ ROUNDED: Final = 1 + 2.0**-49
 """For less than a dozen roundings in a row."""
 Finer: TypeAlias = Callable[[Real, Real], tuple[Real, Real]]
 """Of vectors u and v, (p, n) each, u^T A v and how far it is off at most."""
-LEVI_CIVITA: Final = np.array(
-    [[[(i - j) * (j - k) * (k - i) / 2 for k in range(3)] for j in range(3)] for i in range(3)], dtype=float
-)
+_NEXT: Final = [1, 2, 0]
+_LAST: Final = [2, 0, 1]
+"""The axes after and before each."""
 
 
-def double_jacobians(problem: ForwardProblem, found: DoubleCoordinates, length: Fraction) -> list[LegJacobian | None]:
+def double_jacobians(
+    problem: ForwardProblem,
+    found: DoubleCoordinates,
+    length: Fraction,
+    each: Sequence[ForwardProblem] | None = None,
+) -> list[LegJacobian | None]:
     """The Jacobians at poses whose coordinates are given; None where doubles do not decide them.
 
     Parameters
@@ -55,19 +60,30 @@ def double_jacobians(problem: ForwardProblem, found: DoubleCoordinates, length: 
         Of p poses.
     length : Fraction
         Makes turns comparable to translations.
+    each : sequence of ForwardProblem, optional
+        That of each pose, where it is not the same for all: of one robot, with other lengths.
     """
     count, size = len(found.values), problem.motion.dimension
     if problem.equation_count != size or problem.squares or not count:
         return [None] * count
     with np.errstate(all="ignore"):
         try:
-            matrices, off = _rows(problem, _forms(problem, length), float(length), found)
+            matrices, off = _rows(
+                problem, forms_of_each([problem] if each is None else each, length), float(length), found
+            )
             is_good = (np.isfinite(matrices) & np.isfinite(off) & (np.abs(matrices) < LARGE)).all(axis=(1, 2))
             is_good &= (np.abs(found.values) < LARGE).all(axis=1)
             matrices[~is_good], off[~is_good] = np.eye(size), 1.0
             return decided(matrices, off, length)
         except (OverflowError, np.linalg.LinAlgError):
             return [None] * count
+
+
+def forms_of_each(problems: Sequence[ForwardProblem], length: Fraction) -> Real:
+    """(p, m, 17): those of each problem, of which neighbours may be the same."""
+    found = {id(problem): problem for problem in problems}
+    tables = {key: _forms(problem, length) for key, problem in found.items()}
+    return np.stack([tables[id(problem)] for problem in problems])
 
 
 def _forms(problem: ForwardProblem, length: Fraction) -> Real:
@@ -82,33 +98,38 @@ def _forms(problem: ForwardProblem, length: Fraction) -> Real:
 
 
 def _rows(problem: ForwardProblem, forms: Real, length: float, found: DoubleCoordinates) -> tuple[Real, Real]:
-    """The Jacobians, and how far their entries are off at most."""
-    square, turned, position, rotation = forms[:, 0], forms[:, 1:4], forms[:, 4:7], forms[:, 7:16].reshape(-1, 3, 3)
-    sign = np.abs(LEVI_CIVITA)
+    """The Jacobians, and how far their entries are off at most, from forms (p, m, 17) of each, or (1, m, 17) of all."""
+    tables = forms[..., 0], forms[..., 1:4], forms[..., 4:7], forms[..., 7:16].reshape(*forms.shape[:2], 3, 3)
     c, r = found.values[:, :3], found.values[:, 3:12].reshape(-1, 3, 3)
     c_off, r_off = found.errors[:, :3], found.errors[:, 3:12].reshape(-1, 3, 3)
 
-    def wrenches(c: Real, r: Real, *tables: Real) -> tuple[Real, Real, Real]:
-        """a, the force and the moment; with absolute values, what they are at most."""
-        square, turned, position, rotation, sign = tables
-        moved = np.einsum("pij,mj->pmi", r, turned)
-        force = 2 * square[:, None] * c[:, None] + moved + position
-        moment = np.einsum("ijk,pmj,pk->pmi", sign, moved, c) + np.einsum("ijk,pjl,mkl->pmi", sign, r, rotation)
+    def wrenches(c: Real, r: Real, tables: Sequence[Real], sign: int) -> tuple[Real, Real, Real]:
+        """a, the force and the moment; with absolute values and sign 1, what they are at most."""
+        square, turned, position, rotation = tables
+        moved = turned @ r.transpose(0, 2, 1)
+        force = 2 * square[..., None] * c[:, None] + moved + position
+        sums = r[:, None] @ rotation.transpose(0, 1, 3, 2)
+        moment = _crossed(moved, c[:, None], sign) + sums[..., _NEXT, _LAST] + sign * sums[..., _LAST, _NEXT]
         return moved, force, moment
 
-    _, force, moment = wrenches(c, r, square, turned, position, rotation, LEVI_CIVITA)
-    tables = *(np.abs(table) for table in (square, turned, position, rotation)), sign
-    moved, most_force, most_moment = wrenches(np.abs(c), np.abs(r), *tables)
-    moved_off, force_off, moment_off = wrenches(c_off, r_off, *tables)
-    force_off -= tables[2]  # what does not depend on the pose is not off by that
-    for left, right in ((moved, c_off), (moved_off, np.abs(c))):
-        moment_off += np.einsum("ijk,pmj,pk->pmi", sign, left, right)
-    force_off += gamma(_FEW) * (most_force + 2 * tables[2])
+    _, force, moment = wrenches(c, r, tables, -1)
+    sizes = [np.abs(table) for table in tables]
+    moved, most_force, most_moment = wrenches(np.abs(c), np.abs(r), sizes, 1)
+    moved_off, force_off, moment_off = wrenches(c_off, r_off, sizes, 1)
+    force_off -= sizes[2]  # what does not depend on the pose is not off by that
+    moment_off += _crossed(moved, c_off[:, None], 1) + _crossed(moved_off, np.abs(c)[:, None], 1)
+    force_off += gamma(_FEW) * (most_force + 2 * sizes[2])
     moment_off += gamma(_FEW) * most_moment
     twist = list(problem.motion.twist)
     matrices = np.concatenate([force, moment / length], axis=2)[:, :, twist]
     off = np.concatenate([force_off, moment_off / length], axis=2)[:, :, twist]
     return matrices, (off + gamma(4) * np.abs(matrices)) * OUTWARD + SMALL
+
+
+def _crossed(left: Real, right: Real, sign: int) -> Real:
+    """Products of vectors (.., 3): with sign -1 the vector product, with 1 what it is at most."""
+    found: Real = left[..., _NEXT] * right[..., _LAST] + sign * left[..., _LAST] * right[..., _NEXT]
+    return found
 
 
 def decided(

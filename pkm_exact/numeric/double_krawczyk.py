@@ -66,6 +66,26 @@ class DoubleEquations:
         """Whether they are those of several problems."""
         return self.forms.head.ndim > 2
 
+    def places(self, chosen: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+        """Those of so many points that have these among them: of each problem as many, if there are several.
+
+        Parameters
+        ----------
+        chosen : (k,) array of int
+            In order, at least one.
+        """
+        if not self.are_stacked:
+            return chosen
+        several = len(self.forms.head)
+        is_left: NDArray[Any] = np.ones(count, dtype=np.bool_)
+        is_left[chosen] = False
+        table = is_left.reshape(several, -1)
+        most = table.shape[1] - int(table.sum(axis=1).min())
+        # Stable: the chosen ones come first.
+        order: NDArray[Any] = np.argsort(table, axis=1, kind="stable")[:, :most]
+        found: NDArray[np.intp] = (order + np.arange(several)[:, None] * table.shape[1]).ravel()
+        return found
+
     @cached_property
     def _slopes(self) -> tuple[Real, Real, Real]:
         """F and F' at 0, (.., n) and (.., n, n), and the derivative of F', (.., n, n, n); all at most u off."""

@@ -59,15 +59,12 @@ class _Limits:
         Of G' there.
     values : (p, n) array
         G there, both parts rounded once.
-    steps : (p, n) array
-        The next ones.
     """
 
     points: Integers
     near: NDArray[Any]
     inverses: NDArray[Any]
     values: NDArray[Any]
-    steps: NDArray[Any]
 
 
 def far_solutions(system: ChartSystem, points: Complex) -> DoubleBoxes:
@@ -94,12 +91,10 @@ def far_solutions(system: ChartSystem, points: Complex) -> DoubleBoxes:
         left = (np.abs(limits.near - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
         widths, usual = _widths((mixed, original), limits, are_real)
         left &= usual & (widths.max(axis=1) > WIDEST)
-        for grid in TRIED:
-            narrower = np.ldexp(widths, GRIDS[0] - grid)
-            rows = np.flatnonzero(left & (narrower.max(axis=1) <= WIDEST))
-            if len(rows):
-                is_hopeless = _add_boxes((mixed, original), limits, (begun, narrower), rows, grid, (places, found))
-                left[rows] = is_hopeless
+        grids = _grids(mixed.equations, limits.near, widths)
+        rows = np.flatnonzero(left & (grids > 0))
+        if len(rows):
+            _add_boxes((mixed, original), limits, (begun, grids), rows, (places, found))
     return found
 
 
@@ -111,7 +106,8 @@ def _limits(mixed: MixedEquations, begun: NDArray[Any], are_real: NDArray[np.boo
         near = _rounded(points, BITS, begun)
         inverses = inverses_at(mixed.equations, near, are_real)
         values: NDArray[Any] = mixed.values(points, BITS)
-        steps = products(inverses, values if np.iscomplexobj(begun) else values.real)
+        values = values if np.iscomplexobj(begun) else values.real
+        steps = products(inverses, values)
         sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag))
         if number == STEPS - 1 or not (sizes >= CLOSE * units).any():
             break
@@ -121,7 +117,7 @@ def _limits(mixed: MixedEquations, begun: NDArray[Any], are_real: NDArray[np.boo
             [(a - int(c), b - int(d)) for (a, b), (c, d) in zip(x, row, strict=True)]
             for x, row in zip(points, moves.tolist(), strict=True)
         ]
-    return _Limits(points, near, inverses, values if np.iscomplexobj(begun) else values.real, steps)
+    return _Limits(points, near, inverses, values)
 
 
 def _rounded(points: Integers, bits: int, like: NDArray[Any]) -> NDArray[Any]:
@@ -150,23 +146,41 @@ def _variations(
     return found
 
 
+def _grids(equations: DoubleEquations, near: NDArray[Any], widths: Real) -> NDArray[np.intp]:
+    """(p,): for each limit the first grid on which a proof is not hopeless; 0 for none of those that are tried.
+
+    With any matrix Y there is as much of the width as ``grids.first_grid`` says; and the limit is as far from the
+    centre, in units, as the double next to it is, but for the rounding of that.
+    """
+    found = np.zeros(len(near), dtype=np.intp)
+    for grid in TRIED:
+        narrower = np.ldexp(widths, GRIDS[0] - grid)
+        width = narrower.max(axis=1, keepdims=True)
+        places = near / grids_of(equations, near, grid)[1]
+        parts = np.stack([places.real, places.imag])
+        apart = (np.abs(parts - np.rint(parts)) - 2 * U * np.abs(parts)).max(axis=0, initial=0)
+        least = apart / RADIUS * (1 - width / 8) + narrower / (1 + width / 8)
+        is_hopeless = (width[:, 0] > WIDEST) | (least.max(axis=1) * ROOM > SLACK)
+        found[(found == 0) & ~is_hopeless] = grid
+    return found
+
+
 def _add_boxes(
     equations: tuple[MixedEquations, DoubleEquations],
     limits: _Limits,
-    known: tuple[NDArray[Any], Real],
+    known: tuple[NDArray[Any], NDArray[np.intp]],
     rows: NDArray[np.intp],
-    grid: int,
     into: tuple[NDArray[np.intp], DoubleBoxes],
-) -> NDArray[np.bool_]:
-    """The boxes of some limits on a grid, as far as they are proved; for which surely none can be.
+) -> None:
+    """The boxes of some limits, as far as they are proved.
 
     Parameters
     ----------
-    known : two (p, n) arrays
-        Where Newton's method began, and the widths at all limits on this grid.
+    known : (p, n) array, (p,) array
+        Where Newton's method began, and the grids of all limits.
     """
-    (mixed, _), (begun, widths), (places, found) = equations, known, into
-    near, values = limits.near[rows], limits.values[rows]
+    (mixed, _), (begun, grids), (places, found) = equations, known, into
+    near, values, grid = limits.near[rows], limits.values[rows], grids[rows]
     exponents, units, decided = grids_of(mixed.equations, near, grid)
     halves = [index // 4 for index in mixed.equations.support]
     shifts = [[BITS - row[half] for half in halves] for row in exponents.tolist()]
@@ -188,22 +202,24 @@ def _add_boxes(
     proofs = double_proofs(mixed.equations, inverses, middle, RADIUS * units, ROOM, place, wider)
     distance = np.maximum(np.abs(proofs.moved.real), np.abs(proofs.moved.imag)) + proofs.errors
     decided &= proofs.proved & (distance < SURE * units).all(axis=1)
-    decided &= (np.abs(begun[rows] - middle) <= NEAR * 2.0**grid * units).all(axis=1)
+    decided &= (np.abs(begun[rows] - middle) <= NEAR * np.ldexp(units, grid[:, None])).all(axis=1)
     decided &= are_real | middle.imag.any(axis=1)
     for row in np.flatnonzero(decided).tolist():
         box, at = box_at(exponents[row].tolist(), centres[row], mixed.equations.support), places[rows[row]]
         found.boxes[at] = box
         if box.is_real:
             found.solutions[at] = _solution(points[row], near[row].real, proofs, row)
-    # With any matrix Y there is as much as that (``grids.first_grid``).
-    width = widths[rows].max(axis=1, keepdims=True)
-    least = (distance - proofs.errors) / (RADIUS * units) * (1 - width / 8) + widths[rows] / (1 + width / 8)
-    is_hopeless: NDArray[np.bool_] = (least.max(axis=1) * ROOM > SLACK) & ~decided
-    return is_hopeless
 
 
 def _solution(point: list[tuple[int, int]], near: Real, proofs: Proofs, row: int) -> DoubleSolution:
-    """The point, rounded, with what it lacks in the step."""
+    """The point, rounded, with what it lacks in the step.
+
+    The solution is x - s up to an error, with x the point and s = Y F(x) the step. With p the double next to x it is p
+    - d, d = s - l, l = x - p, which is exact in integers. Rounding l, and then d, is off by u |l| + u |d| at most, that
+    is u |s| + 2 u |d| and terms in u^2. 2 u |d| is added here. u |s| is in the error already: of the product Y F(x) it
+    counts gamma(``TERMS``) = gamma(12) times |Y| |F(x)| where sums of eight products are off by gamma(8) times that, so
+    that 4 u |Y| |F(x)| >= 3 u |s| is left over, also for the terms in u^2.
+    """
     lacking = [a - int(b) for (a, _), b in zip(point, np.ldexp(near, BITS).tolist(), strict=True)]
     step = proofs.steps[row].real - np.ldexp(np.array(lacking, dtype=np.float64), -BITS)
     return DoubleSolution(near, step, (proofs.errors[row] + 2 * U * np.abs(step)) * OUTWARD + SMALL)

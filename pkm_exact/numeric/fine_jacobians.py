@@ -46,7 +46,11 @@ Twofold = tuple[Real, Real, Real]
 
 
 def fine_jacobians(
-    problem: ForwardProblem, solutions: Sequence[DoubleSolution], support: Sequence[int], length: Fraction
+    problem: ForwardProblem,
+    solutions: Sequence[DoubleSolution],
+    support: Sequence[int],
+    length: Fraction,
+    each: Sequence[ForwardProblem] | None = None,
 ) -> list[LegJacobian | None]:
     """The Jacobians at these poses; None where pairs of doubles do not decide them.
 
@@ -58,6 +62,8 @@ def fine_jacobians(
         Which of the eight Study coordinates they have.
     length : Fraction
         Makes turns comparable to translations.
+    each : sequence of ForwardProblem, optional
+        That of each pose, where it is not the same for all: of one robot, with other lengths.
     """
     size = problem.motion.dimension
     if problem.metric != (1, 1, 1) or problem.equation_count != size or problem.squares or not solutions:
@@ -65,7 +71,9 @@ def fine_jacobians(
     with np.errstate(all="ignore"):
         try:
             values = _values(study_points(solutions, support))
-            jacobians = _entries(_coefficients(problem, length), values, list(problem.motion.twist))
+            jacobians = _entries(
+                _of_each([problem] if each is None else each, length), values, list(problem.motion.twist)
+            )
             norm = values[0][:, 0]
             is_good = (np.abs(jacobians[0]) < LARGE).all(axis=(1, 2)) & np.isfinite(jacobians[2]).all(axis=(1, 2))
             is_good &= (np.abs(values[0]) < LARGE).all(axis=1) & (values[2][:, 0] < U * norm)
@@ -123,6 +131,14 @@ def _places() -> tuple[NDArray[np.intp], NDArray[np.intp], Real]:
     return values, coefficients, factors
 
 
+def _of_each(problems: Sequence[ForwardProblem], length: Fraction) -> Twofold:
+    """(p, m, 6, 9) each: the coefficients for each problem, of which neighbours may be the same."""
+    found = {id(problem): problem for problem in problems}
+    tables = {key: _coefficients(problem, length) for key, problem in found.items()}
+    first, second, off = (np.stack([tables[id(problem)][part] for problem in problems]) for part in range(3))
+    return first, second, off
+
+
 def _coefficients(problem: ForwardProblem, length: Fraction) -> Twofold:
     """(m, 6, 9) each: what the values are multiplied with.
 
@@ -161,13 +177,13 @@ def _scaled(form: Form, scale: Fraction, length: Fraction) -> tuple[list[int], i
 
 
 def _entries(coefficients: Twofold, values: Twofold, moving: list[int]) -> Twofold:
-    """(p, m, n) each: the Jacobians times N.
+    """(p, m, n) each: the Jacobians times N, from coefficients for each pose, or one for all.
 
     With a the coefficients, a' their tails, and so on, a v = p + e exactly, and a term is p + (e + a v' + a' v): what
     is left out or rounded is below 12 u^2 |p|, for nine terms less than 12 u^2 sigma (``twofold_sums``).
     """
     places = _places()[0][moving]
-    a, a_tail, a_off = (part[None, :, moving] for part in coefficients)
+    a, a_tail, a_off = (part[:, :, moving] for part in coefficients)
     v, v_tail, v_off = (part[:, None, places] for part in values)
     terms, rest = two_product(*np.broadcast_arrays(a, v))
     head, tail, bound = twofold_sums(terms, rest + a * v_tail + a_tail * v)

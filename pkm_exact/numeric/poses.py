@@ -18,14 +18,19 @@ from pkm_exact.numeric.certification import isolated_solutions
 from pkm_exact.numeric.certified_boxes import GUARD_BITS, centre, enclosing_balls
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_boxes import DoubleBoxes
-from pkm_exact.numeric.double_jacobians import double_jacobians
-from pkm_exact.numeric.double_poses import double_cells, double_coordinates
-from pkm_exact.numeric.fine_jacobians import fine_jacobians
 from pkm_exact.numeric.krawczyk_operator import around_zero, is_inside, krawczyk
+from pkm_exact.numeric.poses_in_doubles import PosesInDoubles
 from pkm_exact.numeric.start import StartSection, generic_start, start_quadrics
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates
 from pkm_exact.numeric.tracker import polished, track
-from pkm_exact.poses.boxes import Enclosures, disjoint_cells, order_of, ordinary_coordinates, pose_in_cells
+from pkm_exact.poses.boxes import (
+    Enclosures,
+    disjoint_cells,
+    exponent_for_width,
+    order_of,
+    ordinary_coordinates,
+    pose_in_cells,
+)
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
 from pkm_exact.poses.jacobian import LEAST_PRECISION, pose_jacobians
 from pkm_exact.poses.leg_jacobian import LegJacobian
@@ -73,11 +78,17 @@ class Charted:
     system : ChartSystem
     points : (p, n) complex array
     boxes : DoubleBoxes
+    isolated : IsolatedSolutions, optional
+        What is certified of them.
+    poses : PosesInDoubles, optional
+        Of the real ones.
     """
 
     system: ChartSystem
     points: Complex
     boxes: DoubleBoxes
+    isolated: IsolatedSolutions | None = None
+    poses: PosesInDoubles | None = None
 
     @property
     def problem(self) -> ForwardProblem:
@@ -130,12 +141,21 @@ def certified_solutions(
 ) -> tuple[ChartSystem, IsolatedSolutions]:
     """The chart's equations, and what can be certified of approximate solutions."""
     if isinstance(found, Charted):
-        return found.system, isolated_solutions(found.system, found.points, watch, found.boxes)
-    points = rational_coordinates(found.points, found.section)
+        isolated = found.isolated or isolated_solutions(found.system, found.points, watch, found.boxes)
+        return found.system, isolated
+    system, points = in_chart(problem, rational_coordinates(found.points, found.section))
+    return system, isolated_solutions(system, points, watch)
+
+
+def in_chart(problem: ForwardProblem, points: Complex) -> tuple[ChartSystem, Complex]:
+    """The equations in a chart for solutions near points given by all eight coordinates, and these points in it.
+
+    Points that are at infinity in the chart are left out.
+    """
     system = ChartSystem(problem, chart_near(points, problem))
     values = points[:, :4] @ np.array(system.chart, dtype=float)
     good = values != 0
-    return system, isolated_solutions(system, (points[good] / values[good, None])[:, list(system.support)], watch)
+    return system, (points[good] / values[good, None])[:, list(system.support)]
 
 
 def chart_near(points: Complex, problem: ForwardProblem) -> tuple[int, int, int, int]:
@@ -156,7 +176,7 @@ def _chart(e: Complex, used: Sequence[int]) -> tuple[int, int, int, int]:
 
 
 def real_poses(
-    system: ChartSystem, isolated: IsolatedSolutions, width: Fraction
+    system: ChartSystem, isolated: IsolatedSolutions, width: Fraction, found: PosesInDoubles | None = None
 ) -> tuple[IsolatedSolutions, int, tuple[Pose, ...]]:
     """The poses in the real boxes, certified and in order; the list of solutions with its real boxes in the same order.
 
@@ -167,6 +187,8 @@ def real_poses(
         In the chart of the system.
     width : Fraction
         Largest width of a pose's box, in any coordinate.
+    found : PosesInDoubles, optional
+        What doubles tell of them, if it is known already (``poses_in_doubles``).
 
     Returns
     -------
@@ -175,27 +197,34 @@ def real_poses(
     """
     enclosures, count = box_enclosures(system, isolated.real), len(isolated.real)
     solutions = [system.double_solutions.get(box) for box in isolated.real]
-    known = [row for row, found in enumerate(solutions) if found is not None]
-    coordinates = double_coordinates([found for found in solutions if found], system.support, system.problem.metric)
+    known = [row for row, solution in enumerate(solutions) if solution is not None]
+    in_doubles = found or poses_in_doubles([(system, isolated)], width)[0]
 
     def cells_in_doubles(exponent: int) -> list[list[Interval | None]]:
         rows: list[list[Interval | None]] = [[None] * COORDINATES for _ in range(count)]
-        for row, found in zip(known, double_cells(coordinates, exponent), strict=True):
-            rows[row] = found
+        for row, cells in zip(known, in_doubles.cells_on(exponent), strict=True):
+            rows[row] = cells
         return rows
 
-    def jacobians_in_doubles(length: Fraction) -> list[LegJacobian | None]:
-        found = dict(zip(known, double_jacobians(system.problem, coordinates, length), strict=True))
-        rest = [(row, solution) for row, solution in enumerate(solutions) if solution and found[row] is None]
-        finer = fine_jacobians(system.problem, [solution for _, solution in rest], system.support, length)
-        found |= dict(zip([row for row, _ in rest], finer, strict=True))
-        return [found.get(row) for row in range(count)]
-
+    jacobians_in_doubles: list[LegJacobian | None] = [None] * count
+    for row, jacobian in zip(known, in_doubles.jacobians, strict=True):
+        jacobians_in_doubles[row] = jacobian
     exponent, cells = disjoint_cells(enclosures, count, width, known=cells_in_doubles)
     jacobians = pose_jacobians(enclosures, system.problem, [None] * count, jacobians_in_doubles)
     order = order_of([row[:BOX_COORDINATES] for row in cells])
     poses = tuple(pose_in_cells(cells[k], None, jacobians[k]) for k in order)
     return replace(isolated, real=tuple(isolated.real[k] for k in order)), exponent, poses
+
+
+def poses_in_doubles(rows: Sequence[tuple[ChartSystem, IsolatedSolutions]], width: Fraction) -> list[PosesInDoubles]:
+    """What doubles tell of the poses in real boxes, of robots that differ in lengths only, all at once."""
+    known = [
+        [solution for box in isolated.real if (solution := system.double_solutions.get(box)) is not None]
+        for system, isolated in rows
+    ]
+    problems = [system.problem for system, _ in rows]
+    found = PosesInDoubles.of(problems, rows[0][0].support, known, exponent_for_width(width))
+    return found.parts([len(solutions) for solutions in known])
 
 
 def isolated_poses(problem: ForwardProblem, width: Fraction) -> tuple[IsolatedSolutions, int, tuple[Pose, ...]] | None:

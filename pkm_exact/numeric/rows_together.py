@@ -1,58 +1,83 @@
-"""Many rows near one start section at once: Newton's method from the solutions at home, and boxes in doubles.
+"""Many rows near one start section at once: Newton's method from the solutions at home, boxes and poses in doubles.
 
 Every step is one on arrays that have the solutions of all rows, one row after another, with the equations of each. What
 is found of a row is what would be found of it alone, as far as answers go: boxes are proved, and those around the
-nearest grid points. Rows that are not as usual are left out.
+nearest grid points. Where home does not lead, guesses are the template's. Rows that are not as usual are left out.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric.certification import isolated_solutions, without_conjugates
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_boxes import DoubleBoxes, double_boxes
 from pkm_exact.numeric.double_krawczyk import DoubleEquations
 from pkm_exact.numeric.grids import GRIDS
 from pkm_exact.numeric.nearby import ENOUGH, GREATEST_CHANGE, HOME_STEPS
-from pkm_exact.numeric.poses import Charted, chart_near, is_tracked
+from pkm_exact.numeric.poses import Charted, in_chart, is_tracked, poses_in_doubles
+from pkm_exact.numeric.seeds import has_seeds, seeds
 from pkm_exact.numeric.start import SAME, StartSection
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates, section_quadrics
 from pkm_exact.numeric.tracker import polished
 
 
-def near_home(problems: Sequence[ForwardProblem], start: StartSection) -> list[Charted | None]:
-    """What is found of each row from the start's home; None of those that are to be solved by themselves.
+def rows_together(problems: Sequence[ForwardProblem], start: StartSection, width: Fraction) -> list[Charted | None]:
+    """What is found of each row from the start's home, or by the template; None of those to be solved by themselves.
 
     Parameters
     ----------
     problems : sequence of ForwardProblem
         Of one robot, which differ in lengths.
     start : StartSection
+    width : Fraction
+        Largest width of a pose's box, in any coordinate.
     """
     found: list[Charted | None] = [None] * len(problems)
-    if start.home is None or not len(start.home) or not all(map(is_tracked, problems)):
+    if not all(map(is_tracked, problems)):
         return found
     try:
-        section, legs = _sections(problems, start)
+        systems = {row: in_chart(problems[row], points) for row, points in _guesses(problems, start).items()}
     except OverflowError:
         return found
-    points, rows = _solutions(section, legs, start.home, problems[0].solution_bound)
-    systems: dict[int, tuple[ChartSystem, Complex]] = {}
-    for row in rows:
-        there = rational_coordinates(points[row], section)
-        chart = chart_near(there, problems[row])
-        values = there[:, :4] @ np.array(chart, dtype=float)
-        if values.all():
-            system = ChartSystem(problems[row], chart)
-            systems[row] = system, (there / values[:, None])[:, list(system.support)]
     for row, boxes in _boxes(systems).items():
-        system, there = systems[row]
-        found[row] = Charted(system, there, boxes)
+        system, points = systems[row]
+        isolated = isolated_solutions(system, points, None, boxes)
+        if isolated.count == problems[row].solution_bound:
+            found[row] = Charted(system, points, boxes, isolated)
+    return _with_poses(found, width)
+
+
+def _guesses(problems: Sequence[ForwardProblem], start: StartSection) -> dict[int, Complex]:
+    """All eight coordinates of approximate solutions of rows, with one of each conjugate pair."""
+    found: dict[int, Complex] = {}
+    if start.home is not None and len(start.home):
+        section, legs = _sections(problems, start)
+        points, rows = _solutions(section, legs, start.home, problems[0].solution_bound)
+        found = {row: rational_coordinates(points[row], section) for row in rows}
+    if start.has_long_paths and has_seeds(problems[0]):
+        for row in set(range(len(problems))) - set(found):
+            seeded = seeds(problems[row])
+            found[row] = without_conjugates(rational_coordinates(seeded.points, seeded.section))
+    return found
+
+
+def _with_poses(rows: Sequence[Charted | None], width: Fraction) -> list[Charted | None]:
+    """With what doubles tell of the poses of rows that have the same joints."""
+    found = list(rows)
+    chosen = [(row, entry, entry.isolated) for row, entry in enumerate(rows) if entry and entry.isolated]
+    chosen = [triple for triple in chosen if _have_same_joints(triple[1].problem, chosen[0][1].problem)]
+    if chosen:
+        poses = poses_in_doubles([(entry.system, isolated) for _, entry, isolated in chosen], width)
+        for (row, entry, _), part in zip(chosen, poses, strict=True):
+            found[row] = replace(entry, poses=part)
     return found
 
 
@@ -99,14 +124,21 @@ def _solutions(section: Section, legs: Complex, home: Complex, bound: int) -> tu
 def _boxes(systems: dict[int, tuple[ChartSystem, Complex]]) -> dict[int, DoubleBoxes]:
     """Those of the rows whose equations go together: with one chart, and the same monomials."""
     by_chart: dict[tuple[int, ...], list[int]] = {}
-    for row, (system, _) in systems.items():
-        if system.in_doubles is not None:
+    for row, (system, points) in systems.items():
+        if system.in_doubles is not None and len(points):
             by_chart.setdefault(system.chart, []).append(row)
     found: dict[int, DoubleBoxes] = {}
     for rows in by_chart.values():
         known = [system.in_doubles for system, _ in map(systems.__getitem__, rows)]
         equations = DoubleEquations.stacked([entry for entry in known if entry is not None])
         if equations is not None:
-            points: NDArray[Any] = np.concatenate([systems[row][1] for row in rows])
-            found |= dict(zip(rows, double_boxes(equations, points, GRIDS[0]).parts(len(rows)), strict=True))
+            counts = [len(systems[row][1]) for row in rows]
+            together: NDArray[Any] = np.concatenate([_padded(systems[row][1], max(counts)) for row in rows])
+            found |= dict(zip(rows, double_boxes(equations, together, GRIDS[0]).parts(counts), strict=True))
+    return found
+
+
+def _padded(points: Complex, count: int) -> Complex:
+    """So many points: the last one again."""
+    found: Complex = np.concatenate([points, np.repeat(points[-1:], count - len(points), axis=0)])
     return found

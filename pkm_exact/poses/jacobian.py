@@ -9,7 +9,7 @@ where the pose is singular (a multiple solution).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache, reduce
 from math import isfinite, isqrt, lcm
@@ -93,7 +93,7 @@ def pose_jacobians(
     enclosures: Enclosures,
     problem: ForwardProblem,
     ranks: Sequence[int | None],
-    known: Callable[[Fraction], Sequence[LegJacobian | None]] | None = None,
+    known: Sequence[LegJacobian | None] | None = None,
 ) -> list[LegJacobian]:
     """The Jacobians at the real poses; the precision rises until each is decided.
 
@@ -101,13 +101,13 @@ def pose_jacobians(
     ----------
     ranks : sequence of int or None
         Exact ranks where they are known (``singularity``); None at poses that are proved simple.
-    known : callable, optional
-        Gives those that need not be looked for, for the length that measures turns.
+    known : sequence of LegJacobian or None, optional
+        Those that need not be looked for.
     """
     length, full = characteristic_length(problem), problem.motion.dimension
     found: list[LegJacobian | None] = [
         before if rank is None or rank == full else LegJacobian(0, rank, _ZERO, None, length)
-        for rank, before in zip(ranks, known(length) if known else [None] * len(ranks), strict=True)
+        for rank, before in zip(ranks, known or [None] * len(ranks), strict=True)
     ]
     precision = LEAST_PRECISION
     while None in found:
