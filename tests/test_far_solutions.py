@@ -80,16 +80,16 @@ def test_points_that_are_no_solutions_prove_nothing() -> None:
     system, isolated = certified_solutions(problem, seeds(problem))
     boxes = [box for box in isolated.pairs if box.exponents[0] in TRIED]
     points = np.array([[complex(entry.mid()) for entry in centre(system, box).entries()] for box in boxes])
-    assert far_solutions.far_solutions(system, points).boxes == boxes
-    assert far_solutions.far_solutions(system, points.conj()).boxes == boxes
+    assert far_solutions.far_solutions([system], [points])[0].boxes == boxes
+    assert far_solutions.far_solutions([system], [points.conj()])[0].boxes == boxes
     random = np.random.default_rng(2)
     for size in (1e-12, 1e-9, 1e-6, 1e-2):
         moved: Any = points * (1 + size * random.standard_normal(points.shape))
-        for far, box in zip(far_solutions.far_solutions(system, moved).boxes, boxes, strict=True):
+        for far, box in zip(far_solutions.far_solutions([system], [moved])[0].boxes, boxes, strict=True):
             assert far in (None, box)
     useless: list[Any] = [0 * points, points * np.nan, points[:0], points * 1e300]
     for wrong in useless:
-        assert far_solutions.far_solutions(system, wrong).boxes == [None] * len(wrong)
+        assert far_solutions.far_solutions([system], [wrong])[0].boxes == [None] * len(wrong)
 
 
 BOUNDS = [
@@ -160,5 +160,5 @@ def test_an_equation_that_is_a_multiple_of_another_is_left_to_others() -> None:
     system = ChartSystem(ForwardProblem((legs[0], legs[0], legs[1]), motion=PLANAR), (3, -1, 0, 0))
     assert system.in_doubles is not None
     assert system.mixed is None
-    found = far_solutions.far_solutions(system, np.ones((1, 4), dtype=complex))
+    found = far_solutions.far_solutions([system], [np.ones((1, 4), dtype=complex)])[0]
     assert found.boxes == [None]

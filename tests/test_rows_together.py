@@ -12,7 +12,9 @@ from samples import model
 
 from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_krawczyk import DoubleEquations
+from pkm_exact.numeric.poses import poses_in_doubles
 from pkm_exact.numeric.rows_together import rows_together
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.policy import Policy
@@ -72,3 +74,39 @@ def test_stacked_equations_are_those_of_each() -> None:
         for name in ("jacobians", "variations"):
             part, whole = getattr(equations, name)(points[rows]), getattr(together, name)(points)[rows]
             assert np.allclose(part, whole, rtol=1e-14, atol=0)
+
+
+@pytest.mark.parametrize("name", [pytest.param("mourrain-l", marks=pytest.mark.slow), "3-rpr-merlet-p"])
+def test_rows_keep_what_doubles_tell_of_their_own_poses(name: str) -> None:
+    """Jacobians depend on the lengths of the row."""
+    problems = _problems(name, 3)
+    solver = RowSolver.of(problems, DEFAULT_WIDTH, Policy())
+    rows: list[Any] = solver.near(problems)
+    alone = [poses_in_doubles([(row.system, row.isolated)], DEFAULT_WIDTH)[0] for row in rows]
+    assert [row.poses.jacobians for row in rows] == [found.jacobians for found in alone]
+    assert [row.poses.cells for row in rows] == [found.cells for found in alone]
+    assert rows[0].poses.jacobians != rows[1].poses.jacobians
+
+
+@pytest.mark.slow
+def test_rows_of_a_robot_near_singular_poses_are_seeded_by_the_template() -> None:
+    problems = _problems("dietmaier", 5)
+    solver = RowSolver.of(problems, DEFAULT_WIDTH, Policy())
+    assert solver.start is not None
+    assert solver.start.home is None
+    rows = solver.near(problems)
+    assert None not in rows
+    for problem, row in zip(problems, rows, strict=True):
+        together, alone = solver.solution(problem, row), solve_krawczyk(problem)
+        assert (together.isolated, together.poses) == (alone.isolated, alone.poses)
+
+
+def test_points_of_several_problems_are_chosen_in_equal_numbers() -> None:
+    problems = _problems("3-rpr-merlet-p", 3)
+    single = [ChartSystem(problem, (3, -1, 2, 1)).in_doubles for problem in problems]
+    together = DoubleEquations.stacked([equations for equations in single if equations is not None])
+    assert together is not None
+    chosen = np.array([0, 2, 9])
+    assert together.places(chosen, 12).tolist() == [0, 2, 4, 5, 9, 8]
+    assert single[0] is not None
+    assert single[0].places(chosen, 12).tolist() == [0, 2, 9]

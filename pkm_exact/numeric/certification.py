@@ -8,6 +8,7 @@ holds no real solution, and the conjugate box holds another one. What is neither
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
@@ -55,7 +56,7 @@ def isolated_solutions(
     watch : callable, optional
         Gets how many solutions are certified, after each grid.
     known : DoubleBoxes, optional
-        Of these points, none of which is the conjugate of another one.
+        Of these points, none of which is the conjugate of another one; far ones included (``add_far_solutions``).
     """
     boxes, points = _in_doubles(system, points if known else without_conjugates(points), known)
     found: dict[Box, acb_mat | Complex] = {box: point for box, point in zip(boxes, points, strict=True) if box}
@@ -92,14 +93,21 @@ def _in_doubles(system: ChartSystem, points: Complex, known: DoubleBoxes | None)
     if system.in_doubles is None:
         return [None] * len(points), points
     found = double_boxes(system.in_doubles, points, GRIDS[0]) if known is None else known
-    rest = [place for place, box in enumerate(found.boxes) if box is None]
-    if rest:
-        far = far_solutions(system, found.points[rest])
-        for place, box, solution in zip(rest, far.boxes, far.solutions, strict=True):
-            found.boxes[place], found.solutions[place] = box, solution
+    if known is None:
+        add_far_solutions([system], [found])
     pairs = zip(found.boxes, found.solutions, strict=True)
     system.double_solutions.update({box: solution for box, solution in pairs if box and solution})
     return [box if box is not None and _is_decided(box) else None for box in found.boxes], found.points
+
+
+def add_far_solutions(systems: Sequence[ChartSystem], found: Sequence[DoubleBoxes]) -> None:
+    """The boxes of those solutions of each system that doubles alone did not suffice for."""
+    rest = [[place for place, box in enumerate(boxes.boxes) if box is None] for boxes in found]
+    if any(rest):
+        points = [boxes.points[places] for boxes, places in zip(found, rest, strict=True)]
+        for boxes, places, far in zip(found, rest, far_solutions(systems, points), strict=True):
+            for place, box, solution in zip(places, far.boxes, far.solutions, strict=True):
+                boxes.boxes[place], boxes.solutions[place] = box, solution
 
 
 @dataclass(frozen=True, eq=False)

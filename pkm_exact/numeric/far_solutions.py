@@ -9,6 +9,7 @@ doubtful which grid is the first, is left to ``certification``.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -31,7 +32,7 @@ from pkm_exact.numeric.double_krawczyk import SLACK, DoubleEquations, DoubleSolu
 from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U
 from pkm_exact.numeric.grids import GRIDS, WIDEST
 from pkm_exact.numeric.study_system import Complex, Real
-from pkm_exact.poses.isolated_solutions import RADIUS, ROOM
+from pkm_exact.poses.isolated_solutions import RADIUS, ROOM, Box
 
 BITS: Final = 128
 """Of the units of points."""
@@ -39,10 +40,62 @@ TRIED: Final = (44, 72)
 """Grids that are tried here."""
 STEPS: Final = 5
 """Newton steps at most."""
-CLOSE: Final = 2.0**-4
-"""Steps that are this small, in units of the finest grid, are the last ones."""
+CLOSE: Final = 2.0**-10
+"""Points of which steps are this small, in units of the finest grid, are not moved any more."""
 LARGEST: Final = 2.0**200
 """Coordinates are smaller."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Equations:
+    """Those of one robot, or of several: stacked, with as many points for each.
+
+    Attributes
+    ----------
+    several : sequence of MixedEquations
+        Of each robot.
+    mixed, original : DoubleEquations
+        G and F.
+    mixing : (k, n, n) array
+        A of each robot.
+    """
+
+    several: Sequence[MixedEquations]
+    mixed: DoubleEquations
+    original: DoubleEquations
+    mixing: Real
+
+    @classmethod
+    def of(cls, systems: Sequence[ChartSystem]) -> _Equations | None:
+        """None where numbers are too large, or equations differ too much to be stacked."""
+        several = [entry for system in systems if (entry := system.mixed) is not None]
+        originals = [plain for system in systems if (plain := system.in_doubles) is not None]
+        if len(several) < len(systems) or not systems:
+            return None
+        mixed: DoubleEquations | None = several[0].equations
+        original: DoubleEquations | None = originals[0]
+        if len(systems) > 1:
+            mixed = DoubleEquations.stacked([entry.equations for entry in several])
+            original = DoubleEquations.stacked(originals)
+        if mixed is None or original is None:
+            return None
+        return cls(several, mixed, original, np.stack([entry.mixing for entry in several]))
+
+    def values(self, points: Integers, chosen: NDArray[np.bool_]) -> NDArray[np.complex128]:
+        """(p, n): G at those points that are chosen, in units of 2^-BITS; both parts are rounded once."""
+        found = []
+        for mixed, rows in zip(self.several, np.array_split(np.arange(len(points)), len(self.several)), strict=True):
+            here = rows[chosen[rows]].tolist()
+            if here:
+                found.append(mixed.values([points[row] for row in here], BITS))
+        return np.concatenate(found)
+
+    def variations(self, inverses: NDArray[Any], radii: Real, are_real: NDArray[np.bool_]) -> Real:
+        """(p, n, n): how much Y A F' varies, entry by entry, when it is computed as by balls: in F, not in G."""
+        plain = inverses @ self.mixing.repeat(len(inverses) // len(self.mixing), axis=0)
+        sizes = np.abs(plain.real) + np.abs(plain.imag)
+        found: Real = np.where(are_real, 1.0, 2.0)[:, None, None] * (sizes @ self.original.variations(radii))
+        return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +109,7 @@ class _Limits:
     near : (p, n) array
         The same, rounded.
     inverses : (p, n, n) array
-        Of G' there.
+        Of G' there or nearby.
     values : (p, n) array
         G there, both parts rounded once.
     """
@@ -67,57 +120,86 @@ class _Limits:
     values: NDArray[Any]
 
 
-def far_solutions(system: ChartSystem, points: Complex) -> DoubleBoxes:
+def far_solutions(systems: Sequence[ChartSystem], points: Sequence[Complex]) -> list[DoubleBoxes]:
     """The boxes of the solutions near the given points; None where it is not as usual.
 
     Parameters
     ----------
-    system : ChartSystem
-    points : (p, n) complex array
-        Approximate solutions.
+    systems : sequence of ChartSystem
+        Of one robot, or of several whose equations can be stacked.
+    points : sequence of (p, n) complex arrays
+        Approximate solutions of each.
     """
-    found = DoubleBoxes.none(points)
-    mixed, original = system.mixed, system.in_doubles
-    fit = np.isfinite(points).all(axis=1) & (np.abs(points) < LARGEST).all(axis=1) & points.any(axis=1)
-    places = np.flatnonzero(fit)
-    if mixed is None or original is None or not len(places):
+    found = [DoubleBoxes.none(there) for there in points]
+    places = [_fit(there) for there in points]
+    chosen = [row for row, fit in enumerate(places) if len(fit)]
+    equations = _Equations.of([systems[row] for row in chosen])
+    if equations is None:
         return found
-    begun, are_real = real_or_complex(points[places])
+    most = max(len(places[row]) for row in chosen)
+    rows = [[*places[row].tolist(), *[int(places[row][-1])] * (most - len(places[row]))] for row in chosen]
+    are_new = np.concatenate([np.arange(most) < len(places[row]) for row in chosen])
+    begun, are_real = real_or_complex(np.concatenate([points[row][at] for row, at in zip(chosen, rows, strict=True)]))
     with np.errstate(all="ignore"):
         try:
-            limits = _limits(mixed, begun, are_real)
+            limits = _limits(equations, begun, are_real, are_new)
         except OverflowError:
             return found
         left = (np.abs(limits.near - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
-        widths, usual = _widths((mixed, original), limits, are_real)
-        left &= usual & (widths.max(axis=1) > WIDEST)
-        grids = _grids(mixed.equations, limits.near, widths)
-        rows = np.flatnonzero(left & (grids > 0))
-        if len(rows):
-            _add_boxes((mixed, original), limits, (begun, grids), rows, (places, found))
+        widths, usual = _widths(equations, limits, are_real)
+        left &= usual & (widths.max(axis=1) > WIDEST) & are_new
+        grids = np.where(left, _grids(equations.mixed, limits.near, widths), 0)
+        if grids.any():
+            boxes, solutions = _boxes(equations, limits, begun, grids)
+            for number, (row, at) in enumerate(zip(chosen, rows, strict=True)):
+                for place, k in zip(at, range(most * number, most * (number + 1)), strict=True):
+                    if are_new[k]:
+                        found[row].boxes[place], found[row].solutions[place] = boxes[k], solutions[k]
     return found
 
 
-def _limits(mixed: MixedEquations, begun: NDArray[Any], are_real: NDArray[np.bool_]) -> _Limits:
-    parts = np.ldexp(np.stack([begun.real, begun.imag], axis=-1), BITS).tolist()
-    points: Integers = [[(int(a), int(b)) for a, b in row] for row in parts]
-    units = grids_of(mixed.equations, begun, max(TRIED))[1]
+def _fit(points: Complex) -> NDArray[np.intp]:
+    """Which points are not beyond what is done here."""
+    fit = np.isfinite(points).all(axis=1) & (np.abs(points) < LARGEST).all(axis=1) & points.any(axis=1)
+    return np.flatnonzero(fit)
+
+
+def _limits(
+    equations: _Equations, begun: NDArray[Any], are_real: NDArray[np.bool_], are_new: NDArray[np.bool_]
+) -> _Limits:
+    """From where it begins; points that are not new are the ones before them again."""
+    source = np.maximum.accumulate(np.where(are_new, np.arange(len(begun)), 0))
+    units = grids_of(equations.mixed, begun, max(TRIED))[1]
+    near, inverses = begun, inverses_at(equations.mixed, begun, are_real)
+    values: NDArray[Any] = equations.mixed.forms.at(begun)[0]
+    points: Integers = [[(int(a), int(b)) for a, b in row] for row in _parts(begun)]
+    moves = np.ones(len(begun), dtype=np.bool_)
     for number in range(STEPS):
-        near = _rounded(points, BITS, begun)
-        inverses = inverses_at(mixed.equations, near, are_real)
-        values: NDArray[Any] = mixed.values(points, BITS)
-        values = values if np.iscomplexobj(begun) else values.real
         steps = products(inverses, values)
         sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag))
-        if number == STEPS - 1 or not (sizes >= CLOSE * units).any():
+        # After the first step, values are as exact as asked for.
+        moves = np.isfinite(steps).all(axis=1) & ((sizes >= CLOSE * units).any(axis=1) | (number == 0))
+        if number and not moves.any():
             break
-        moves = np.ldexp(np.stack([steps.real, steps.imag], axis=-1), BITS)
-        moves[~np.isfinite(moves).all(axis=(1, 2))] = 0
         points = [
-            [(a - int(c), b - int(d)) for (a, b), (c, d) in zip(x, row, strict=True)]
-            for x, row in zip(points, moves.tolist(), strict=True)
+            [(a - int(c), b - int(d)) for (a, b), (c, d) in zip(x, row, strict=True)] if move else x
+            for x, row, move in zip(points, _parts(np.where(moves[:, None], steps, 0)), moves.tolist(), strict=True)
         ]
+        near = _rounded(points, BITS, begun)
+        inverses = inverses_at(equations.mixed, near, are_real)
+        asked = are_new & (moves | (number == 0))
+        if asked.any():
+            exact = equations.values(points, asked)
+            values[asked] = exact if np.iscomplexobj(begun) else exact.real
+        values = values[source]
+        points = [points[k] for k in source.tolist()]
     return _Limits(points, near, inverses, values)
+
+
+def _parts(values: NDArray[Any]) -> list[list[list[float]]]:
+    """Real and imaginary parts in units of 2^-BITS."""
+    found: list[list[list[float]]] = np.ldexp(np.stack([values.real, values.imag], axis=-1), BITS).tolist()
+    return found
 
 
 def _rounded(points: Integers, bits: int, like: NDArray[Any]) -> NDArray[Any]:
@@ -125,25 +207,12 @@ def _rounded(points: Integers, bits: int, like: NDArray[Any]) -> NDArray[Any]:
     return parts[..., 0] + 1j * parts[..., 1] if np.iscomplexobj(like) else parts[..., 0]
 
 
-def _widths(
-    equations: tuple[MixedEquations, DoubleEquations], limits: _Limits, are_real: NDArray[np.bool_]
-) -> tuple[Real, NDArray[np.bool_]]:
+def _widths(equations: _Equations, limits: _Limits, are_real: NDArray[np.bool_]) -> tuple[Real, NDArray[np.bool_]]:
     """How wide Y F'(X) is on the first grid, coordinate by coordinate, by the radii; where the grids are as usual."""
-    exponents, units, is_sure = grids_of(equations[0].equations, limits.near, max(TRIED))
+    exponents, units, is_sure = grids_of(equations.mixed, limits.near, max(TRIED))
     radii = RADIUS * np.ldexp(units, max(TRIED) - GRIDS[0])
-    widths = products(_variations(equations, limits.inverses, radii, are_real), radii) / radii
+    widths = products(equations.variations(limits.inverses, radii, are_real), radii) / radii
     return widths, is_sure & (max(TRIED) - exponents[:, 1] <= GRIDS[0])
-
-
-def _variations(
-    equations: tuple[MixedEquations, DoubleEquations], inverses: NDArray[Any], radii: Real, are_real: NDArray[np.bool_]
-) -> Real:
-    """(p, n, n): how much Y A F' varies, entry by entry, when it is computed as by balls: in F, not in G."""
-    mixed, original = equations
-    plain = inverses @ mixed.mixing
-    sizes = np.abs(plain.real) + np.abs(plain.imag)
-    found: Real = np.where(are_real, 1.0, 2.0)[:, None, None] * (sizes @ original.variations(radii))
-    return found
 
 
 def _grids(equations: DoubleEquations, near: NDArray[Any], widths: Real) -> NDArray[np.intp]:
@@ -165,24 +234,18 @@ def _grids(equations: DoubleEquations, near: NDArray[Any], widths: Real) -> NDAr
     return found
 
 
-def _add_boxes(
-    equations: tuple[MixedEquations, DoubleEquations],
-    limits: _Limits,
-    known: tuple[NDArray[Any], NDArray[np.intp]],
-    rows: NDArray[np.intp],
-    into: tuple[NDArray[np.intp], DoubleBoxes],
-) -> None:
-    """The boxes of some limits, as far as they are proved.
-
-    Parameters
-    ----------
-    known : (p, n) array, (p,) array
-        Where Newton's method began, and the grids of all limits.
-    """
-    (mixed, _), (begun, grids), (places, found) = equations, known, into
-    near, values, grid = limits.near[rows], limits.values[rows], grids[rows]
-    exponents, units, decided = grids_of(mixed.equations, near, grid)
-    halves = [index // 4 for index in mixed.equations.support]
+def _boxes(
+    equations: _Equations, limits: _Limits, begun: NDArray[Any], grids: NDArray[np.intp]
+) -> tuple[list[Box | None], list[DoubleSolution | None]]:
+    """The boxes of limits on these grids, as far as they are proved; none where the grid is 0."""
+    boxes: list[Box | None] = [None] * len(begun)
+    solutions: list[DoubleSolution | None] = [None] * len(begun)
+    mixed = equations.mixed
+    rows = mixed.places(np.flatnonzero(grids), len(begun))
+    grid = np.where(grids[rows] > 0, grids[rows], TRIED[0])
+    near, values = limits.near[rows], limits.values[rows]
+    exponents, units, decided = grids_of(mixed, near, grid)
+    halves = [index // 4 for index in mixed.support]
     shifts = [[BITS - row[half] for half in halves] for row in exponents.tolist()]
     points = [limits.points[row] for row in rows.tolist()]
     centres = [
@@ -195,20 +258,20 @@ def _add_boxes(
     ]
     middle = _rounded(centres, 0, near) * units
     are_real = np.logical_not(near.imag.any(axis=1))
-    inverses = inverses_at(mixed.equations, middle, are_real)
-    wider = _variations(equations, inverses, RADIUS * units, are_real)
+    inverses = inverses_at(mixed, middle, are_real)
+    wider = equations.variations(inverses, RADIUS * units, are_real)
     off = (np.abs(values.real) + np.abs(values.imag)) * U * OUTWARD + SMALL
     place = _rounded(beside, BITS, near), values, off
-    proofs = double_proofs(mixed.equations, inverses, middle, RADIUS * units, ROOM, place, wider)
+    proofs = double_proofs(mixed, inverses, middle, RADIUS * units, ROOM, place, wider)
     distance = np.maximum(np.abs(proofs.moved.real), np.abs(proofs.moved.imag)) + proofs.errors
-    decided &= proofs.proved & (distance < SURE * units).all(axis=1)
+    decided &= proofs.proved & (distance < SURE * units).all(axis=1) & (grids[rows] > 0)
     decided &= (np.abs(begun[rows] - middle) <= NEAR * np.ldexp(units, grid[:, None])).all(axis=1)
     decided &= are_real | middle.imag.any(axis=1)
     for row in np.flatnonzero(decided).tolist():
-        box, at = box_at(exponents[row].tolist(), centres[row], mixed.equations.support), places[rows[row]]
-        found.boxes[at] = box
+        box = boxes[rows[row]] = box_at(exponents[row].tolist(), centres[row], mixed.support)
         if box.is_real:
-            found.solutions[at] = _solution(points[row], near[row].real, proofs, row)
+            solutions[rows[row]] = _solution(points[row], near[row].real, proofs, row)
+    return boxes, solutions
 
 
 def _solution(point: list[tuple[int, int]], near: Real, proofs: Proofs, row: int) -> DoubleSolution:

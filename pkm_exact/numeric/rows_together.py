@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.numeric.certification import isolated_solutions, without_conjugates
+from pkm_exact.numeric.certification import add_far_solutions, isolated_solutions, without_conjugates
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_boxes import DoubleBoxes, double_boxes
 from pkm_exact.numeric.double_krawczyk import DoubleEquations
@@ -134,7 +134,9 @@ def _boxes(systems: dict[int, tuple[ChartSystem, Complex]]) -> dict[int, DoubleB
         if equations is not None:
             counts = [len(systems[row][1]) for row in rows]
             together: NDArray[Any] = np.concatenate([_padded(systems[row][1], max(counts)) for row in rows])
-            found |= dict(zip(rows, double_boxes(equations, together, GRIDS[0]).parts(counts), strict=True))
+            boxes = double_boxes(equations, together, GRIDS[0]).parts(counts)
+            add_far_solutions([systems[row][0] for row in rows], boxes)
+            found |= dict(zip(rows, boxes, strict=True))
     return found
 
 
