@@ -12,11 +12,16 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from random import Random
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 from samples import MODELS
 
 from pkm_exact.cli.main import main
+from pkm_exact.sweep.cluster import ClusterWorkers
+from pkm_exact.sweep.job import Answer
+from pkm_exact.sweep.lengths import LengthRow
 
 Capture = pytest.CaptureFixture[str]
 MODEL = next(str(path) for path in MODELS if path.stem == "3-rpr-merlet-p")
@@ -43,7 +48,9 @@ class Cluster:
         script = folder / "cluster.py"
         script.write_text(CLUSTER)
         command = [sys.executable, str(script), str(workers), str(folder / "dask")]
-        environment = os.environ | {"PYTHONPATH": str(Path(__file__).parent)}
+        here = Path(__file__).parent
+        # Workers run this very code, also where another copy is installed.
+        environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, (here, here.parent)))}
         self.process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,
@@ -210,3 +217,44 @@ def test_a_region_on_a_cluster_gives_the_same_bytes(tmp_path: Path, dask: Cluste
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
     assert main([*command, str(tmp_path / "c.json"), "--scheduler", dask.address, "--workers", "2"]) == 2
     assert not (tmp_path / "c.json").exists()
+
+
+class Killed(Exception):  # noqa: N818
+    """Dask's word for it."""
+
+
+def test_of_rows_that_are_sent_together_each_is_tried_alone_before_it_is_given_up() -> None:
+    sent: list[list[int]] = []
+
+    class Future:
+        def __init__(self, rows: list[LengthRow]) -> None:
+            self.rows = rows
+
+        def result(self, timeout: float) -> list[Answer]:
+            assert timeout > 0
+            if any(row.number == 3 for row in self.rows):
+                raise Killed
+            return [Answer(row.number, b"") for row in self.rows]
+
+    def submit(_solve: object, _job: object, rows: list[LengthRow], **_options: object) -> Future:
+        sent.append([row.number for row in rows])
+        return Future(rows)
+
+    def wait(futures: list[Future], **_options: object) -> SimpleNamespace:
+        return SimpleNamespace(done=set(futures))
+
+    client: Any = SimpleNamespace(submit=submit, nthreads=lambda: {"worker": 1})
+    dask: Any = SimpleNamespace(KilledWorker=Killed, CancelledError=Killed, wait=wait)
+    job: Any = None
+    workers = ClusterWorkers(dask, client, job)
+    assert workers.capacity >= 20
+    for number in range(1, 21):
+        workers.submit(LengthRow(number, number, ()))
+    answers: list[Answer] = []
+    while len(answers) < 20:
+        answers += workers.finished()
+    assert sent == [list(range(1, 11)), list(range(11, 21)), *([number] for number in range(1, 11))]
+    assert sorted(answer.number for answer in answers) == list(range(1, 21))
+    lines = {answer.number: answer.line for answer in answers}
+    assert b"was killed" in lines.pop(3)
+    assert set(lines.values()) == {b""}

@@ -26,7 +26,7 @@ from pkm_exact.solution import Solution
 METHODS: Final = ("krawczyk", "exact")
 SOME: Final = 5
 """Rows that tell whether they are near enough to each other."""
-TOGETHER: Final = 32
+TOGETHER: Final = 16
 """Rows that go through arrays together at most: they stay in the cache."""
 SHARED_START: Final = 3
 """Rows from which a start section of their own pays."""

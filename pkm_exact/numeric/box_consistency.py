@@ -72,9 +72,9 @@ def _have_room(boxes: Sequence[Box], chart: Sequence[int], combination: list[lis
     """
     try:
         matrix = np.array(combination, dtype=np.float64)
+        numbers = np.array([box.centre for box in boxes], dtype=np.float64)
     except OverflowError:
         return [False] * len(boxes)
-    numbers = np.array([box.centre for box in boxes], dtype=object).astype(np.float64)
     units = np.ldexp(1.0, -np.array([box.exponents for box in boxes])).repeat(4, axis=1)
     is_real = np.array([box.is_real for box in boxes])[:, None]
     x, radii = (numbers[..., 0] + 1j * numbers[..., 1]) * units, RADIUS * units

@@ -146,9 +146,9 @@ def far_solutions(systems: Sequence[ChartSystem], points: Sequence[Complex]) -> 
         except OverflowError:
             return found
         left = (np.abs(limits.near - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
-        widths, usual = _widths(equations, limits, are_real)
+        widths, units, usual = _widths(equations, limits, are_real)
         left &= usual & (widths.max(axis=1) > WIDEST) & are_new
-        grids = np.where(left, _grids(equations.mixed, limits.near, widths), 0)
+        grids = np.where(left, _grids(limits.near, units, widths), 0)
         if grids.any():
             boxes, solutions = _boxes(equations, limits, begun, grids)
             for number, (row, at) in enumerate(zip(chosen, rows, strict=True)):
@@ -186,7 +186,8 @@ def _limits(
             for x, row, move in zip(points, _parts(np.where(moves[:, None], steps, 0)), moves.tolist(), strict=True)
         ]
         near = _rounded(points, BITS, begun)
-        inverses = inverses_at(equations.mixed, near, are_real)
+        if number == 0:  # later ones are as good: what doubles know of derivatives out there is less than they change
+            inverses = inverses_at(equations.mixed, near, are_real)
         asked = are_new & (moves | (number == 0))
         if asked.any():
             exact = equations.values(points, asked)
@@ -207,16 +208,22 @@ def _rounded(points: Integers, bits: int, like: NDArray[Any]) -> NDArray[Any]:
     return parts[..., 0] + 1j * parts[..., 1] if np.iscomplexobj(like) else parts[..., 0]
 
 
-def _widths(equations: _Equations, limits: _Limits, are_real: NDArray[np.bool_]) -> tuple[Real, NDArray[np.bool_]]:
-    """How wide Y F'(X) is on the first grid, coordinate by coordinate, by the radii; where the grids are as usual."""
+def _widths(
+    equations: _Equations, limits: _Limits, are_real: NDArray[np.bool_]
+) -> tuple[Real, Real, NDArray[np.bool_]]:
+    """How wide Y F'(X) is on the first grid, coordinate by coordinate, by the radii; the units of that grid; where they
+    are as usual: on finer grids those of e and of f are smaller by the same factor."""
     exponents, units, is_sure = grids_of(equations.mixed, limits.near, max(TRIED))
-    radii = RADIUS * np.ldexp(units, max(TRIED) - GRIDS[0])
+    units = np.ldexp(units, max(TRIED) - GRIDS[0])
+    radii = RADIUS * units
     widths = products(equations.variations(limits.inverses, radii, are_real), radii) / radii
-    return widths, is_sure & (max(TRIED) - exponents[:, 1] <= GRIDS[0])
+    return widths, units, is_sure & (max(TRIED) - exponents[:, 1] <= GRIDS[0])
 
 
-def _grids(equations: DoubleEquations, near: NDArray[Any], widths: Real) -> NDArray[np.intp]:
-    """(p,): for each limit the first grid on which a proof is not hopeless; 0 for none of those that are tried.
+def _grids(near: NDArray[Any], units: Real, widths: Real) -> NDArray[np.intp]:
+    """(p,): for each limit the first grid of those that are tried on which a proof is not hopeless, or 0.
+
+    Units and widths are those on the first grid of all.
 
     With any matrix Y there is as much of the width as ``grids.first_grid`` says; and the limit is as far from the
     centre, in units, as the double next to it is, but for the rounding of that.
@@ -225,7 +232,7 @@ def _grids(equations: DoubleEquations, near: NDArray[Any], widths: Real) -> NDAr
     for grid in TRIED:
         narrower = np.ldexp(widths, GRIDS[0] - grid)
         width = narrower.max(axis=1, keepdims=True)
-        places = near / grids_of(equations, near, grid)[1]
+        places = near / np.ldexp(units, GRIDS[0] - grid)
         parts = np.stack([places.real, places.imag])
         apart = (np.abs(parts - np.rint(parts)) - 2 * U * np.abs(parts)).max(axis=0, initial=0)
         least = apart / RADIUS * (1 - width / 8) + narrower / (1 + width / 8)

@@ -1,18 +1,21 @@
 """Workers on a Dask cluster, by its scheduler's address. The package distributed is imported here only.
 
-FLINT's working precision belongs to a process: a process answers one row at a time, however many threads it has.
+Rows are sent some at a time, so that they go through arrays together. FLINT's working precision belongs to a process: a
+process answers one after another, however many threads it has.
 """
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from threading import Lock
 from time import monotonic
 from typing import Any, Final
 
 import pkm_exact
+from pkm_exact.batch.row_solver import TOGETHER
 from pkm_exact.errors import InputError, PkmExactError
 from pkm_exact.sweep.job import Answer, SweepJob
 from pkm_exact.sweep.lengths import LengthRow
@@ -21,18 +24,17 @@ from pkm_exact.wording import printable
 
 SECONDS: Final = 15
 """For the scheduler to answer, and as long again for its first worker."""
-ROWS_PER_THREAD: Final = 4
-"""Rows that are sent at the same time: what comes next is there before an answer is fetched."""
-LEAST_ROWS: Final = 32
+SENT_PER_THREAD: Final = 2
+"""So many times some rows are sent: what comes next is there before an answer is fetched."""
 SECONDS_WITHOUT_WORKERS: Final = 60
 
 _one_row = Lock()
 
 
-def solve_row(job: SweepJob, row: LengthRow) -> Answer:
+def solve_rows(job: SweepJob, rows: Sequence[LengthRow]) -> list[Answer]:
     """What a worker does."""
     with _one_row:
-        return job.answer(row)
+        return list(job.answers(rows))
 
 
 def version() -> str:
@@ -116,19 +118,30 @@ class ClusterWorkers:
 
     def __init__(self, distributed: Any, client: Any, job: SweepJob) -> None:
         self._distributed, self._client, self._job = distributed, client, job
-        self._rows: dict[Any, LengthRow] = {}
-        threads = sum(client.nthreads().values())
-        self.capacity = max(LEAST_ROWS, ROWS_PER_THREAD * threads)
+        self._rows: dict[Any, list[LengthRow]] = {}
+        self._waiting: deque[LengthRow] = deque()
+        self._most = SENT_PER_THREAD * max(1, sum(client.nthreads().values()))
+        self.capacity = TOGETHER * self._most
 
     def submit(self, row: LengthRow) -> None:
         """Let them answer a row."""
+        self._waiting.append(row)
+
+    def _send(self) -> None:
+        """All rows that wait, as many at a time as there are for each that can be sent."""
+        while self._waiting:
+            share = -(-len(self._waiting) // max(1, self._most - len(self._rows)))
+            self._start([self._waiting.popleft() for _ in range(min(TOGETHER, share))])
+
+    def _start(self, rows: list[LengthRow]) -> None:
         # The job is sent each time, 10 kB: what is scattered once is lost with the worker that has it.
-        self._rows[self._client.submit(solve_row, self._job, row, pure=False, priority=-row.number)] = row
+        self._rows[self._client.submit(solve_rows, self._job, rows, pure=False, priority=-rows[0].number)] = rows
 
     def finished(self) -> list[Answer]:
         """Wait until at least one of the rows that they have is answered; those that are."""
         idle_since = None
         while True:
+            self._send()
             answers = self._answers()
             if answers:
                 return answers
@@ -140,24 +153,29 @@ class ClusterWorkers:
         """Those that are there or come soon."""
         try:
             done = self._distributed.wait(list(self._rows), timeout=SECONDS, return_when="FIRST_COMPLETED").done
-            found = [(future, self._answer(future)) for future in done]
+            found = [(future, self._answers_of(future)) for future in done]
         except TimeoutError:
             return []
         except (Exception, self._distributed.CancelledError) as error:
             raise cluster_failure(error) from None
         for future, _ in found:
             del self._rows[future]
-        return [answer for _, answer in found]
+        return [answer for _, answers in found for answer in answers]
 
-    def _answer(self, future: Any) -> Answer:
-        """The answer; a worker that has it and is killed before it is fetched costs time only."""
+    def _answers_of(self, future: Any) -> list[Answer]:
+        """The answers; a worker that has them and is killed before they are fetched costs time only."""
         try:
-            answer: Answer = future.result(timeout=SECONDS)
+            answers: list[Answer] = future.result(timeout=SECONDS)
         except self._distributed.KilledWorker:
-            row, killed = self._rows[future], "every worker of the cluster that tried it was killed"
+            first, *others = rows = self._rows[future]
+            if others:
+                for row in rows:
+                    self._start([row])
+                return []
+            killed = "every worker of the cluster that tried it was killed"
             sentence = f"no answer: {killed}; perhaps the memory does not suffice"
-            return Answer(row.number, error_line(row, sentence))
-        return answer
+            return [Answer(first.number, error_line(first, sentence))]
+        return answers
 
 
 def cluster_failure(error: BaseException) -> PkmExactError:
