@@ -3,6 +3,7 @@
 import pytest
 from forged_local_algebras import FAR_TOO_DEAR, LABORIOUS, dear
 from forged_local_algebras import ROWS as LOCAL_ALGEBRAS
+from forged_products import ROWS as PRODUCTS
 from forged_strides import ROWS as STRIDES
 from forged_system_cases import ROWS
 from handmade_systems import Content, sealed_bytes
@@ -11,7 +12,7 @@ from tables_of_rows import merged
 from pkm_exact.certify import pure
 from pkm_exact.certify.check import check_bytes
 
-ALL = merged(ROWS, LOCAL_ALGEBRAS, STRIDES)
+ALL = merged(ROWS, LOCAL_ALGEBRAS, PRODUCTS, STRIDES)
 
 
 @pytest.mark.slow

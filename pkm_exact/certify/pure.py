@@ -795,16 +795,18 @@ class Multiples:
     X / 2, then P = h0 q, because both have the same value at X.
     Exact quotients are found from below, some bits at a time, modulo a power of 2, where the inverse of h0(X) is found
     once, by Newton's iteration (Hensel).
+    X may be chosen smaller, with ``spare`` bits instead of those for the greatest q: then a quotient, if it is longer
+    than usual, may be missed, but what is found still divides.
     """
 
-    def __init__(self, h0: Polynomial, bound: int, degrees: int = 2) -> None:
+    def __init__(self, h0: Polynomial, bound: int, degrees: int = 2, *, spare: int | None = None) -> None:
         self.h0 = h0
         number = (degrees - 1) * (len(h0) - 1) + 1
-        self.k = bound.bit_length() + number + size(h0).bit_length() + 2
+        self.k = bound.bit_length() + 2 + (number + size(h0).bit_length() if spare is None else spare)
         value = at_power(h0, self.k)
         self.zeros = (value & -value).bit_length() - 1
         self.odd = value >> self.zeros
-        self.step = self.k * min(len(h0), number + 1)
+        self.step = self.k * min(len(h0) + 1, number + 1)
         self.steps = -(-self.k * (number + 1) // self.step)
         spend(6 * product_cost(self.step, self.step))
         self.inverse, known = 1, 1

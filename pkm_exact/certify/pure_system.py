@@ -13,13 +13,14 @@ matrices of derivatives differ from those of the specification by powers of h' o
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from hashlib import sha256
-from itertools import combinations, pairwise
-from math import comb, gcd, isqrt, prod
+from itertools import combinations, islice, pairwise
+from math import comb, gcd, isqrt, lcm, prod
 from random import Random
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
 
@@ -426,47 +427,222 @@ class Points:
         ring = pure.Residues(g, m)
         return ring, Values([ring.element(each) for each in self.coordinates])
 
-    def vanish(self, forms: Sequence[Forms]) -> Iterator[bool]:
-        """Whether h0 divides the value of each form: forms of one degree share their products."""
-        answers = {}
-        stretched = Stretched(self.h0, self.coordinates)
-        for degree in sorted({sum(next(iter(form))) for form in forms}):
-            alike = [(place, form) for place, form in enumerate(forms) if sum(next(iter(form))) == degree]
-            bound = max(size_at(form, self.sizes) for _, form in alike)
-            multiples = pure.Multiples(stretched.h0, bound, max(degree, 2))
-            values = Values([pure.at_power(each, multiples.k) for each in stretched.coordinates], product_of_integers)
-            for place, form in alike:
-                parts = stretched.parts(form)
-                answers[place] = bool(degree) and all(multiples.include(values.value(part)) for part in parts)
-        return (answers[place] for place in range(len(forms)))
+    def vanish(self, polynomials: Sequence[pure.Terms]) -> list[bool]:
+        """Whether each polynomial is 0 at all points, the homogeneous coordinate being 1, or 0 and in no term."""
+        products = Products(self, polynomials)
+        parts = [products.parts(polynomial) for polynomial in polynomials]
+        holds = iter(products.divisible([part for each in parts for part in each]))
+        answers = [all(list(islice(holds, len(each)))) for each in parts]
+        return [bool(degree_of(each)) and answer for each, answer in zip(polynomials, answers, strict=True)]
 
 
-class Stretched:
-    """Points whose h0 is a polynomial in S = T^m, each coordinate being T^r times one in S, for the greatest such m.
+Halves: TypeAlias = tuple[pure.Monomial, pure.Monomial]
+Sums: TypeAlias = dict[tuple[Halves, int], int]
+"""A sum of products of two numerators and a power of S: the factor of each."""
 
-    A product of coordinates is T^(r_0 + r_1 + ..) times one in S. So a value is a sum of T^r V_r(S) with 0 <= r < m. h0
-    divides it if and only if it divides all V_r, as remainders of T^r V_r(T^m) have powers T^r, T^(r + m), .. only.
-    S itself is one more coordinate, the second: V_r is the value of a form with powers of it for r_0 + r_1 + .. - r.
+SPARE: Final = 32
+"""Bits by which a quotient may be longer than is usual before a bound for all quotients is asked for."""
+
+
+class Products:
+    """Numerators of products of coordinates, each proved from those of two shorter ones.
+
+    h0 is a polynomial in S = T^m, and h' = T^(m - 1) n_0, N_i = T^r n_i with 0 <= r < m and n_i in S, for the greatest
+    such m. So x_i = T^-o n_i / n_0, o = m - 1 - r, and a product x^a is T^-o n_a / n_0 with 0 <= o < m and n_a over Q
+    of a degree below that of h0 in S. As x^a = x^b x^c, n_b n_c - n_a n_0 S^e is a multiple of h0, where e = 1 if the
+    o of b and c sum to m or more, otherwise 0. A polynomial is 0 at all roots T of S if and only if its terms with the
+    same o sum to 0. So all there is to divide are sums of products of two. Each n_a is proposed by what it is modulo a
+    number, its coefficients being hardly longer than those of the coordinates as a rule, and proved by this equation.
     """
 
-    def __init__(self, h0: Polynomial, coordinates: Sequence[Polynomial]) -> None:
-        pure.spend(300 * sum(map(len, (h0, *coordinates))))
-        exponents = [[power for power, value in enumerate(each) if value] for each in coordinates]
-        steps = [power - each[0] for each in exponents for power in each]
-        self.m = m = gcd(*(power for power, value in enumerate(h0) if value), *steps)
-        self.starts = [each[0] % m if each else 0 for each in exponents]
-        first, *others = [each[start::m] for start, each in zip(self.starts, coordinates, strict=True)]
-        self.h0 = h0[::m]
-        self.coordinates = [first, [0, 1], *others]
+    def __init__(self, points: Points, polynomials: Sequence[pure.Terms]) -> None:
+        slope, numerators = pure.derivative(points.representation.h), points.representation.numerators
+        pure.spend(300 * sum(map(len, (points.h0, slope, *numerators))))
+        exponents = [[power for power, value in enumerate(each) if value] for each in (points.h0, slope, *numerators)]
+        self.m = m = gcd(*exponents[0], *(power - each[0] for each in exponents[1:] for power in each))
+        starts = [each[0] % m if each else 0 for each in exponents[1:]]
+        self.lacks = [m - 1 - start for start in starts[1:]]
+        self.h0 = points.h0[::m]
+        self.one = (0,) * len(numerators)
+        units = [tuple(int(i == k) for i in range(len(numerators))) for k in range(len(numerators))]
+        parts = [each[start::m] for start, each in zip(starts, (slope, *numerators), strict=True)]
+        self.known = {key: (1, part) for key, part in zip((self.one, *units), parts, strict=True)}
+        self.halves = halved(polynomials)
+        self.wanted = sorted({part for pair in self.halves.values() for part in pair if sum(part) > 1}, key=sum)
 
-    def parts(self, form: Forms) -> Collection[Forms]:
-        """A form for each V_r that has terms."""
-        found: dict[int, Forms] = {}
-        for monomial, value in form.items():
-            total = sum(start * exponent for start, exponent in zip(self.starts, monomial, strict=True))
-            power, *others = monomial
-            found.setdefault(total % self.m, {})[power, total // self.m, *others] = value
-        return found.values()
+    def lack(self, monomial: pure.Monomial) -> int:
+        """o."""
+        return sum(lack * exponent for lack, exponent in zip(self.lacks, monomial, strict=True)) % self.m
+
+    def carry(self, pair: Halves) -> int:
+        """e."""
+        return int(sum(map(self.lack, pair)) >= self.m)
+
+    def parts(self, polynomial: pure.Terms) -> list[pure.Terms]:
+        """The terms with each o."""
+        found: dict[int, dict[pure.Monomial, int]] = {}
+        for monomial, value in polynomial.items():
+            found.setdefault(self.lack(monomial), {})[monomial] = value
+        return list(found.values())
+
+    def divisible(self, parts: Sequence[pure.Terms]) -> list[bool]:
+        """Whether each of the sums is 0 at all points."""
+        bits = pure.most_bits(value for _, numerator in self.known.values() for value in numerator)
+        bits += bits // 16 + 64
+        while True:
+            if self.propose(bits):
+                sums = [self.defining(monomial) for monomial in self.wanted] + list(map(self.sums, parts))
+                for spare in (SPARE, None):
+                    answers = self.include(sums, spare)
+                    if all(answers):
+                        break
+                if all(answers[: len(self.wanted)]):
+                    return answers[len(self.wanted) :]
+            bits *= 2
+
+    def defining(self, monomial: pure.Monomial) -> Sums:
+        """a_b a_c (a_a n_b n_c - n_a n_0 S^e), which proves the numerator of a product."""
+        pair = self.halves[monomial]
+        scales = [self.known[each][0] for each in (monomial, *pair)]
+        return {(pair, 0): scales[0], ((self.one, monomial), self.carry(pair)): -scales[1] * scales[2]}
+
+    def sums(self, part: pure.Terms) -> Sums:
+        """The products for a part, with S^(1 - e) if m > 1: then 0 is no root of h0, which has no multiple ones."""
+        pairs = {monomial: self.halves.get(monomial, (self.one, monomial)) for monomial in part}
+        scales = {monomial: prod(self.known[each][0] for each in pair) for monomial, pair in pairs.items()}
+        bits = pure.most_bits(scales.values()) * len(part)
+        pure.spend(len(part) * (1000 + pure.division_cost(bits, bits)))
+        scale = lcm(*scales.values())
+        return {
+            (pairs[m], int(self.m > 1) - self.carry(pairs[m])): value * (scale // scales[m])
+            for m, value in part.items()
+        }
+
+    def include(self, sums: Sequence[Sums], spare: int | None) -> list[bool]:
+        """Whether h0 divides each sum: False is certain if ``spare`` is None."""
+        sizes = {key: max(pure.size(numerator), 1) for key, (_, numerator) in self.known.items()}
+        bounds = [sum(abs(value) * sizes[b] * sizes[c] for ((b, c), _), value in each.items()) for each in sums]
+        multiples = pure.Multiples(self.h0, max(bounds), spare=spare)
+        at: dict[pure.Monomial, int] = {}
+        products: dict[Halves, int] = {}
+
+        def product(pair: Halves) -> int:
+            if pair not in products:
+                for key in pair:
+                    if key not in at:
+                        at[key] = pure.at_power(self.known[key][1], multiples.k)
+                pure.spend(product_of_integers(at[pair[0]], at[pair[1]]))
+                products[pair] = at[pair[0]] * at[pair[1]]
+            return products[pair]
+
+        answers = []
+        for each in sums:
+            total = 0
+            for (pair, power), value in each.items():
+                pure.spend(product_of_integers(value, product(pair)))
+                total += value * product(pair) << power * multiples.k
+            answers.append(multiples.include(total))
+        return answers
+
+    def propose(self, bits: int) -> bool:
+        """Numerators for all products that are wanted, if their coefficients are not longer; nothing is proved of them.
+
+        They are what they are modulo a power of a prime and h0, there divided by n_0 and S^e.
+        """
+        if not self.wanted:
+            return True
+        ring, inverses = self.inverted(bits + bits // 16 + 32)
+        values = {key: pure.reduced(numerator, ring.m) for key, (_, numerator) in self.known.items() if sum(key) < 2}
+        quotients: dict[tuple[pure.Monomial, int], Polynomial] = {}
+        for monomial in self.wanted:
+            one, other = pair = self.halves[monomial]
+            key = other, self.carry(pair)
+            if key not in quotients:
+                quotients[key] = ring.product(values[other], inverses[key[1]])
+            values[monomial] = ring.product(values[one], quotients[key])
+            lifted = lifted_values([values[monomial]], ring.m, ring.m >> bits // 16 + 16)
+            if lifted is None:
+                return False
+            self.known[monomial] = lifted[0], lifted[1][0]
+        return True
+
+    def inverted(self, bits: int) -> tuple[LongResidues, list[Polynomial]]:
+        """Residues modulo a number of so many bits or more, and among them 1 / n_0 and, if m > 1, 1 / (n_0 S)."""
+        slope = self.known[self.one][1]
+        for p in pure.good_primes(self.h0):
+            ring = LongResidues(self.h0, p)
+            divisor = ring.product(pure.reduced(slope, p), [0, 1]) if self.m > 1 else pure.reduced(slope, p)
+            try:
+                inverse = pure.inverse_modulo(divisor, pure.reduced(self.h0, p), p)
+            except ValueError:
+                continue
+            power, most = 1, -(-bits // (p.bit_length() - 1))
+            while power < most:  # Newton's iteration
+                power = min(2 * power, most)
+                ring = LongResidues(self.h0, p**power)
+                divisor = pure.reduced(slope, ring.m)
+                divisor = ring.product(divisor, [0, 1]) if self.m > 1 else divisor
+                inverse = ring.product(inverse, less_two(ring.product(inverse, divisor), ring.m))
+            return ring, [ring.product(inverse, [0, 1]), inverse] if self.m > 1 else [inverse]
+        raise pure.Refusal("too-large", "polynomials: no prime at which the points are distinct was found")
+
+
+class LongResidues:
+    """Products in (Z / m)[S] / (g) by three of integers: quotients are found by the reciprocal of g, once for all."""
+
+    def __init__(self, g: Polynomial, m: int) -> None:
+        self.m = m
+        pure.spend(len(g) * (500 + pure.product_cost(m.bit_length(), m.bit_length())) + m.bit_length() ** 2 // 8)
+        inverse = pow(g[-1], -1, m)
+        self.g = [coefficient * inverse % m for coefficient in g]
+        reverse, self.reciprocal, known = self.g[::-1], [1], 1
+        while known < len(g):  # Newton's iteration, terms of a power series
+            known *= 2
+            rest = less_two(pure.product(reverse[:known], self.reciprocal, m)[:known], m)
+            self.reciprocal = pure.product(self.reciprocal, rest, m)[:known]
+
+    def product(self, a: Polynomial, b: Polynomial) -> Polynomial:
+        """The product."""
+        degree = len(self.g) - 1
+        whole = pure.product(a, b, self.m)
+        length = max(len(whole) - degree, 0)
+        if not length:
+            return whole
+        quotient = pure.product(whole[degree:][::-1], self.reciprocal[:length], self.m)[:length]
+        multiple = pure.product(pure.padded(quotient, length)[::-1], self.g, self.m)
+        return pure.reduced((x - y for x, y in zip(whole[:degree], multiple, strict=False)), self.m)
+
+
+def less_two(polynomial: Polynomial, m: int) -> Polynomial:
+    """2 less a polynomial, modulo m."""
+    return pure.reduced([2 - polynomial[0], *(-value for value in polynomial[1:])], m)
+
+
+def halved(polynomials: Sequence[pure.Terms]) -> dict[pure.Monomial, Halves]:
+    """Each monomial of degree 2 or more as a product of two, and so on: those that can be parts of many others."""
+    found: dict[pure.Monomial, Halves] = {}
+    pending = [monomial for polynomial in polynomials for monomial in polynomial]
+    often = Counter(part for monomial in pending for pair in runs(monomial) for part in pair)
+    while pending:
+        monomial = pending.pop()
+        if sum(monomial) > 1 and monomial not in found:
+            found[monomial] = min(runs(monomial), key=lambda pair: (-often[pair[0]] - often[pair[1]], pair))
+            pending += found[monomial]
+    return found
+
+
+def runs(monomial: pure.Monomial) -> list[Halves]:
+    """Half of the factors, one after another in a circle, and the others."""
+    factors = [place for place, exponent in enumerate(monomial) for _ in range(exponent)]
+    half = len(factors) // 2
+    pure.spend(len(factors) * (2000 + 200 * len(monomial)))
+    found = []
+    for start in range(len(factors)):
+        some = [0] * len(monomial)
+        for place in (factors + factors)[start : start + half]:
+            some[place] += 1
+        found.append((tuple(some), tuple(e - part for e, part in zip(monomial, some, strict=True))))
+    return found
 
 
 def finite_points(representation: pure.Representation) -> Points:
@@ -513,7 +689,7 @@ def combined(scalars: Sequence[int], numerators: Sequence[Polynomial], length: i
 def check_solutions(representation: pure.Representation, polynomials: Sequence[pure.Terms], where: str = "") -> str:
     """Check 3."""
     points = finite_points(representation)
-    for number, holds in enumerate(points.vanish(list(map(homogeneous, polynomials))), 1):
+    for number, holds in enumerate(points.vanish(polynomials), 1):
         pure.require(holds, f"{where}polynomials: number {number} is not 0 at every root of the eliminant")
     return f"{where}polynomials: all {len(polynomials)} are 0 at every root of the eliminant"
 
@@ -683,7 +859,7 @@ def lifted_part(slopes: Slopes, part: Part, p: int) -> Part | None:
     vectors = []
     for column, entries in part.kernel:
         values = [(slope * ring.element(entry)).polynomial() for entry in entries]
-        lifted = lifted_values(values, p)
+        lifted = lifted_values(values, p, isqrt(p) >> 8)
         if lifted is None:
             return None
         denominator, numerators = lifted
@@ -695,14 +871,17 @@ def lifted_part(slopes: Slopes, part: Part, p: int) -> Part | None:
     return Part(a, part.rank, part.pivots, ()) if are_orthogonal(slopes, a, vectors) else None
 
 
-def lifted_values(values: Sequence[Polynomial], p: int) -> tuple[int, list[Polynomial]] | None:
-    """A denominator and integer polynomials whose quotients are the given ones modulo p; None if they are not short."""
-    lead, bound = 1, isqrt(p) >> 8
+def lifted_values(values: Sequence[Polynomial], p: int, bound: int) -> tuple[int, list[Polynomial]] | None:
+    """A denominator and integer polynomials whose quotients are the given ones modulo p; None if they are not short.
+
+    Numerators are up to a bound, and the denominator times this is less than p by 16 bits.
+    """
+    lead = 1
     for value in (coefficient for each in values for coefficient in each):
         rest = value * lead % p
         if bound < rest < p - bound:
             lead *= pure.least_denominator(rest, p, bound)
-        if lead > bound:
+        if lead * bound > p >> 16:
             return None
     found = [[rest - p if 2 * (rest := value * lead % p) > p else rest for value in each] for each in values]
     short = all(abs(value) <= bound for each in found for value in each)
@@ -1372,8 +1551,7 @@ def check_infinity(certificate: Certificate, infinity: Infinity) -> None:
     pure.require(chart, "infinity: w.z is not 1 at the roots of the eliminant")
     points = Points(representation, [])
     forms = list(map(homogeneous, certificate.polynomials))
-    tops = [{m: value for m, value in form.items() if not m[0]} for form in forms]
-    for place, holds in enumerate(points.vanish(tops), 1):
+    for place, holds in enumerate(points.vanish(list(map(top_form, certificate.polynomials))), 1):
         pure.require(holds, f"infinity: polynomial {place} is not 0 at every point")
     weights = weighed(Slopes(points, forms, range(number + 1)), number)  # the kernel has the point, and c vectors more
     same = infinity.multiplicity == weights.total
