@@ -213,6 +213,15 @@ def _conjugate_twice(place: int) -> Content:
     return _with_pairs(pair, pair | {"chart": chart, "centre": centre})
 
 
+def _turned_conjugate(place: int) -> Content:
+    """The same in the chart (1 + i) w: its quantities are conjugate numbers times -i/2, with other real parts."""
+    content = own()
+    pair = content["pairs"][place]
+    conjugate = [pure.Gaussian(value.re, -value.im) for value in solution("pairs", place)]
+    chart = [[re + im, re - im] for re, im in pair["chart"]]
+    return _with_pairs(pair, fitted(content, in_chart(conjugate, chart, content["exponent"])))
+
+
 def _off(part: int) -> Content:
     """The last coordinate of a pair is one unit of the grid away."""
     content = own()
@@ -232,6 +241,10 @@ def _outer(pair: int, coordinate: int | None, factor: Fraction) -> Content:
 ALL: dict[str, Case] = {
     "N(e) is imaginary": (_upright, ACCEPTED),
     **{f"pair {place} and its conjugate": (partial(_conjugate_twice, place), REJECTED) for place in (0, 1)},
+    **{
+        f"pair {place} and its conjugate in another chart": (partial(_turned_conjugate, place), REJECTED)
+        for place in (0, 1)
+    },
     **{f"part {part} of the last coordinate is off": (partial(_off, part), REJECTED) for part in (0, 1)},
     "the outer box of a pair is narrower than imaginary parts of the image": (
         partial(_outer, 0, 3, Fraction(873, 1000)),
@@ -354,7 +367,23 @@ def _narrower(place: int, end: int) -> Content:
     return with_entry(content, ("boxes", 0, "quaternion", place, end), str(bound + unit))
 
 
+ANGLE = 462243512231002560884752346611459977816146043706547703856681032045417059208983911731
+"""How many times 2^-283 the rotation error is, where the sine of a quarter of it is half of the chord exactly."""
+
+
+def _turned_by(angle: int) -> Content:
+    """A tolerance of lengths that is less by 2^-282, for which the bound of the chord is an even number of units."""
+    content = limit("exact-tolerance-planar")
+    lengths = Fraction(content["tolerances"]["lengths"]) - Fraction(1, 1 << 282)
+    content = content | {"tolerances": content["tolerances"] | {"lengths": str(lengths)}}
+    return with_entry(content, ("boxes", 0, "rotation_error"), str(Fraction(angle, 1 << 283)))
+
+
 PLAIN_ENDS: dict[str, Case] = {
+    **{
+        f"a rotation error {less} units less than one that is proved": (partial(_turned_by, ANGLE - less), status)
+        for less, status in ((0, ACCEPTED), (1, REJECTED))
+    },
     **{
         f"coordinate {place} of a quaternion hardly narrower than is proved": (partial(_narrower, place, end), REJECTED)
         for place, end in ((0, 0), (3, 1))

@@ -91,7 +91,7 @@ def _large_and_small() -> list[list[int]]:
     certificate = pure_mechanism.read(body)
     sized = pure.sized_motion(certificate.representation, (1, 1, 1))
     bounds = pure_mechanism.determinants(pure_mechanism.Slopes(certificate.robot), sized, 2)
-    modulus = (1 << next(pure.prime_exponents(min(bound.size for bound in bounds).bit_length() + 1))) - 1
+    modulus = (1 << pure.exponent_above(min(bound.size for bound in bounds), 1)) - 1
 
     def minor(*columns: int) -> int:
         (x, y), (z, t) = ([row[column] for column in columns] for row in weights)

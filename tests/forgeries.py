@@ -129,6 +129,7 @@ def _near(distance: Fraction) -> Callable[[], Content]:
 
 
 STEP = Fraction(1, 1 << 32)
+"""Beyond it by 9 2^-4126, the enclosure that is the last to decide ends at it in the plain checker."""
 CELLS = {
     f"a coordinate at {name} from a grid point": Forgery(_near(distance), "accepted")
     for name, distance in {
@@ -138,6 +139,7 @@ CELLS = {
         "-3/2 2^-32": -STEP * 3 / 2,
         "2^-32 and 2^-3000": STEP + Fraction(1, 1 << 3000),
         "2^-32 and 2^-6000": STEP + Fraction(1, 1 << 6000),
+        "2^-32 and 9 2^-4126": STEP + Fraction(9, 1 << 4126),
         "-2^-32 and -2^-3000": -STEP - Fraction(1, 1 << 3000),
         "-2^-32 and -2^-6000": -STEP - Fraction(1, 1 << 6000),
         "2^-32 less 2^-3000": STEP - Fraction(1, 1 << 3000),

@@ -42,6 +42,11 @@ POWERS: dict[str, tuple[int, list[list[int]]]] = {
     "two close to 0, square roots": (2, [[-1, 2**140], [-3, 2**140]]),
     "four close to 0, cube roots": (3, [[-1, 2**210], [-3, 2**210], [1, 2**210], [3, 2**210]]),
     "a little below a whole number, and far out": (1, [[1 - 3 * 2**40, 1, *[0] * 18, -3 * 2**40, 1]]),
+    "a little below 1, and others on both sides": (1, [[-1, 1], [1 - NEAR, NEAR], [-1, 3], [-4, 3], [-5, 3]]),
+    "three so close that their slopes are enclosed from 0 on at first": (
+        1,
+        [[-1, 1], [-(2**280) - 3, 2**280], [1 - 2**281, 2**281]],
+    ),
     "fine but exact": (2, [[-1, 2**80], [-1, 2**82], [-3, 2**80]]),
 }
 """m, and the factors of the polynomial in S = T^m."""

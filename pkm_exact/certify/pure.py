@@ -858,8 +858,8 @@ def divided(a: Polynomial, b: Polynomial, p: int) -> tuple[Polynomial, Polynomia
         + (len(a) + steps * len(b)) * (300 + product_cost(bits, bits) + division_cost(bits, bits))
     )
     inverse = pow(b[-1], -1, p)
-    rest, quotient = list(a), [0] * max(len(a) - len(b) + 1, 0)
-    for place in reversed(range(len(quotient))):
+    rest, quotient = list(a), [0] * steps
+    for place in reversed(range(steps)):
         factor = quotient[place] = rest[place + len(b) - 1] * inverse % p
         if factor:
             for power, coefficient in enumerate(b, place):
