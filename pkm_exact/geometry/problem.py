@@ -45,6 +45,14 @@ class ForwardProblem:
     metric: tuple[int, int, int] = (1, 1, 1)
     motion: Motion = SPATIAL
 
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        """That of all its numbers: what is remembered of a problem is looked up several times in a solve."""
+        return hash((self.constraints, self.metric, self.motion))
+
     @property
     def distances(self) -> tuple[Distance, ...]:
         """The constraints of a robot all of whose constraints are legs of known length.

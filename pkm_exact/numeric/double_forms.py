@@ -24,6 +24,8 @@ from pkm_exact.numeric.study_system import Complex, Real
 BITS: Final = 22
 LEVELS: Final = 5
 """Of a number of size 1 at most, slice k is a multiple of 2^-(22 k + 22); what five slices lack is below 2^-110."""
+EXACT: Final = 2.0**53
+"""Integers below are doubles."""
 MOST_TERMS: Final = 100
 """Sums of 5 x 100 products of two slices, of 23 and 22 bits with their signs, are below 2^53 units."""
 LACKING: Final = 2.0**-95
@@ -69,18 +71,20 @@ class DoubleForms:
         """
         found = {place for polynomial in polynomials for place in polynomial}
         last = max(max(place) for place in found)
-        sorts = np.array([0] * (last + 1) if kinds is None else kinds, dtype=np.intp)
-        places = sorted(found, key=lambda place: (*sorted(sorts[list(place)].tolist()), place))
+        sorts = [0] * (last + 1) if kinds is None else kinds
+        places = sorted(found, key=lambda place: (*sorted((sorts[place[0]], sorts[place[1]])), place))
         if len(places) > MOST_TERMS:
             raise OverflowError("too many monomials")
         powers = [max(abs(value).bit_length() for value in polynomial.values()) for polynomial in polynomials]
         values = [polynomial.get(place, 0) for polynomial in polynomials for place in places]
         heads = [float(value) for value in values]
-        tails = [float(value - int(head)) if head else 0.0 for value, head in zip(values, heads, strict=True)]
+        tails = [
+            float(value - int(head)) if abs(head) >= EXACT else 0.0 for value, head in zip(values, heads, strict=True)
+        ]
         first, second = np.array(places, dtype=np.intp).reshape(-1, 2).T
         table = np.array([heads, tails]).reshape(2, len(polynomials), len(places))
         table = np.ldexp(table, -np.array(powers)[:, None])
-        return cls(first, second, table[0], table[1], np.array(powers), sorts)
+        return cls(first, second, table[0], table[1], np.array(powers), np.array(sorts, dtype=np.intp))
 
     @classmethod
     def stacked(cls, several: Sequence[DoubleForms]) -> DoubleForms | None:

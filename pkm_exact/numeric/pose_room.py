@@ -99,6 +99,8 @@ def _reach(middle: Real, radius: Real, base: Real, platform: Real, squares: Real
 
 def _moves(middle: Real, radius: Real, motion: Motion, axes: Real) -> NDArray[np.bool_]:
     """Whether the forms that vanish on all motions can be 0; where |C|^2 is in them, it is not said."""
+    if not motion.forms:
+        return np.ones(len(middle), dtype=np.bool_)
     forms = np.array(motion.forms, dtype=float).reshape(-1, SIZE)
     if forms[:, 0].any():
         return np.zeros(len(middle), dtype=np.bool_)
