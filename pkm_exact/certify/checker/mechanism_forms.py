@@ -16,16 +16,20 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
+from itertools import chain
 from math import lcm
 from types import MappingProxyType
 from typing import Any, Final, TypeAlias
 
-from flint import fmpq, fmpq_mat
+from flint import fmpz_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.study_motion import Metric, Motion, Point, combination
 
 Form: TypeAlias = tuple[Fraction, ...]
+Row: TypeAlias = tuple[int, ...]
+"""A form with integer coefficients."""
 
 SIZE: Final = 17
 _NAMES: Final = ("s", "u1", "u2", "u3", "c1", "c2", "c3", *(f"r{i}{j}" for i in "123" for j in "123"), "1")
@@ -33,38 +37,38 @@ _PLACE: Final = {name: place for place, name in enumerate(_NAMES)}
 _ZERO: Final = Fraction(0)
 
 
-def _form(**coefficients: Fraction | int) -> Form:
+def _form(**coefficients: int) -> Row:
     """The form with these coefficients; "one" is that of 1."""
-    row = [_ZERO] * SIZE
+    row = [0] * SIZE
     for name, value in coefficients.items():
-        row[_PLACE["1" if name == "one" else name]] = Fraction(value)
+        row[_PLACE["1" if name == "one" else name]] = value
     return tuple(row)
 
 
-def _turn_forms(metric: Metric) -> tuple[Form, ...]:
+def _turn_forms(metric: Metric) -> tuple[Row, ...]:
     """R turns about the third axis."""
     zeros = tuple(_form(**{name: 1}) for name in ("r13", "r23", "r31", "r32"))
     return (*zeros, _form(r33=1, one=-1), _form(r11=1, r22=-1), _form(r12=metric[0], r21=metric[1]))
 
 
-def _spatial(_metric: Metric) -> tuple[Form, ...]:
+def _spatial(_metric: Metric) -> tuple[Row, ...]:
     return ()
 
 
-def _planar(metric: Metric) -> tuple[Form, ...]:
+def _planar(metric: Metric) -> tuple[Row, ...]:
     return (_form(u3=1), _form(c3=1), *_turn_forms(metric))
 
 
-def _schoenflies(metric: Metric) -> tuple[Form, ...]:
+def _schoenflies(metric: Metric) -> tuple[Row, ...]:
     return (_form(u3=1, c3=-1), *_turn_forms(metric))
 
 
-def _translation(_metric: Metric) -> tuple[Form, ...]:
+def _translation(_metric: Metric) -> tuple[Row, ...]:
     fixed = tuple(_form(**{f"r{i}{j}": 1}, one=-int(i == j)) for i in (1, 2, 3) for j in (1, 2, 3))
     return (*fixed, *(_form(**{f"u{i}": 1, f"c{i}": -1}) for i in (1, 2, 3)))
 
 
-def _spherical(_metric: Metric) -> tuple[Form, ...]:
+def _spherical(_metric: Metric) -> tuple[Row, ...]:
     return tuple(_form(**{name: 1}) for name in ("s", "u1", "u2", "u3", "c1", "c2", "c3"))
 
 
@@ -89,7 +93,7 @@ class Group:
     degree: int
     plain_degree: int
     squareless_degree: int
-    forms: Callable[[Metric], tuple[Form, ...]]
+    forms: Callable[[Metric], tuple[Row, ...]]
     support: tuple[int, ...]
     twists: tuple[int, ...]
 
@@ -161,7 +165,7 @@ class Mechanism:
         return [constraint.quadric for constraint in self.constraints if constraint.quadric is not None]
 
     @property
-    def vanishing(self) -> tuple[Form, ...]:
+    def vanishing(self) -> tuple[Row, ...]:
         """The forms that vanish on all motions of the group."""
         return self.group.forms(self.metric)
 
@@ -169,19 +173,24 @@ class Mechanism:
         """The mechanism with further linear forms."""
         return Mechanism(self.group, self.metric, (*self.constraints, Constraint(tuple(forms))))
 
+    @cached_property
+    def integral(self) -> list[Row]:
+        """The linear forms, each times a denominator."""
+        return [tuple(cleared(form)) for form in self.linear]
+
     @property
     def rank(self) -> int:
         """The rank of the linear forms on the motions of the group."""
-        return rank_beside(self.linear, self.vanishing)
+        return self._rank_of(range(SIZE))
 
-    @property
+    @cached_property
     def bound(self) -> int:
         """No more isolated poses than this, by the degrees of the motions in different coordinates."""
-        group, cylinders, linear = self.group, len(self.quadrics), self.linear
+        group, cylinders = self.group, len(self.quadrics)
         bounds = [group.degree << cylinders, group.plain_degree << (cylinders + self._rank_of((0, 1, 2, 3)))]
         if not cylinders:
             bounds.append(group.plain_degree << self._rank_of((0, 4, 5, 6)))
-        if not any(form[0] for form in linear):
+        if not any(form[0] for form in self.integral):
             bounds.append(group.squareless_degree << cylinders)
         return min(bounds)
 
@@ -192,34 +201,30 @@ class Mechanism:
 
     def _rank_of(self, columns: Sequence[int]) -> int:
         """The rank of some columns of the linear forms, beside the forms that vanish on the group."""
-
-        def chosen(forms: Sequence[Form]) -> list[Form]:
-            return [tuple(form[column] for column in columns) for form in forms]
-
-        return rank_beside(chosen(self.linear), chosen(self.vanishing))
+        rows = [[form[column] for column in columns] for form in (*self.integral, *self.vanishing)]
+        return _rank(rows) - _rank(rows[len(self.integral) :])
 
 
-def rank_beside(forms: Sequence[Form], others: Sequence[Form]) -> int:
+def rank_beside(forms: Sequence[Form], others: Sequence[Row]) -> int:
     """The rank of some forms together with others, less that of the others."""
-    return _rank([*forms, *others]) - _rank(others)
+    return _rank([*map(cleared, forms), *others]) - _rank(others)
 
 
-def _rank(forms: Sequence[Form]) -> int:
-    return int(matrix(forms).rank()) if forms else 0
+def _rank(rows: Sequence[Sequence[int]]) -> int:
+    return int(matrix(rows).rank()) if rows else 0
 
 
-def matrix(forms: Sequence[Form]) -> fmpq_mat:
-    """The coefficients, a form in a row, of which the rank or the echelon form is asked."""
-    rows, columns = len(forms), len(forms[0])
-    words = columns * limbs(max(max(x.numerator.bit_length(), x.denominator.bit_length()) for f in forms for x in f))
-    charge(rows * columns * (2000 + min(rows, columns) * (500 + words * words // 2)))
-    return fmpq_mat([[fmpq(x.numerator, x.denominator) for x in form] for form in forms])
+def matrix(rows: Sequence[Sequence[int]]) -> fmpz_mat:
+    """Integer coefficients, a form in a row, of which the rank or the echelon form is asked."""
+    words = len(rows[0]) * limbs(max(map(int.bit_length, chain.from_iterable(rows))))
+    charge(len(rows) * len(rows[0]) * (2000 + min(len(rows), len(rows[0])) * (500 + words * words // 2)))
+    return fmpz_mat(rows)
 
 
 def cleared(form: Form) -> list[int]:
     """The form times the least common denominator of its coefficients."""
     denominator = lcm(*(value.denominator for value in form))
-    return [int(value * denominator) for value in form]
+    return [value.numerator * (denominator // value.denominator) for value in form]
 
 
 def quantities(placed: Motion) -> list[Any]:
@@ -237,7 +242,11 @@ def quadric_value(quadric: Quadric, values: Sequence[Any], norm: Any) -> Any:
 
 def product(metric: Metric, left: Sequence[Fraction], right: Sequence[Fraction]) -> Fraction:
     """The product of two vectors."""
-    return sum((g * x * y for g, x, y in zip(metric, left, right, strict=True)), _ZERO)
+    return _sum(_scaled(metric, left, 1), right)
+
+
+def _sum(left: Sequence[Fraction], right: Sequence[Fraction]) -> Fraction:
+    return left[0] * right[0] + left[1] * right[1] + left[2] * right[2]
 
 
 def _joined(
@@ -251,7 +260,7 @@ def _scaled(metric: Metric, vector: Sequence[Fraction], factor: int) -> list[Fra
 
 
 def _outer(metric: Metric, left: Sequence[Fraction], right: Sequence[Fraction], factor: int) -> list[Fraction]:
-    return [factor * metric[i] * left[i] * right[j] for i in range(3) for j in range(3)]
+    return [x * y for x in _scaled(metric, left, factor) for y in right]
 
 
 _NONE: Final = (_ZERO,) * 3
@@ -259,9 +268,9 @@ _NONE: Final = (_ZERO,) * 3
 
 def distance(metric: Metric, base: Point, platform: Point, square: Fraction) -> Constraint:
     """A leg of squared length ``square``."""
-    constant = product(metric, base, base) + product(metric, platform, platform) - square
     turned, position = _scaled(metric, platform, 2), _scaled(metric, base, -2)
-    form = _joined(1, turned, position, _outer(metric, base, platform, -2), constant)
+    constant = (_sum(turned, platform) - _sum(position, base)) / 2 - square
+    form = _joined(1, turned, position, [x * y for x in position for y in platform], constant)
     return Constraint((form,), leg=Leg(base, platform, square))
 
 

@@ -11,10 +11,8 @@ x_i (x_j c) = x_j (x_i c), c in a basis of A_(t-1), and no others.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from fractions import Fraction
 from functools import cache
-from itertools import combinations
-from math import lcm
+from itertools import chain, combinations
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
@@ -23,7 +21,7 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mat, fmpz_pol
 from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.elimination import Polynomial, echelon
 from pkm_exact.certify.checker.elimination import integers as over_integers
-from pkm_exact.certify.checker.mechanism_forms import SIZE, Form, Mechanism, cleared, matrix
+from pkm_exact.certify.checker.mechanism_forms import SIZE, Form, Mechanism, Row, cleared, matrix
 from pkm_exact.certify.checker.section import ORDER, Terms, motion_quadrics
 from pkm_exact.certify.checker.solutions import primes_for
 from pkm_exact.certify.checker.study_motion import Metric
@@ -66,7 +64,7 @@ class Section:
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
-        forms = [*mechanism.linear, *mechanism.vanishing]
+        forms = [*mechanism.integral, *mechanism.vanishing]
         while True:
             self.free, polynomials = _substituted(mechanism, forms)
             self.elements = echelon([over_integers(terms) for terms in polynomials])
@@ -84,12 +82,12 @@ class Section:
         """Whether a constant is among the elements: there is no pose."""
         return any(_degree(element) == 0 for element in self.elements)
 
-    def _as_form(self, element: Polynomial) -> Form:
+    def _as_form(self, element: Polynomial) -> Row:
         """A linear element, in all coordinates."""
-        form = [Fraction(0)] * SIZE
+        form = [0] * SIZE
         for monomial, value in element.items():
             place = next((self.free[k] for k, exponent in enumerate(monomial) if exponent), SIZE - 1)
-            form[_TO_ORDER[place]] = Fraction(value)
+            form[_TO_ORDER[place]] = value
         return tuple(form)
 
 
@@ -97,12 +95,11 @@ def _degree(element: Polynomial) -> int:
     return sum(next(iter(element)))
 
 
-def _substituted(mechanism: Mechanism, forms: Sequence[Form]) -> tuple[list[int], list[Terms]]:
+def _substituted(mechanism: Mechanism, forms: Sequence[Row]) -> tuple[list[int], list[Terms]]:
     """The unknowns that some forms leave, and the quadrics in them."""
-    ordered = [tuple(form[place] for place in _TO_ORDER) for form in forms]
     size = SIZE - 1
     charge(10**7 + 10**5 * len(forms))
-    solved, rank = matrix(ordered).rref() if ordered else (matrix([(Fraction(0),) * SIZE]), 0)
+    solved, lead, rank = matrix([[form[place] for place in _TO_ORDER] for form in forms] or [[0] * SIZE]).rref()
     pivots = [next(j for j in range(SIZE) if solved[row, j] != 0) for row in range(rank)]
     free = [j for j in range(size) if j not in pivots]
     ring = fmpq_mpoly_ctx.get(tuple(ORDER[j] for j in free), Ordering.degrevlex)
@@ -111,11 +108,9 @@ def _substituted(mechanism: Mechanism, forms: Sequence[Form]) -> tuple[list[int]
     values: list[fmpq_mpoly] = [ring.constant(1)] * size
     for j, unknown in zip(free, ring.gens(), strict=True):
         values[j] = unknown
+    units = [(j, tuple(int(j == other) for other in free)) for j in (*free, size)]
     for row, pivot in enumerate(pivots):
-        value = ring.constant(-solved[row, size])
-        for j in free:
-            value -= solved[row, j] * values[j]
-        values[pivot] = value
+        values[pivot] = ring.from_dict({unit: fmpq(-solved[row, j], lead) for j, unit in units})
     quadrics = motion_quadrics(values, mechanism.metric)
     everything = [*values, ring.constant(1)]
 
@@ -148,8 +143,8 @@ def solutions_at_most(mechanism: Mechanism) -> int | None:
 
 def _primes(mechanism: Mechanism) -> list[int]:
     """Primes on which no robot is built: they follow from it."""
-    forms = [*mechanism.linear, *(form for quadric in mechanism.quadrics for form in (quadric.whole, quadric.root))]
-    return list(primes_for(fmpz_poly([number for form in forms for number in cleared(form)])))[-_ATTEMPTS:]
+    others = (cleared(form) for quadric in mechanism.quadrics for form in (quadric.whole, quadric.root))
+    return list(primes_for(fmpz_poly([*chain(*mechanism.integral, *others)])))[-_ATTEMPTS:]
 
 
 def _pairs(terms: Mapping[tuple[int, ...], int]) -> dict[_Product, nmod | int]:
@@ -176,7 +171,7 @@ def is_finite(mechanism: Mechanism) -> bool:
 
 def _cut(mechanism: Mechanism, p: int, seed: int) -> tuple[list[dict[_Product, nmod | int]], int]:
     """The quadrics, homogeneous, modulo a prime, in the unknowns that all forms and a random one leave."""
-    forms = [_modulo(form, p) for form in (*mechanism.linear, *mechanism.vanishing)]
+    forms = [[value % p for value in form] for form in (*mechanism.integral, *mechanism.vanishing)]
     random = Random(seed)
     forms.append([random.randrange(p) for _ in range(SIZE)])
     solved, rank = nmod_mat(len(forms), SIZE, [value for form in forms for value in form], p).rref()
@@ -197,12 +192,6 @@ def _cut(mechanism: Mechanism, p: int, seed: int) -> tuple[list[dict[_Product, n
         pairs.update({(i, j): table[i][j] + table[j][i] for i, j in combinations(range(size), 2)})
         found.append(pairs)
     return found, size
-
-
-def _modulo(form: Form, p: int) -> list[int]:
-    """A multiple of the form over the integers, modulo a prime."""
-    denominator = lcm(*(value.denominator for value in form))
-    return [int(value * denominator) % p for value in form]
 
 
 @cache

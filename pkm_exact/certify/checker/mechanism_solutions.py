@@ -87,7 +87,7 @@ def rows(mechanism: Mechanism, placed: Motion) -> list[list[Any]]:
     That of a form is multiplied by N^2, that of a cylinder by N^3, each by a common denominator too: no row changes
     whether it depends on others.
     """
-    found = [_row(cleared(form), mechanism, placed) for form in mechanism.linear]
+    found = [_row(form, mechanism, placed) for form in mechanism.integral]
     for quadric in mechanism.quadrics:
         scale = lcm(*(value.denominator for form in (quadric.whole, quadric.root) for value in form))
         whole, root = ([int(value * scale) for value in form] for form in (quadric.whole, quadric.root))

@@ -106,7 +106,7 @@ def twists_of(joint: Joint) -> Rows:
     return turns + ([zero + axes[0]] if joint.type == "C" else [])
 
 
-def exact(value: Fraction) -> fmpq:
+def exact(value: Fraction | int) -> fmpq:
     return fmpq(value.numerator, value.denominator)
 
 

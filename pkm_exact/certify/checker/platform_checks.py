@@ -10,7 +10,7 @@ from typing import Any, Final
 from flint import fmpq, fmpq_mat, fmpz_mat
 
 from pkm_exact.certify.checker.budget import charge
-from pkm_exact.certify.checker.mechanism_forms import Constraint, Form, Mechanism, cleared, rank_beside
+from pkm_exact.certify.checker.mechanism_forms import Constraint, Form, Mechanism, Row, cleared, rank_beside
 from pkm_exact.certify.checker.mobility_machine import Rows, exact, proved, rank_of, words_of
 from pkm_exact.certify.checker.platform_document import AtPose, Everywhere, Placed, PlatformDocument
 from pkm_exact.certify.checker.study_motion import CYCLIC, Metric, motion
@@ -51,7 +51,7 @@ class _Pose:
         if any(self.value(form) for form in mechanism.vanishing):
             raise rejected(f"{where}: not one of the motions")
 
-    def value(self, form: Form) -> fmpq:
+    def value(self, form: Form | Row) -> fmpq:
         """The value of a form."""
         coefficients = [exact(x) for x in form]
         words = words_of([coefficients]) + words_of([self.values])

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Final
 
-from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
+from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Metric, leg_form
@@ -27,11 +27,11 @@ Terms = dict[tuple[int, ...], fmpq]
 
 def unknowns(legs: Sequence[Leg], metric: Metric) -> list[int]:
     """The places in ``ORDER`` of the coordinates that are the unknowns of the section."""
-    return _solved(legs, metric)[2]
+    return _solved(legs, metric)[3]
 
 
-def _solved(legs: Sequence[Leg], metric: Metric) -> tuple[fmpq_mat, list[int], list[int]]:
-    """The echelon form of the leg equations on ``ORDER`` and 1, the places of its pivots, and the other coordinates."""
+def _solved(legs: Sequence[Leg], metric: Metric) -> tuple[fmpz_mat, fmpz, list[int], list[int]]:
+    """A multiple of the echelon form of the leg equations on ``ORDER`` and 1, of which; its pivots; what they leave."""
     rows = []
     for leg in legs:
         form = leg_form(leg, metric)  # on (1, R, C, u, s)
@@ -40,26 +40,24 @@ def _solved(legs: Sequence[Leg], metric: Metric) -> tuple[fmpq_mat, list[int], l
         rows += [[int(name == fixed) for name in ORDER] + [constant] for fixed, constant in _PLANE]
     words = limbs(max(abs(value).bit_length() for row in rows for value in row))
     charge(10**6 + len(rows) * words * (10**5 + 3000 * words))
-    echelon, rank = fmpq_mat(rows).rref()
+    echelon, lead, rank = fmpz_mat(rows).rref()
     size = len(ORDER)
     pivots = [next(j for j in range(size + 1) if echelon[row, j] != 0) for row in range(rank)]
-    return echelon, pivots, [j for j in range(size) if j not in pivots]
+    return echelon, lead, pivots, [j for j in range(size) if j not in pivots]
 
 
 def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Terms]]:
     """Number of unknowns, and the quadrics that vanish at the poses (with 1, if no finite pose can exist)."""
-    echelon, pivots, free = _solved(legs, metric)
+    echelon, lead, pivots, free = _solved(legs, metric)
     size = len(ORDER)
     ring = fmpq_mpoly_ctx.get(tuple(ORDER[j] for j in free), Ordering.degrevlex)
     values: list[fmpq_mpoly] = [ring.constant(1)] * size
     for j, unknown in zip(free, ring.gens(), strict=True):
         values[j] = unknown
+    units = [(j, tuple(int(j == other) for other in free)) for j in (*free, size)]
     for row, pivot in enumerate(pivots):
         if pivot < size:
-            value = ring.constant(-echelon[row, size])
-            for j in free:
-                value -= echelon[row, j] * values[j]
-            values[pivot] = value
+            values[pivot] = ring.from_dict({unit: fmpq(-echelon[row, j], lead) for j, unit in units})
     quadrics = [ring.constant(1)] if size in pivots else []
     quadrics += motion_quadrics(values, metric)
     terms = [{tuple(map(int, key)): value for key, value in quadric.to_dict().items()} for quadric in quadrics]

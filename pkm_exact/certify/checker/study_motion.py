@@ -17,7 +17,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import lcm
+from math import gcd, lcm
+from operator import mul
 from typing import Any, TypeAlias
 
 Point: TypeAlias = tuple[Fraction, Fraction, Fraction]
@@ -106,19 +107,19 @@ def leg_form(leg: Leg, metric: Metric) -> list[int]:
     >>> leg_form(Leg(origin, origin, Fraction(1, 4)), (1, 1, 1))
     [-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4]
     """
-    a = [g * x for g, x in zip(metric, leg.base, strict=True)]
-    b = [g * x for g, x in zip(metric, leg.platform, strict=True)]
-    constant = sum((x * y for x, y in zip(a, leg.base, strict=True)), -leg.length_squared)
-    constant += sum((x * y for x, y in zip(b, leg.platform, strict=True)), Fraction(0))
+    scale = lcm(*(value.denominator for value in (*leg.base, *leg.platform)))
+    base, platform = ([int(value * scale) for value in point] for point in (leg.base, leg.platform))
+    a, b = ([g * x for g, x in zip(metric, point, strict=True)] for point in (base, platform))
+    square, part = leg.length_squared * scale**2, leg.length_squared.denominator
     row = [
-        constant,
-        *(-2 * x * y for x in a for y in leg.platform),
-        *(-2 * x for x in a),
-        *(2 * x for x in b),
-        Fraction(1),
+        part * (sum(map(mul, a, base)) + sum(map(mul, b, platform))) - int(square * part),
+        *(-2 * part * x * y for x in a for y in platform),
+        *(-2 * part * scale * x for x in a),
+        *(2 * part * scale * x for x in b),
+        part * scale**2,
     ]
-    denominator = lcm(*(value.denominator for value in row))
-    return [int(value * denominator) for value in row]
+    common = gcd(*row)
+    return [value // common for value in row]
 
 
 def combination(scalars: Sequence[int], values: Sequence[Any]) -> Any:
