@@ -8,15 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
-from itertools import islice
 from math import prod
 from typing import Any
 
-from flint import Ordering, fmpz_mpoly, fmpz_mpoly_ctx
+from flint import Ordering, fmpz, fmpz_mpoly, fmpz_mpoly_ctx
 from forged_system_cases import FIRST, Row, counted, one
 from handmade_systems import ENDS, Content, complete, hexadecimal, listed, multiplied, represented, trimmed
-
-from pkm_exact.certify.checker.residues import primes
 
 X, Y, Z = fmpz_mpoly_ctx.get(("x", "y", "z"), Ordering.lex).gens()
 Local = Callable[[Any, Any], tuple[fmpz_mpoly, ...]]
@@ -100,7 +97,7 @@ HIDDEN = (
     (15792, 35802),
     (23424, -106656),
 )
-"""Times any number, entries of an echelon form that the combinations of the checker's ``echelon`` do not show: 0."""
+"""Times any number, entries of an echelon form that twelve combinations of its rows and columns do not show: 0."""
 
 
 def hidden(places: tuple[int, ...], said: int = 4) -> Content:
@@ -108,7 +105,8 @@ def hidden(places: tuple[int, ...], said: int = 4) -> Content:
 
     The entries of their echelon form are 0 modulo those of the first primes that are named, and not modulo others.
     """
-    large = prod(list(islice(primes(), max(places)))[place - 1] for place in places)
+    primes = [number for number in range((1 << 63) - 25, (1 << 63) - 400, -2) if fmpz(number).is_prime()]
+    large = prod(primes[place - 1] for place in places)
     names = [f"x{i}" for i in range(10)]
     equations = [f"{names[i]}+{a * large}*x8+{b * large}*x9" for i, (a, b) in enumerate(HIDDEN)]
     a, b = (value * large for value in HIDDEN[0])

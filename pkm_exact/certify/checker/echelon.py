@@ -1,39 +1,29 @@
-"""The reduced echelon form of an integer matrix over Q, and the proof that it is that.
+"""The reduced echelon form of an integer matrix over Q.
 
-Of sparse rows: by rational arithmetic. Of the rows with a leading column the shortest one is subtracted from the
-others, until what is left is dense.
+Of sparse rows: by rational arithmetic, as long as that fills few places. A column in which a row begins is one of the
+pivots. The one with the fewest entries is eliminated, by its shortest row, whatever stands on the left of it; rows
+that begin where no row is asked for need not be reduced any further. What is left is a dense matrix.
 
-Of a dense matrix: from its images modulo primes. Let the image modulo each of some primes have the same pivots, r of
-them, and call A the matrix, B its columns at the pivots, C the others. Modulo each prime the image's other columns X
-fulfil B X = C. If an integer D and a small integer matrix N fulfil N = D X modulo the product M of the primes, M
-divides B N - D C; if moreover its entries, estimated, are smaller than M, then B N = D C. So each row of A is, over Q,
-a combination of the r rows (D, N), and A has rank r at most; it has rank r at least, as it has so modulo a prime. What
-is left of a pivot is 0 modulo M, therefore 0. So these rows, divided by D, are the reduced echelon form.
-
-N is found from as many of the primes as its size asks for; modulo the others it is compared.
+Of a dense matrix: FLINT's. How long that takes depends on how large the numbers in the result are. Before it is begun,
+they are estimated from one combination of its columns, which takes little; nothing else follows from it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Sequence
-from functools import lru_cache
-from math import gcd, isqrt, prod
+from collections.abc import Iterable, Sequence
+from collections.abc import Set as AbstractSet
+from heapq import heapify, heappop, heappush
+from math import gcd, lcm
+from operator import mul
 from typing import Final, NamedTuple, TypeAlias
 
-from flint import fmpz, fmpz_mat, nmod_mat
+from flint import fmpz_mat, nmod_mat
 
-from pkm_exact.certify.checker.budget import charge
-from pkm_exact.certify.checker.residues import centred, combined, images, primes
+from pkm_exact.certify.checker.budget import charge, limbs
 
-_COMBINATIONS: Final = 6
-"""Combinations of the columns that are looked at for their denominators."""
-_REPAIRS: Final = 8
-"""Times that a factor is added to a denominator that an entry shows to lack it."""
-_SLACK: Final = 16
-"""Bits by which a fraction must be smaller than what its residue could tell, both above and below."""
-
-_DENSE: Final = ((64, 3), (32, 2))
-"""More rows than these are dense if a shortest one has more than one entry in so many."""
+_PRIME: Final = (1 << 63) - 25
+_FILLED: Final = 100
+"""A pivot is taken if no more places than these can be filled on account of it."""
 
 Row: TypeAlias = dict[int, int]
 """Entries by column, none of them 0."""
@@ -48,112 +38,6 @@ class Echelon(NamedTuple):
     numerators: list[list[int]]
 
 
-class _Images:
-    """Images of one matrix modulo primes that agree in the pivots, the best ones known."""
-
-    def __init__(self, rows: int, columns: int) -> None:
-        self.shape = rows, columns
-        self.pivots: list[int] | None = None
-        self.others: list[int] = []
-        self.images: list[tuple[int, nmod_mat]] = []
-        self.integers: list[tuple[int, fmpz_mat]] = []
-        """Those of the images that were needed so far as integers."""
-        self.seen: list[tuple[int, fmpz_mat]] = []
-        """Some combinations of the entries of each image."""
-        self.due = 1
-        """With how many images a lifting is tried next."""
-
-    def add(self, p: int, echelon: nmod_mat, rank: int) -> None:
-        """Add the echelon form modulo one more prime; p is forgotten, or the others, if it has other pivots."""
-        pivots = _staircase(echelon, rank)
-        if pivots != self.pivots:
-            if self.pivots is not None and (-rank, pivots) > (-len(self.pivots), self.pivots):
-                return
-            self.pivots, self.others = pivots, sorted(set(range(self.shape[1])) - set(pivots))
-            self.images, self.integers, self.seen, self.due = [], [], [], 1
-        rows, columns = self.shape
-        size = len(self.others)
-        charge(rows * columns * size // 3)
-        chosen = nmod_mat(columns, size, p)
-        for place, column in enumerate(self.others):
-            chosen[column, place] = 1
-        part = echelon * chosen
-        self.images.append((p, part))
-        charge(_COMBINATIONS * (2000 + 100 * (rows + size) + rows * size // 2))
-        values = [
-            int(
-                (nmod_mat(1, rows, _weights(rows, base), p) * part * nmod_mat(size, 1, _weights(size, base + 1), p))[
-                    0, 0
-                ]
-            )
-            for base in range(3, 3 + 2 * _COMBINATIONS, 2)
-        ]
-        self.seen.append((p, fmpz_mat(1, _COMBINATIONS, values)))
-
-    def lifted(self, bits: int) -> Echelon | None:
-        """The echelon form over Q of a matrix with entries of that many bits, if these primes prove it."""
-        count, rank, size = len(self.images), len(self.pivots or ()), len(self.others)
-        if count < self.due:
-            return None
-        self.due = count + count // 8 + 1
-        denominator, expected = self._denominator()
-        if denominator is None:
-            return None
-        modulus, flat = prod(p for p, _ in self.images), self._numerators(denominator, expected // 62 + 2)
-        for _ in range(_REPAIRS):
-            largest = int(max(flat, key=abs, default=0))
-            least = (rank * abs(largest) + denominator) << bits
-            if least < modulus:
-                break
-            further = _denominator(largest % modulus, modulus)
-            if further == 1:
-                self.due = max(self.due, least.bit_length() // 63 + 1)
-            if further is None or further == 1:
-                return None
-            denominator *= further
-            charge(rank * size * (600 + 2 * count))
-            flat = [centred(value * further, modulus) for value in flat]
-        else:
-            return None
-        entries = [int(value) for value in flat]
-        numerators = [entries[start : start + size] for start in range(0, rank * size, size)] if size else [[]] * rank
-        return Echelon(self.pivots or [], self.others, denominator, numerators)
-
-    def _denominator(self) -> tuple[int | None, int]:
-        """A common denominator of X, seen in a few of its combinations, and the bits of these times it; or None.
-
-        A combination may lack a small prime factor of it, but hardly all.
-        """
-        modulus, residues = combined(self.seen, 1)
-        denominator = 1
-        for residue in residues if self.others else ():
-            further = _denominator(int(residue * denominator % modulus), modulus)
-            if further is None:
-                return None, 0
-            denominator *= further
-        numerators = [centred(residue * denominator, modulus) for residue in residues]
-        return denominator, max(int(value.bit_length()) for value in numerators)
-
-    def _numerators(self, denominator: int, few: int) -> list[fmpz]:
-        """The residues of D X that are nearest to 0: those from a few images, if the others have the same, or all."""
-        if few < len(self.images):
-            flat, others = self._lifted_from(few, denominator), self.images[few:]
-            rows, size = others[0][1].nrows(), len(self.others)
-            matrix = fmpz_mat(rows, size, flat + [0] * (rows * size - len(flat)))
-            found = images(matrix, [p for p, _ in others])
-            if all(image == part * denominator for (_, image), (_, part) in zip(found, others, strict=True)):
-                return flat
-        return self._lifted_from(len(self.images), denominator)
-
-    def _lifted_from(self, count: int, denominator: int) -> list[fmpz]:
-        """The residues of D X modulo the product of so many of the primes."""
-        rank, size = len(self.pivots or ()), len(self.others)
-        for p, part in self.images[len(self.integers) : count]:
-            charge(400 * rank * size)
-            self.integers.append((p, fmpz_mat(rank, size, [int(value) for value in part.entries()[: rank * size]])))
-        return combined(self.integers[:count], denominator)[1]
-
-
 def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     """The reduced echelon form of a matrix that is not 0.
 
@@ -163,20 +47,50 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     Echelon(pivots=[0, 2], others=[1], denominator=1, numerators=[[2], [0]])
     """
     rows, columns = len(table), len(table[0])
-    charge(200 * rows * columns)
-    sizes = [abs(value).bit_length() for row in table for value in row if value]
-    known = _Images(rows, columns)
-    elimination = rows * min(rows, columns) * columns // 3 + 20 * rows * columns
-    for p, image in images(fmpz_mat(table), primes()):
-        charge(elimination)
-        known.add(p, *image.rref())
-        found = known.lifted(max(sizes))
-        if found is not None:
-            return found
-    raise AssertionError("there are primes enough")
+    words = sum(limbs(value.bit_length()) for row in table for value in row)
+    charge(100 * rows * columns + 20 * words)
+    matrix = fmpz_mat(table)
+    elimination = rows * min(rows, columns) * columns // 3 + 50 * rows * columns
+    # Numerators and denominator, found modulo primes of about 60 bits each.
+    count = 2 + _bits(table, nmod_mat(matrix, _PRIME)) // 60
+    charge(count * (elimination + 12 * words + min(rows, columns) * columns * (100 + count)))
+    reduced, lead, rank = matrix.rref()
+    entries = [list(map(int, row)) for row in reduced.tolist()[: int(rank)]]
+    pivots = [next(column for column, value in enumerate(row) if value) for row in entries]
+    others = sorted(set(range(columns)) - set(pivots))
+    common = gcd(int(lead), *(value for row in entries for value in row)) * (1 if lead > 0 else -1)
+    numerators = [[row[column] // common for column in others] for row in entries]
+    return Echelon(pivots, others, int(lead) // common, numerators)
 
 
-def reduced_rows(rows: Iterable[Row], known: Container[int] = ()) -> dict[int, Row]:
+def _bits(table: Sequence[Sequence[int]], image: nmod_mat) -> int:
+    """About the size of the numbers in the reduced echelon form: that of one combination of its columns."""
+    rows, columns = len(table), len(table[0])
+    charge(2 * (rows * min(rows, columns) * columns // 3 + 50 * rows * columns))
+    chosen, pivots = (_staircase(*part.rref()) for part in (image.transpose(), image))
+    rank = len(pivots)
+    weights = [0 if column in pivots else 1 + column * column % 1009 for column in range(columns)]
+    sums = [sum(map(mul, weights, table[row])) for row in chosen]
+    square = [[table[row][column] for column in pivots] for row in chosen]
+    sizes = [max(map(int.bit_length, row)) + rank.bit_length() for row in square]
+    charge(rank**3 + (1 + sum(sizes) // 30) * rank**2 * (2 + limbs(max(sizes, default=0))))
+    found = fmpz_mat(square).solve(fmpz_mat(rank, 1, sums)).entries()
+    common = lcm(*(int(value.q) for value in found))
+    return common.bit_length() + max((int(value.height_bits()) for value in found), default=0)
+
+
+def _staircase(echelon: nmod_mat, rank: int) -> list[int]:
+    """The columns of the pivots of an echelon form."""
+    pivots: list[int] = []
+    column = 0
+    for row in range(rank):
+        while not echelon[row, column]:
+            column += 1
+        pivots.append(column)
+    return pivots
+
+
+def reduced_rows(rows: Iterable[Row], known: AbstractSet[int] = frozenset()) -> dict[int, Row]:
     """The rows of the reduced echelon form of a sparse matrix by pivot, each times what makes it coprime integers.
 
     Of pivots that are ``known`` not all are there.
@@ -186,43 +100,73 @@ def reduced_rows(rows: Iterable[Row], known: Container[int] = ()) -> dict[int, R
     >>> reduced_rows([{0: 2, 1: 4, 2: 6}, {0: 1, 1: 2, 2: 4}])
     {2: {2: 1}, 0: {0: 1, 1: 2}}
     """
-    waiting: dict[int, list[Row]] = {}
-    columns: set[int] = set()
-    for row in rows:
-        columns.update(row)
-        _sort_in(waiting, row)
-    width = len(columns)
-    steps: list[tuple[int, Row]] = []
-    needed: set[int] = set()
-    while waiting:
-        pivot = min(waiting)
-        first, *others = sorted(waiting[pivot], key=len)
-        number = sum(map(len, waiting.values()))
-        if _is_dense(len(first), number, width - pivot):
-            break
-        del waiting[pivot]
-        for other in others:
-            _sort_in(waiting, _without(pivot, other, first))
-        if pivot in needed or pivot not in known:
-            steps.append((pivot, first))
-            needed.update(first)
-    found = _of_dense([row for group in waiting.values() for row in group])
-    for pivot, row in reversed(steps):
+    sparse = _Sparse([row for row in rows if row])
+    steps = sparse.steps(known)
+    found = _of_dense(sparse.left())
+    # What is left has no entries in the columns of steps; where some are known, these are known.
+    for pivot, row in reversed([] if known else steps):
         for column in [column for column in row if column in found]:
             row = _without(column, row, found[column])
         found[pivot] = _primitive(row, row[pivot])
     return found
 
 
-def _is_dense(length: int, number: int, columns: int) -> bool:
-    """Whether a shortest row of so many entries, of so many rows with so many columns, says that these are dense."""
-    return any(number > many and share * length > columns for many, share in _DENSE)
+class _Sparse:
+    """Rows with the places of their entries, column by column, and the columns in which they begin."""
 
+    def __init__(self, rows: list[Row]) -> None:
+        self._rows = rows
+        self._places: dict[int, set[int]] = {}
+        for place, row in enumerate(rows):
+            for column in row:
+                self._places.setdefault(column, set()).add(place)
+        self._leads = {place: min(row) for place, row in enumerate(rows)}
+        self._waiting = [(len(self._places[column]), column) for column in set(self._leads.values())]
+        heapify(self._waiting)
 
-def _sort_in(waiting: dict[int, list[Row]], row: Row) -> None:
-    """Put a row, if it is not 0, to those with the same first column."""
-    if row:
-        waiting.setdefault(min(row), []).append(row)
+    def left(self) -> list[Row]:
+        """The rows that no step has used up."""
+        return [self._rows[place] for place in self._leads]
+
+    def steps(self, known: AbstractSet[int]) -> list[tuple[int, Row]]:
+        """Eliminate columns that a row begins in, of the known ones if any are known: the columns and their rows."""
+        found: list[tuple[int, Row]] = []
+        while self._waiting:
+            number, column = heappop(self._waiting)
+            there = self._places.get(column, set())
+            charge(2000 + 500 * len(there))
+            if len(there) > number:  # others have come since
+                heappush(self._waiting, (len(there), column))
+            elif there and (not known or column in known):
+                chosen = min(there, key=lambda place: (len(self._rows[place]), place))
+                if (len(there) - 1) * (len(self._rows[chosen]) - 1) <= _FILLED:
+                    found.append((column, self._rows[chosen]))
+                    self._eliminate(column, chosen)
+        return found
+
+    def _eliminate(self, column: int, chosen: int) -> None:
+        """Subtract a row from all others with an entry in a column."""
+        first = self._rows[chosen]
+        del self._leads[chosen]
+        for other in first:
+            self._places[other].discard(chosen)
+        for place in self._places.pop(column):
+            filled = first.keys() - self._rows[place].keys()
+            row = self._rows[place] = _without(column, self._rows[place], first)
+            for other in first.keys() - {column}:
+                if other in filled:
+                    self._places[other].add(place)
+                elif other not in row:
+                    self._places[other].discard(place)
+            self._begin(place, row)
+
+    def _begin(self, place: int, row: Row) -> None:
+        """Note where a row begins, if it is not 0."""
+        before = self._leads.pop(place)
+        if row:
+            self._leads[place] = lead = min(row)
+            if lead != before:
+                heappush(self._waiting, (len(self._places[lead]), lead))
 
 
 def _without(column: int, row: Row, other: Row) -> Row:
@@ -267,32 +211,3 @@ def _of_dense(rows: Sequence[Row]) -> dict[int, Row]:
         entries = {column: value for column, value in zip(others, numerators, strict=True) if value}
         found[columns[pivot]] = _primitive({columns[pivot]: form.denominator, **entries}, form.denominator)
     return found
-
-
-def _staircase(echelon: nmod_mat, rank: int) -> list[int]:
-    """The columns of the pivots of an echelon form."""
-    pivots: list[int] = []
-    column = 0
-    for row in range(rank):
-        while not echelon[row, column]:
-            column += 1
-        pivots.append(column)
-    return pivots
-
-
-@lru_cache(maxsize=64)
-def _weights(number: int, base: int) -> list[int]:
-    """Numbers without pattern."""
-    return [pow(base, 1000 + power, 65537) for power in range(number)]
-
-
-def _denominator(residue: int, modulus: int) -> int | None:
-    """That of the fraction with this residue, if one is clearly smaller than others would be (Wang 1981)."""
-    charge(modulus.bit_length() * (300 + modulus.bit_length() // 20))
-    bound = isqrt(modulus) >> _SLACK
-    older, newer, before, now = modulus, residue, 0, 1
-    while newer > bound:
-        quotient = older // newer
-        older, newer = newer, older - quotient * newer
-        before, now = now, before - quotient * now
-    return abs(now) if 0 < abs(now) <= bound else None
