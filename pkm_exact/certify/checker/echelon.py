@@ -17,7 +17,7 @@ from math import gcd, lcm
 from operator import mul
 from typing import Final, NamedTuple, TypeAlias
 
-from flint import fmpz_mat, nmod_mat
+from flint import fmpq, fmpz_mat, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 
@@ -46,37 +46,36 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     >>> echelon_form([[2, 4, 6], [1, 2, 4]])
     Echelon(pivots=[0, 2], others=[1], denominator=1, numerators=[[2], [0]])
     """
-    rows, columns = len(table), len(table[0])
-    words = sum(limbs(value.bit_length()) for row in table for value in row)
-    charge(100 * rows * columns + 20 * words)
     matrix = fmpz_mat(table)
-    elimination = rows * min(rows, columns) * columns // 3 + 50 * rows * columns
-    # Numerators and denominator, found modulo primes of about 60 bits each.
-    count = 2 + _bits(table, nmod_mat(matrix, _PRIME)) // 60
-    charge(count * (elimination + 12 * words + min(rows, columns) * columns * (100 + count)))
+    charge(_cost(table, nmod_mat(matrix, _PRIME)))
     reduced, lead, rank = matrix.rref()
     entries = [list(map(int, row)) for row in reduced.tolist()[: int(rank)]]
     pivots = [next(column for column, value in enumerate(row) if value) for row in entries]
-    others = sorted(set(range(columns)) - set(pivots))
+    others = sorted(set(range(len(table[0]))) - set(pivots))
     common = gcd(int(lead), *(value for row in entries for value in row)) * (1 if lead > 0 else -1)
     numerators = [[row[column] // common for column in others] for row in entries]
     return Echelon(pivots, others, int(lead) // common, numerators)
 
 
-def _bits(table: Sequence[Sequence[int]], image: nmod_mat) -> int:
-    """About the size of the numbers in the reduced echelon form: that of one combination of its columns."""
+def _cost(table: Sequence[Sequence[int]], image: nmod_mat) -> int:
+    """Operations for the echelon form, by the size of one combination of its columns, whose own are charged."""
     rows, columns = len(table), len(table[0])
-    charge(2 * (rows * min(rows, columns) * columns // 3 + 50 * rows * columns))
+    words = sum(limbs(value.bit_length()) for row in table for value in row)
+    elimination = rows * min(rows, columns) * columns // 3 + 50 * rows * columns
+    charge(2 * elimination + 20 * words)
     chosen, pivots = (_staircase(*part.rref()) for part in (image.transpose(), image))
     rank = len(pivots)
     weights = [0 if column in pivots else 1 + column * column % 1009 for column in range(columns)]
-    sums = [sum(map(mul, weights, table[row])) for row in chosen]
     square = [[table[row][column] for column in pivots] for row in chosen]
     sizes = [max(map(int.bit_length, row)) + rank.bit_length() for row in square]
     charge(rank**3 + (1 + sum(sizes) // 30) * rank**2 * (2 + limbs(max(sizes, default=0))))
-    found = fmpz_mat(square).solve(fmpz_mat(rank, 1, sums)).entries()
-    common = lcm(*(int(value.q) for value in found))
-    return common.bit_length() + max((int(value.height_bits()) for value in found), default=0)
+    sums = fmpz_mat(rank, 1, [sum(map(mul, weights, table[row])) for row in chosen])
+    found = fmpz_mat(square).solve(sums).entries()
+    bits = lcm(*(int(value.q) for value in found)).bit_length() + max(
+        int(value.height_bits()) for value in (*found, fmpq(1))
+    )
+    primes = 2 + bits // 60  # of about so many bits each
+    return primes * (elimination + 12 * words + min(rows, columns) * columns * (100 + primes))
 
 
 def _staircase(echelon: nmod_mat, rank: int) -> list[int]:
