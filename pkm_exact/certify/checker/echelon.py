@@ -17,7 +17,7 @@ from math import gcd, lcm
 from operator import mul
 from typing import Final, NamedTuple, TypeAlias
 
-from flint import fmpq, fmpz_mat, nmod_mat
+from flint import fmpz_mat, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 
@@ -44,23 +44,21 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     Examples
     --------
     >>> echelon_form([[2, 4, 6], [1, 2, 4]])
-    Echelon(pivots=[0, 2], others=[1], denominator=1, numerators=[[2], [0]])
+    Echelon(pivots=[0, 2], others=[1], denominator=2, numerators=[[4], [0]])
     """
     matrix = fmpz_mat(table)
     charge(_cost(table, nmod_mat(matrix, _PRIME)))
-    reduced, lead, rank = matrix.rref()
-    entries = [list(map(int, row)) for row in reduced.tolist()[: int(rank)]]
-    pivots = [next(column for column, value in enumerate(row) if value) for row in entries]
+    reduced, denominator, rank = matrix.rref()
+    pivots = _staircase(reduced, int(rank))
     others = sorted(set(range(len(table[0]))) - set(pivots))
-    common = gcd(int(lead), *(value for row in entries for value in row)) * (1 if lead > 0 else -1)
-    numerators = [[row[column] // common for column in others] for row in entries]
-    return Echelon(pivots, others, int(lead) // common, numerators)
+    numerators = [[int(row[column]) for column in others] for row in reduced.tolist()[: len(pivots)]]
+    return Echelon(pivots, others, int(denominator), numerators)
 
 
 def _cost(table: Sequence[Sequence[int]], image: nmod_mat) -> int:
     """Operations for the echelon form, by the size of one combination of its columns, whose own are charged."""
     rows, columns = len(table), len(table[0])
-    words = sum(limbs(value.bit_length()) for row in table for value in row)
+    words = sum(limbs(value.bit_length()) for row in table for value in row if value)
     elimination = rows * min(rows, columns) * columns // 3 + 50 * rows * columns
     charge(2 * elimination + 20 * words)
     chosen, pivots = (_staircase(*part.rref()) for part in (image.transpose(), image))
@@ -71,14 +69,13 @@ def _cost(table: Sequence[Sequence[int]], image: nmod_mat) -> int:
     charge(rank**3 + (1 + sum(sizes) // 30) * rank**2 * (2 + limbs(max(sizes, default=0))))
     sums = fmpz_mat(rank, 1, [sum(map(mul, weights, table[row])) for row in chosen])
     found = fmpz_mat(square).solve(sums).entries()
-    bits = lcm(*(int(value.q) for value in found)).bit_length() + max(
-        int(value.height_bits()) for value in (*found, fmpq(1))
-    )
+    heights = [int(value.height_bits()) for value in found]
+    bits = lcm(*(int(value.q) for value in found)).bit_length() + max(heights, default=0)
     primes = 2 + bits // 60  # of about so many bits each
     return primes * (elimination + 12 * words + min(rows, columns) * columns * (100 + primes))
 
 
-def _staircase(echelon: nmod_mat, rank: int) -> list[int]:
+def _staircase(echelon: nmod_mat | fmpz_mat, rank: int) -> list[int]:
     """The columns of the pivots of an echelon form."""
     pivots: list[int] = []
     column = 0
