@@ -66,7 +66,7 @@ def _cost(table: Sequence[Sequence[int]], image: nmod_mat) -> int:
     weights = [0 if column in pivots else 1 + column * column % 1009 for column in range(columns)]
     square = [[table[row][column] for column in pivots] for row in chosen]
     sizes = [max(map(int.bit_length, row)) + rank.bit_length() for row in square]
-    charge(rank**3 + (1 + sum(sizes) // 30) * rank**2 * (2 + limbs(max(sizes, default=0))))
+    charge(rank**3 + (1 + sum(sizes) // 30) * rank * (2 * rank + sum(map(limbs, sizes))))
     sums = fmpz_mat(rank, 1, [sum(map(mul, weights, table[row])) for row in chosen])
     found = fmpz_mat(square).solve(sums).entries()
     heights = [int(value.height_bits()) for value in found]
