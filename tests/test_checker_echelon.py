@@ -61,7 +61,7 @@ def _some_rows(rows: int, columns: int, filled: float, seed: str) -> list[dict[i
     random = Random(seed)
     table = [{k: random.randint(-9, 9) for k in range(columns) if random.random() < filled} for _ in range(rows)]
     table[-1] = {k: table[0].get(k, 0) + 2 * table[1].get(k, 0) for k in table[0] | table[1]}
-    return [{k: value for k, value in row.items() if value} for row in table]
+    return [row for row in ({k: value for k, value in row.items() if value} for row in table) if row]
 
 
 @pytest.mark.parametrize(

@@ -89,14 +89,14 @@ def _staircase(echelon: nmod_mat | fmpz_mat, rank: int) -> list[int]:
 def reduced_rows(rows: Iterable[Row], known: AbstractSet[int] = frozenset()) -> dict[int, Row]:
     """The rows of the reduced echelon form of a sparse matrix by pivot, each times what makes it coprime integers.
 
-    Of pivots that are ``known`` not all are there.
+    No row is 0. Of pivots that are ``known`` not all are there.
 
     Examples
     --------
     >>> reduced_rows([{0: 2, 1: 4, 2: 6}, {0: 1, 1: 2, 2: 4}])
     {2: {2: 1}, 0: {0: 1, 1: 2}}
     """
-    sparse = _Sparse([row for row in rows if row])
+    sparse = _Sparse(list(rows))
     steps = sparse.steps(known)
     found = _of_dense(sparse.left())
     # What is left has no entries in the columns of steps; where some are known, these are known.

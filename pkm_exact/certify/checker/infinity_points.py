@@ -17,7 +17,7 @@ from flint import fmpz_poly
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.mechanism_document import Infinity
-from pkm_exact.certify.checker.mechanism_forms import Mechanism
+from pkm_exact.certify.checker.mechanism_forms import Mechanism, cleared
 from pkm_exact.certify.checker.solutions import modulo, primitive_part, proved_coprime, vanishes
 from pkm_exact.certify.checker.study_motion import Metric, combination
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
@@ -41,7 +41,7 @@ def check_infinity(infinity: Infinity, mechanism: Mechanism) -> Iterator[str]:
         raise rejected("infinity: w.z is not 1 at the roots of the eliminant")
     if combination(infinity.separating_form, z) != fmpz_poly([0, 1]) * slope - h.degree() * h:
         raise rejected("infinity: the values of the separating form are not the roots of the eliminant")
-    if any(combination(form[:-1], z) for form in mechanism.integral):
+    if any(combination(cleared(form)[:-1], z) for form in mechanism.linear):
         raise rejected("infinity: a point is not on all constraints")
     if not all(vanishes(value, h0) for value in _quadrics(z, mechanism.metric)):
         raise rejected("infinity: a point is not one of the closure of the rigid motions")

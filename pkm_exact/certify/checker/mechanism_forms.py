@@ -186,11 +186,11 @@ class Mechanism:
     @cached_property
     def bound(self) -> int:
         """No more isolated poses than this, by the degrees of the motions in different coordinates."""
-        group, cylinders = self.group, len(self.quadrics)
+        group, cylinders, linear = self.group, len(self.quadrics), self.linear
         bounds = [group.degree << cylinders, group.plain_degree << (cylinders + self._rank_of((0, 1, 2, 3)))]
         if not cylinders:
             bounds.append(group.plain_degree << self._rank_of((0, 4, 5, 6)))
-        if not any(form[0] for form in self.integral):
+        if not any(form[0] for form in linear):
             bounds.append(group.squareless_degree << cylinders)
         return min(bounds)
 
@@ -205,9 +205,9 @@ class Mechanism:
         return _rank(rows) - _rank(rows[len(self.integral) :])
 
 
-def rank_beside(forms: Sequence[Form], others: Sequence[Row]) -> int:
+def rank_beside(forms: Sequence[Form], others: Sequence[Sequence[Fraction | int]]) -> int:
     """The rank of some forms together with others, less that of the others."""
-    return _rank([*map(cleared, forms), *others]) - _rank(others)
+    return _rank(list(map(cleared, [*forms, *others]))) - _rank(list(map(cleared, others)))
 
 
 def _rank(rows: Sequence[Sequence[int]]) -> int:
@@ -221,7 +221,7 @@ def matrix(rows: Sequence[Sequence[int]]) -> fmpz_mat:
     return fmpz_mat(rows)
 
 
-def cleared(form: Form) -> list[int]:
+def cleared(form: Sequence[Fraction | int]) -> list[int]:
     """The form times the least common denominator of its coefficients."""
     denominator = lcm(*(value.denominator for value in form))
     return [value.numerator * (denominator // value.denominator) for value in form]

@@ -97,7 +97,7 @@ def _has_symmetry(forms: Sequence[Form], mechanism: Mechanism, *, of_platform: b
     free = []
     for block in range(len(forms)):
         for form in mechanism.vanishing:
-            row = [0] * width
+            row: list[Fraction | int] = [_ZERO] * width
             row[SIZE * block : SIZE * (block + 1)] = form
             free.append(tuple(row))
     return rank_beside(rows, free) < len(rows)

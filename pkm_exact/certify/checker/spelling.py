@@ -178,13 +178,12 @@ def rational_text(value: object, where: str) -> str:
 
 def rational(value: object, where: str, digits: int = _RATIONAL_DIGITS) -> Fraction:
     """A rational number "p" or "p/q" in lowest terms, q > 1, each of at most 600 digits or another number of them."""
-    numerator, _, denominator = rational_text(value, where).partition("/")
-    if max(len(numerator), len(denominator)) > digits:
+    written = rational_text(value, where)
+    parts = written.split("/")
+    if max(map(len, parts)) > digits:
         raise too_large(f"{where}: more than {digits} digits")
-    if not denominator:
-        return Fraction(int(numerator))
-    number = Fraction(int(numerator), int(denominator))
-    if number.denominator != int(denominator) or denominator == "1":
+    number = Fraction(int(parts[0]), int(parts[-1]) if len(parts) == 2 else 1)
+    if str(number) != written:
         raise malformed(f"{where}: not in lowest terms")
     return number
 
