@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from hashlib import sha256
-from itertools import combinations, islice, pairwise
+from itertools import combinations, pairwise
 from math import comb, gcd, isqrt, lcm, prod
 from random import Random
 from typing import TYPE_CHECKING, Any, Final, NamedTuple, TypeAlias
@@ -430,10 +430,10 @@ class Points:
     def vanish(self, polynomials: Sequence[pure.Terms]) -> list[bool]:
         """Whether each polynomial is 0 at all points, the homogeneous coordinate being 1, or 0 and in no term."""
         products = Products(self, polynomials)
-        parts = [products.parts(polynomial) for polynomial in polynomials]
-        holds = iter(products.divisible([part for each in parts for part in each]))
-        answers = [all(list(islice(holds, len(each)))) for each in parts]
-        return [bool(degree_of(each)) and answer for each, answer in zip(polynomials, answers, strict=True)]
+        parts = [(place, part) for place, each in enumerate(polynomials) for part in products.parts(each)]
+        holds = products.divisible([part for _, part in parts])
+        wrong = {place for (place, _), answer in zip(parts, holds, strict=True) if not answer}
+        return [bool(degree_of(each)) and place not in wrong for place, each in enumerate(polynomials)]
 
 
 Halves: TypeAlias = tuple[pure.Monomial, pure.Monomial]
