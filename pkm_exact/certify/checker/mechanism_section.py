@@ -99,7 +99,8 @@ def _substituted(mechanism: Mechanism, forms: Sequence[Row]) -> tuple[list[int],
     """The unknowns that some forms leave, and the quadrics in them."""
     size = SIZE - 1
     charge(10**7 + 10**5 * len(forms))
-    solved, lead, rank = matrix([[form[place] for place in _TO_ORDER] for form in forms] or [[0] * SIZE]).rref()
+    ordered = [[form[place] for place in _TO_ORDER] for form in forms]
+    solved, lead, rank = matrix(ordered).rref() if ordered else (fmpz_mat(1, SIZE), 1, 0)
     pivots = [next(j for j in range(SIZE) if solved[row, j] != 0) for row in range(rank)]
     free = [j for j in range(size) if j not in pivots]
     ring = fmpq_mpoly_ctx.get(tuple(ORDER[j] for j in free), Ordering.degrevlex)
