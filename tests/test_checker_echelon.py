@@ -8,9 +8,10 @@ import pytest
 from flint import fmpq, fmpq_mat
 
 from pkm_exact.certify.checker import echelon
+from pkm_exact.certify.checker.budget import Budget, spending
 from pkm_exact.certify.checker.echelon import Echelon, echelon_form, reduced_rows
 
-FIRST = echelon._PRIME
+FIRST = (1 << 63) - 25
 
 
 def _chained(value: int) -> list[list[int]]:
@@ -53,8 +54,27 @@ def _whole(form: Echelon) -> list[list[Fraction]]:
         [[0, 0, 4]],
     ],
 )
-def test_forms_that_are_others_modulo_a_prime(table: list[list[int]]) -> None:
+def test_forms_that_are_others_modulo_a_prime(table: list[list[int]], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(echelon, "count", lambda _: [FIRST])
     assert _whole(echelon_form(table)) == _rational(table)
+
+
+def _charged(table: list[list[int]]) -> int:
+    budget = Budget(10**9)
+    with spending(budget):
+        echelon_form(table)
+    return budget.spent
+
+
+def test_no_matrix_takes_far_more_than_is_counted() -> None:
+    """Neither one that is small modulo some prime, nor columns which cancel with some weights."""
+    size, random = 14, Random(5)
+    table = [[random.getrandbits(300) for _ in range(size + 2)] for _ in range(size)]
+    common = [random.getrandbits(60) for _ in range(size + 2)]
+    one_row_modulo = [[FIRST * x + y for x, y in zip(row, common, strict=True)] for row in table]
+    cancelling = [[*row[:-2], row[-1] * (1 + (size + 1) ** 2), -row[-1] * (1 + size * size)] for row in table]
+    for other in (one_row_modulo, cancelling):
+        assert _charged(other) >= _charged(table)
 
 
 def _some_rows(rows: int, columns: int, filled: float, seed: str) -> list[dict[int, int]]:

@@ -5,23 +5,26 @@ pivots. The one with the fewest entries is eliminated, by its shortest row, what
 that begin where no row is asked for need not be reduced any further. What is left is a dense matrix.
 
 Of a dense matrix: FLINT's. How long that takes depends on how large the numbers in the result are. Before it is begun,
-they are estimated from one combination of its columns, which takes little; nothing else follows from it.
+they are estimated from its image modulo a prime and one combination of its columns, which takes little; nothing else
+follows from it. Both follow from a digest of the matrix: none can be made for which they tell too little.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from collections.abc import Set as AbstractSet
+from hashlib import sha256
 from heapq import heapify, heappop, heappush
+from itertools import count
 from math import gcd, lcm
 from operator import mul
+from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
-from flint import fmpz_mat, nmod_mat
+from flint import fmpz, fmpz_mat, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 
-_PRIME: Final = (1 << 63) - 25
 _FILLED: Final = 100
 """A pivot is taken if no more places than these can be filled on account of it."""
 
@@ -47,7 +50,7 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     Echelon(pivots=[0, 2], others=[1], denominator=2, numerators=[[4], [0]])
     """
     matrix = fmpz_mat(table)
-    charge(_cost(table, nmod_mat(matrix, _PRIME)))
+    charge(_cost(table, matrix))
     reduced, denominator, rank = matrix.rref()
     pivots = _staircase(reduced, int(rank))
     others = sorted(set(range(len(table[0]))) - set(pivots))
@@ -55,15 +58,17 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     return Echelon(pivots, others, int(denominator), numerators)
 
 
-def _cost(table: Sequence[Sequence[int]], image: nmod_mat) -> int:
+def _cost(table: Sequence[Sequence[int]], matrix: fmpz_mat) -> int:
     """Operations for the echelon form, by the size of one combination of its columns, whose own are charged."""
     rows, columns = len(table), len(table[0])
     words = sum(limbs(value.bit_length()) for row in table for value in row if value)
     elimination = rows * min(rows, columns) * columns // 3 + 50 * rows * columns
-    charge(2 * elimination + 20 * words)
+    charge(2 * elimination + 300 * rows * columns + 60 * words)
+    random = Random(_digest(table))
+    image = nmod_mat(matrix, next(p for p in count(1 << 62 | random.getrandbits(62)) if fmpz(p).is_prime()))
     chosen, pivots = (_staircase(*part.rref()) for part in (image.transpose(), image))
     rank = len(pivots)
-    weights = [0 if column in pivots else 1 + column * column % 1009 for column in range(columns)]
+    weights = [0 if column in pivots else 1 + random.getrandbits(30) for column in range(columns)]
     square = [[table[row][column] for column in pivots] for row in chosen]
     sizes = [max(map(int.bit_length, row)) + rank.bit_length() for row in square]
     charge(rank**3 + (1 + sum(sizes) // 30) * rank * (2 * rank + sum(map(limbs, sizes))))
@@ -73,6 +78,10 @@ def _cost(table: Sequence[Sequence[int]], image: nmod_mat) -> int:
     bits = lcm(*(int(value.q) for value in found)).bit_length() + max(heights, default=0)
     primes = 2 + bits // 60  # of about so many bits each
     return primes * (elimination + 12 * words + min(rows, columns) * columns * (100 + primes))
+
+
+def _digest(table: Sequence[Sequence[int]]) -> int:
+    return int.from_bytes(sha256(";".join(",".join(map(hex, row)) for row in table).encode("ascii")).digest(), "big")
 
 
 def _staircase(echelon: nmod_mat | fmpz_mat, rank: int) -> list[int]:
