@@ -179,17 +179,16 @@ def _reversed(content: Content) -> Content:
 
 
 def _divisible_at_one_power() -> Content:
-    """A polynomial that is 0 at the first of two points only, a true multiple of h at T = 2^80, and of h there alone.
+    """A polynomial whose value (M + 1) T^2 + M at T = 2^56 is M h, for h = T^2 + 2^56 / M T + 1, and at no other T.
 
-    With h = T (T + c) the second point has the values (Y, Z) = (1 - c, -c) of y and 1, and the polynomial is (c y - 1)
-    times a quartic g: a vector of the lattice of those with g(Y, Z) = 0 modulo 2^80 + c, short where 2^80 follows from
-    its size. The plain checker looks at this power, and sees it by the quotient alone, which is too large.
+    With y = T / h' and z = 1 / h' it has coefficients of 22 bits, for which the plain checker looks at 2^56 first, and
+    sees that h does not divide it by the quotient alone, which is too large.
     """
-    c = 1023
-    h = {"separating_form": [1, 0], "eliminant": hexadecimal([0, c, 1])}
-    h["numerators"] = [hexadecimal([0, -c]), hexadecimal([1, 1])]
-    quintic = "-6+6149*y-11268*y^2-16877293*y^3-4415276601388*y^4+4534506598773426*y^5"
-    return listed("x,y", (f"x^2+{c}*x", f"{c**2}*y+{c - 2}*x-{c}", quintic), h)
+    m = 1 << 20
+    slope = (1 << 56) // m
+    h = {"separating_form": [1, 0, 0], "eliminant": hexadecimal([1, slope, 1])}
+    h["numerators"] = [hexadecimal([-2, -slope]), hexadecimal([0, 1]), hexadecimal([1])]
+    return listed("x,y,z", (f"{m + 1}*y^2+{m}*z^2",), h, multiplicities=None)
 
 
 def _rooted(*factors: list[int], exponent: int = 8) -> Content:
