@@ -7,11 +7,13 @@ proves them before it uses them.
 from __future__ import annotations
 
 from fractions import Fraction
-from math import isqrt
+from math import isqrt, prod
 
 from forged_strides import Row, _system
 from handmade_systems import Content, hexadecimal, listed, multiplied, represented
 from tables_of_rows import merged
+
+from pkm_exact.certify import pure
 
 P = (1 << 61) - 1
 LONG = 10**59 + 7
@@ -20,6 +22,13 @@ LONG = 10**59 + 7
 def _at(a: int, text: str) -> Content:
     """One point, (a, 0)."""
     return _system({1: 1, 0: -a}, [{1: 1}, {}], text)
+
+
+def _with_content() -> Content:
+    """x = 0 and y = 1 / c, where c, a factor of all of the eliminant, is 0 modulo the first primes that are tried."""
+    c = prod(pure.good_primes([0, 1]))
+    representation = {"separating_form": [1, 0], "eliminant": hexadecimal([0, c]), "numerators": [[], ["0x1"]]}
+    return listed("x,y", ("x", f"{c}*y-1", "x*y^2"), representation, multiplicities=1)
 
 
 def _short_modulo(e: int) -> Content:
@@ -69,6 +78,7 @@ PRODUCTS: dict[str, Row] = {
     "fractions": (_fractions(*EQUATIONS), "accepted"),
     "fractions, a wrong coefficient": (_fractions(*EQUATIONS[:2], "14*x^2*y^3+x^2*y^2-6*x^2*y+x-y"), "rejected"),
     "fractions, a wrong sum of products": (_fractions("15*x^3-7*x^2+x", *EQUATIONS), "rejected"),
+    "a content that is 0 modulo some primes": (_with_content(), "accepted"),
     "a quotient that is longer than usual": (_long_quotient(46), "accepted"),
 }
 FORGED: dict[str, Row] = {f"a square that is short modulo p^{e}": (_short_modulo(e), "rejected") for e in range(3, 9)}

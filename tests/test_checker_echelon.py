@@ -8,7 +8,7 @@ import pytest
 from flint import fmpq, fmpq_mat
 
 from pkm_exact.certify.checker import echelon
-from pkm_exact.certify.checker.budget import Budget, spending
+from pkm_exact.certify.checker.budget import Budget, limbs, spending
 from pkm_exact.certify.checker.echelon import Echelon, echelon_form, reduced_rows
 
 FIRST = (1 << 63) - 25
@@ -75,6 +75,22 @@ def test_no_matrix_takes_far_more_than_is_counted() -> None:
     cancelling = [[*row[:-2], row[-1] * (1 + (size + 1) ** 2), -row[-1] * (1 + size * size)] for row in table]
     for other in (one_row_modulo, cancelling):
         assert _charged(other) >= _charged(table)
+
+
+def test_minors_are_counted_though_the_result_is_small() -> None:
+    random, rows, rank, columns, bits = Random(6), 24, 6, 12, 1000
+    high = [[random.getrandbits(bits) for _ in range(rank)] for _ in range(rows)]
+    flat = [[random.randint(1, 9) for _ in range(columns)] for _ in range(rank)]
+    table = [[sum(x * row[k] for x, row in zip(line, flat, strict=True)) for k in range(columns)] for line in high]
+    assert _charged(table) > rank * rows * columns * limbs(rank * bits) * 10
+
+
+def test_what_entries_have_in_common_is_counted() -> None:
+    common = 3**40000
+    budget = Budget(10**6)
+    with spending(budget):
+        reduced_rows([{0: 2 * common, 1: 1}, {0: 5 * common, 2: 1}])
+    assert budget.spent > common.bit_length() ** 2 // 1000
 
 
 def _some_rows(rows: int, columns: int, filled: float, seed: str) -> list[dict[int, int]]:

@@ -462,7 +462,7 @@ class Products:
         self.m = m = gcd(*exponents[0], *(power - each[0] for each in exponents[1:] for power in each))
         starts = [each[0] % m if each else 0 for each in exponents[1:]]
         self.lacks = [m - 1 - start for start in starts[1:]]
-        self.h0 = points.h0[::m]
+        self.h0, self.h = points.h0[::m], points.representation.h[::m]
         self.one = (0,) * len(numerators)
         units = [tuple(int(i == k) for i in range(len(numerators))) for k in range(len(numerators))]
         parts = [each[start::m] for start, each in zip(starts, (slope, *numerators), strict=True)]
@@ -569,7 +569,7 @@ class Products:
     def inverted(self, bits: int) -> tuple[LongResidues, list[Polynomial]]:
         """Residues modulo a number of so many bits or more, and among them 1 / n_0 and, if m > 1, 1 / (n_0 S)."""
         slope = self.known[self.one][1]
-        for p in pure.good_primes(self.h0):
+        for p in pure.good_primes(self.h):  # h may have a content that is 0 modulo those for h0
             ring = LongResidues(self.h0, p)
             divisor = ring.product(pure.reduced(slope, p), [0, 1]) if self.m > 1 else pure.reduced(slope, p)
             try:

@@ -76,6 +76,8 @@ def _cost(table: Sequence[Sequence[int]], matrix: fmpz_mat) -> int:
     found = fmpz_mat(square).solve(sums).entries()
     heights = [int(value.height_bits()) for value in found]
     bits = lcm(*(int(value.q) for value in found)).bit_length() + max(heights, default=0)
+    if rank < columns and min(rows, columns) <= 40:  # FLINT may go by minors then, however small the result is
+        charge(rank * rows * columns * limbs(sum(sizes)) * (30 + limbs(sum(sizes)) // 8) // 3)
     primes = 2 + bits // 60  # of about so many bits each
     return primes * (elimination + 12 * words + min(rows, columns) * columns * (100 + primes))
 
@@ -180,6 +182,7 @@ def _without(column: int, row: Row, other: Row) -> Row:
     The row itself is used up.
     """
     lead, factor = other[column], row[column]
+    charge(lead.bit_length() * factor.bit_length() // 750)
     common = gcd(lead, factor) if lead > 0 else -gcd(lead, factor)
     scale, factor = lead // common, factor // common
     length = len(row) + len(other)
