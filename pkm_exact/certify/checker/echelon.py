@@ -52,7 +52,7 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     matrix = fmpz_mat(table)
     charge(_cost(table, matrix))
     reduced, denominator, rank = matrix.rref()
-    pivots = _staircase(reduced, int(rank))
+    pivots = pivots_of(reduced, int(rank))
     others = sorted(set(range(len(table[0]))) - set(pivots))
     numerators = [[int(row[column]) for column in others] for row in reduced.tolist()[: len(pivots)]]
     return Echelon(pivots, others, int(denominator), numerators)
@@ -66,7 +66,7 @@ def _cost(table: Sequence[Sequence[int]], matrix: fmpz_mat) -> int:
     charge(2 * elimination + 300 * rows * columns + 60 * words)
     random = Random(_digest(table))
     image = nmod_mat(matrix, next(p for p in count(1 << 62 | random.getrandbits(62)) if fmpz(p).is_prime()))
-    chosen, pivots = (_staircase(*part.rref()) for part in (image.transpose(), image))
+    chosen, pivots = (pivots_of(*part.rref()) for part in (image.transpose(), image))
     rank = len(pivots)
     weights = [0 if column in pivots else 1 + random.getrandbits(30) for column in range(columns)]
     square = [[table[row][column] for column in pivots] for row in chosen]
@@ -86,7 +86,7 @@ def _digest(table: Sequence[Sequence[int]]) -> int:
     return int.from_bytes(sha256(";".join(",".join(map(hex, row)) for row in table).encode("ascii")).digest(), "big")
 
 
-def _staircase(echelon: nmod_mat | fmpz_mat, rank: int) -> list[int]:
+def pivots_of(echelon: nmod_mat | fmpz_mat, rank: int) -> list[int]:
     """The columns of the pivots of an echelon form."""
     pivots: list[int] = []
     column = 0

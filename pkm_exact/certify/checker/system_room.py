@@ -17,6 +17,7 @@ from typing import Final
 from flint import fmpz, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge
+from pkm_exact.certify.checker.echelon import pivots_of
 from pkm_exact.certify.checker.system_terms import Monomial, Terms, degree
 from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_ENTRIES
 
@@ -145,7 +146,7 @@ class _Parts:
             for column, value in relation.items():
                 matrix[number, column] = value
         echelon, rank = matrix.rref()
-        pivots = _pivots(echelon, rank)
+        pivots = pivots_of(echelon, rank)
         place = {pivot: row for row, pivot in enumerate(pivots)}
         free = [column for column in range(columns) if column not in place]
         charge(400 * columns * (len(free) + 1))
@@ -216,14 +217,3 @@ class _Parts:
                 vector = vector * matrix
                 reached += 1
         return [int(entry) for entry in vector.entries()]
-
-
-def _pivots(echelon: nmod_mat, rank: int) -> list[int]:
-    """The columns of the pivots."""
-    pivots: list[int] = []
-    column = 0
-    for row in range(rank):
-        while not echelon[row, column]:
-            column += 1
-        pivots.append(column)
-    return pivots
