@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 
 from flint import fmpz_poly
 
@@ -29,12 +29,13 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.notes import inconsistent_note, isolated_note, motion_note, open_question, singular_notes, turn_notes
 from pkm_exact.policy import Policy
-from pkm_exact.poses.boxes import DEFAULT_WIDTH, RootEnclosures, exponent_for_width, in_order, pose_boxes
+from pkm_exact.poses.boxes import DEFAULT_WIDTH, RootEnclosures, exponent_for_width, order_of, pose_boxes
 from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.modular import candidate_charts, candidate_forms
 from pkm_exact.poses.modular_start import Start
 from pkm_exact.poses.parameters import Parameters
 from pkm_exact.poses.pose import Pose
+from pkm_exact.poses.pose_denominators import PoseDenominators
 from pkm_exact.poses.pose_representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.search import PoseSearch
 from pkm_exact.poses.self_motion import (
@@ -66,15 +67,38 @@ def solve(
         return consistent(run.solution(width))
 
 
+def solve_row(
+    problem: ForwardProblem,
+    *,
+    width: Fraction = DEFAULT_WIDTH,
+    policy: Policy | None = None,
+    shared: PoseDenominators | None = None,
+) -> Solution:
+    """The answer of ``solve`` to one of many problems that differ in lengths alone, with what others had in common.
+
+    Certificates are the same, to the byte; statistics are not.
+    """
+    found = solve_without_elimination(problem, width=width, policy=policy, shared=shared)
+    if found is not None:
+        return found
+    run = _Run(problem, formulation_codes()[0], policy or Policy(), Stages(None), shared)
+    with attached(problem, run.stages, method="exact", formulation=run.code, width=width, policy=run.policy):
+        return consistent(run.solution(width))
+
+
 def solve_without_elimination(
-    problem: ForwardProblem, *, width: Fraction = DEFAULT_WIDTH, policy: Policy | None = None
+    problem: ForwardProblem,
+    *,
+    width: Fraction = DEFAULT_WIDTH,
+    policy: Policy | None = None,
+    shared: PoseDenominators | None = None,
 ) -> Solution | None:
     """The answer of ``solve`` where the chart and form tried first show as many isolated poses as there can be.
 
     None if they do not, or doubles do not lead to all of them. Nothing is taken from doubles but what is then verified
     over Q; that no pose is missing is proved by their number, and so no elimination need count them.
     """
-    run = _Run(problem, formulation_codes()[0], policy or Policy(), Stages(None))
+    run = _Run(problem, formulation_codes()[0], policy or Policy(), Stages(None), shared)
     with attached(problem, run.stages, method="exact", formulation=run.code, width=width, policy=run.policy):
         found = run.general_solution(width)
         return None if found is None else consistent(found)
@@ -87,6 +111,7 @@ def _proposed(
     degree: int,
     limit_bits: int,
     watch: Callable[[int], None] | None = None,
+    shared: PoseDenominators | None = None,
 ) -> UnivariateRepresentation | None:
     """The representation that numerical solutions propose."""
     if problem.motion != SPATIAL:
@@ -94,21 +119,27 @@ def _proposed(
     # Floating point is needed for this alone.
     from pkm_exact.numeric.proposed_representation import proposed_representation
 
-    return proposed_representation(problem, chart, form, degree, limit_bits, watch)
+    return proposed_representation(problem, chart, form, degree, limit_bits, watch, shared)
 
 
 def _proposal(
-    problem: ForwardProblem, chosen: Parameters, limit_bits: int, watch: Callable[[int], None]
+    shared: PoseDenominators | None,
+    problem: ForwardProblem,
+    chosen: Parameters,
+    limit_bits: int,
+    watch: Callable[[int], None],
 ) -> UnivariateRepresentation | None:
     """What is proposed in the chart and form that were chosen modulo a prime."""
-    return _proposed(problem, chosen.chart, chosen.form, chosen.modular.degree, limit_bits, watch)
+    return _proposed(problem, chosen.chart, chosen.form, chosen.modular.degree, limit_bits, watch, shared)
 
 
-def _proposed_poses(problem: ForwardProblem, policy: Policy) -> PoseRepresentation | None:
+def _proposed_poses(
+    problem: ForwardProblem, policy: Policy, shared: PoseDenominators | None
+) -> PoseRepresentation | None:
     """The poses that are proposed in the chart and form tried first, as many as there can be."""
     chart = next(candidate_charts(policy.seed, policy.seed))
     form = next(candidate_forms(chart, policy.seed, policy.seed))
-    lifted = _proposed(problem, chart, form, problem.solution_bound, policy.lifting_bits)
+    lifted = _proposed(problem, chart, form, problem.solution_bound, policy.lifting_bits, shared=shared)
     return None if lifted is None else pose_representation(chart, problem, lifted)
 
 
@@ -120,11 +151,12 @@ class _Run:
     code: str
     policy: Policy
     stages: Stages
+    shared: PoseDenominators | None = None
 
     @cached_property
     def search(self) -> PoseSearch:
         """The search for the poses of the problem itself."""
-        return PoseSearch(self.problem, self.code, self.policy, self.stages, proposal=_proposal)
+        return PoseSearch(self.problem, self.code, self.policy, self.stages, proposal=partial(_proposal, self.shared))
 
     def solution(self, width: Fraction) -> Solution:
         """The answer, by whichever way the robot goes; boxes are no wider than asked."""
@@ -155,7 +187,7 @@ class _Run:
         if self._self_motion() is not None:
             return None
         self.stages.enter("numeric lifting")
-        representation = _proposed_poses(self.problem, self.policy)
+        representation = _proposed_poses(self.problem, self.policy, self.shared)
         if representation is None:
             return None
         self.stages.enter("verification")
@@ -314,12 +346,13 @@ class _Run:
         places = [next(k for k, (f, _) in enumerate(found) if has_root(f, parameter)) for parameter in parameters]
         ranks = [None if kind is None else kind.rank for kind in (singular[place] for place in places)]
         jacobians = pose_jacobians(enclosures, self.problem, ranks)
-        known = {
-            replace(pose, multiplicity=found[place][1], jacobian=jacobian): singular[place]
+        known = [
+            replace(pose, multiplicity=found[place][1], jacobian=jacobian)
             for pose, place, jacobian in zip(poses, places, jacobians, strict=True)
-        }
-        ordered = in_order(known)
-        return ordered, singular_notes([known[pose] for pose in ordered], self.problem)
+        ]
+        order = order_of([pose.box for pose in known])
+        notes = singular_notes([singular[places[k]] for k in order], self.problem)
+        return tuple(known[k] for k in order), notes
 
     def _result(self, claim: Claim, exponent: int, note: str, proof: CompletenessProof | None = None) -> Solution:
         """A solution without a representation of poses."""

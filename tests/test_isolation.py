@@ -5,11 +5,19 @@ from itertools import pairwise
 from math import prod
 
 import pytest
-from flint import arb, ctx, fmpz_poly
+from flint import acb, arb, ctx, fmpz_poly
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from pkm_exact.roots.isolation import RealRoot, isolate_real_roots, real_root_enclosures, refined_enclosures
+from pkm_exact.precision import working_precision
+from pkm_exact.roots.isolation import (
+    RealRoot,
+    enclosures_near,
+    isolate_real_roots,
+    isolated_and_enclosed,
+    real_root_enclosures,
+    refined_enclosures,
+)
 
 # Polynomials without a real root.
 COMPLEX_FACTORS = [fmpz_poly([1]), fmpz_poly([1, 0, 1]), fmpz_poly([3, 1, 1]) * fmpz_poly([7, 0, 0, 0, 2])]
@@ -105,3 +113,38 @@ def test_enclosures_are_refined_where_newtons_operator_leads_to_the_root() -> No
         assert h(low) * h(high) <= 0
     wide = [arb(0, 4)]  # the derivative has a zero in it
     assert refined_enclosures(h, wide, 100) is None
+
+
+def _near(h: fmpz_poly, bits: int) -> list[arb | acb]:
+    """Rounded roots, one of each conjugate pair."""
+    with working_precision(bits):
+        roots = [root for root, _ in h.complex_roots()]
+        return [root.real.mid() for root in roots if root.imag == 0] + [r.mid() for r in roots if r.imag > 0]
+
+
+def test_numbers_near_all_roots_give_the_same_intervals() -> None:
+    h = fmpz_poly([2, -5, 1, 0, 3, 1]) * fmpz_poly([-7, 0, 1]) * fmpz_poly([1, 1, 1])
+    assert [root for root, _ in isolated_and_enclosed(h, _near(h, 500))] == list(isolate_real_roots(h))
+    for bits in (500, 60, 20):
+        enclosed = enclosures_near(h, _near(h, bits), 100)
+        assert enclosed is not None
+        roots = real_root_enclosures(h, 400)
+        assert len(enclosed) == len(roots)
+        assert all(ball.contains(root) for ball, root in zip(enclosed, roots, strict=True))
+
+
+def test_numbers_that_do_not_tell_all_roots_apart_give_none() -> None:
+    h = fmpz_poly([-2, 0, 1]) * fmpz_poly([1, 1, 1])
+    real, pair = _near(h, 200)[:2], _near(h, 200)[2]
+    assert enclosures_near(h, [*real, pair], 100) is not None
+    wrong: list[list[arb | acb]] = [
+        [],
+        real,
+        [real[0], real[0], pair],
+        [*real, pair.real + acb(0, 1e-9)],
+        [*real, acb(0, 0)],
+        [arb(0), real[1], pair],
+        [pair, pair],
+    ]
+    assert [enclosures_near(h, near, 100) for near in wrong] == [None] * len(wrong)
+    assert isolated_and_enclosed(h, wrong[2])[0][0] == isolate_real_roots(h)[0]

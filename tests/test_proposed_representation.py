@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -13,12 +14,14 @@ from pkm_exact import engine
 from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.certify.build import canonical_bytes, certificate
-from pkm_exact.engine import solve, solve_without_elimination
+from pkm_exact.engine import solve, solve_row, solve_without_elimination
+from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric import proposed_representation as module
 from pkm_exact.numeric.proposed_representation import proposed_representation
 from pkm_exact.numeric.refined_solutions import refined_solutions
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
+from pkm_exact.poses.pose_denominators import PoseDenominators
 from pkm_exact.poses.study_equations import free_coordinates
 
 Patch = pytest.MonkeyPatch
@@ -145,6 +148,32 @@ def test_as_many_poses_as_there_can_be_need_no_elimination() -> None:
     assert not found.statistics.primes
     bytes_of = [canonical_bytes(certificate(model(name), None, solution)) for solution in (found, solved(name))]
     assert bytes_of[0] == bytes_of[1]
+
+
+def _row(name: str, number: int) -> ForwardProblem:
+    problem = shipped(name)
+    constraints = (replace(leg, length_squared=leg.length_squared + number) for leg in problem.distances)
+    return replace(problem, constraints=tuple(constraints))
+
+
+def test_rows_share_denominators_and_need_no_lattice_for_them(monkeypatch: Patch) -> None:
+    name, shared = "carriage-hexapod", PoseDenominators()
+    first, second = (_row(name, number) for number in (0, 3))
+    solve_row(first, shared=shared)
+    assert shared.boundary is not None
+    before = replace(shared)
+    alone = solve_without_elimination(second)
+    assert alone is not None
+    monkeypatch.setattr(module, "_relation", lambda *_: pytest.fail("a lattice for what is known"))
+    together = solve_row(second, shared=shared)
+    assert shared == before
+    assert together.representation == alone.representation
+    assert (together.poses, together.notes) == (alone.poses, alone.notes)
+
+
+def test_denominators_of_another_robot_do_no_harm() -> None:
+    found = solve_row(shipped("carriage-hexapod"), shared=PoseDenominators(Fraction(1, 7**90), 11**50))
+    assert found.representation == solved("carriage-hexapod").representation
 
 
 def test_fewer_poses_or_another_form_need_an_elimination() -> None:

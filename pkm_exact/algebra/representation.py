@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
+from functools import cached_property, reduce
 from math import gcd
 
-from flint import fmpz_poly, nmod_poly
+from flint import acb, arb, fmpz, fmpz_poly, nmod_poly
 
 from pkm_exact.algebra.primes import primes_from
 from pkm_exact.digests import digest
@@ -25,6 +25,9 @@ class UnivariateRepresentation:
         h, lowest degree first, leading coefficient positive.
     numerators : tuple of tuple of int
         The n_i. All coefficients of h and of the n_i together have greatest common divisor 1.
+    near : sequence of arb and acb
+        Numbers near the roots, real for real ones, one of each conjugate pair of the others: not proved, and often not
+        known.
 
     Examples
     --------
@@ -36,10 +39,11 @@ class UnivariateRepresentation:
     form: tuple[int, ...]
     eliminant: tuple[int, ...]
     numerators: tuple[tuple[int, ...], ...]
+    near: Sequence[arb | acb] = field(default=(), repr=False, compare=False)
 
     def __getstate__(self) -> dict[str, object]:
-        """For copies and other processes: without FLINT's polynomials, which are made again when they are needed."""
-        return {name: self.__dict__[name] for name in self.__dataclass_fields__}
+        """For copies and other processes: without FLINT's numbers, which are made again when they are needed."""
+        return {name: self.__dict__[name] for name in self.__dataclass_fields__} | {"near": ()}
 
     @property
     def degree(self) -> int:
@@ -103,18 +107,19 @@ def are_coprime(left: fmpz_poly, right: fmpz_poly) -> bool:
 
 
 def from_common_fractions(
-    form: Sequence[int], eliminant: Sequence[int], denominator: int, numerators: Sequence[Sequence[int]], scale: int
+    form: Sequence[int],
+    eliminant: Sequence[int | fmpz],
+    denominator: int,
+    numerators: Sequence[Sequence[int | fmpz]],
+    scale: int,
 ) -> UnivariateRepresentation:
     """The representation with h = eliminant / denominator and n_i = numerators_i / scale, made jointly primitive."""
     common = denominator * scale // gcd(denominator, scale)
-    h = [value * (common // denominator) for value in eliminant]
-    lists = [[value * (common // scale) for value in numerator] for numerator in numerators]
-    content = gcd(*h, *(value for numerator in lists for value in numerator))
-    return UnivariateRepresentation(
-        tuple(form),
-        tuple(value // content for value in h),
-        tuple(_trimmed([value // content for value in numerator]) for numerator in lists),
-    )
+    h = fmpz_poly([*eliminant]) * (common // denominator)
+    polynomials = [fmpz_poly([*numerator]) * (common // scale) for numerator in numerators]
+    content = reduce(fmpz.gcd, (polynomial.content() for polynomial in polynomials), h.content())
+    lists = [tuple(int(value // content) for value in each.coeffs()) for each in (h, *polynomials)]
+    return UnivariateRepresentation(tuple(form), lists[0], tuple(lists[1:]))
 
 
 def union(parts: Sequence[UnivariateRepresentation]) -> UnivariateRepresentation:
@@ -133,10 +138,3 @@ def union(parts: Sequence[UnivariateRepresentation]) -> UnivariateRepresentation
         h = [int(value) for value in (left * right).coeffs()]
         combined = from_common_fractions(combined.form, h, 1, lists, 1)
     return combined
-
-
-def _trimmed(values: Sequence[int]) -> tuple[int, ...]:
-    size = len(values)
-    while size and not values[size - 1]:
-        size -= 1
-    return tuple(values[:size])

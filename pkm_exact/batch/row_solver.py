@@ -7,13 +7,13 @@ time only: what is proved lies on fixed grids, so that the answer has the same b
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Final
 
 import numpy as np
 
-from pkm_exact.engine import solve, solve_without_elimination
+from pkm_exact.engine import solve_row
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.nearby import from_home, nearby_start
 from pkm_exact.numeric.poses import Charted
@@ -21,6 +21,7 @@ from pkm_exact.numeric.rows_together import rows_together
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.numeric_engine import solve_exactly_instead, solve_krawczyk
 from pkm_exact.policy import Policy
+from pkm_exact.poses.pose_denominators import PoseDenominators
 from pkm_exact.solution import Solution
 
 METHODS: Final = ("krawczyk", "exact")
@@ -46,6 +47,8 @@ class RowSolver:
         Near the robot; None if the generic one is used.
     is_numeric : bool
         Whether the numeric engine is tried at all.
+    denominators : PoseDenominators
+        Of the exact engine's representations: what the first row finds. A matter of time only, too.
     """
 
     method: str
@@ -53,6 +56,7 @@ class RowSolver:
     policy: Policy
     start: StartSection | None = None
     is_numeric: bool = True
+    denominators: PoseDenominators = field(default_factory=PoseDenominators, repr=False, compare=False)
 
     @classmethod
     def of(
@@ -86,8 +90,7 @@ class RowSolver:
             As ``engine.solve``, if that has to be called.
         """
         if self.method == "exact":
-            found = solve_without_elimination(problem, width=self.width, policy=self.policy)
-            return solve(problem, width=self.width, policy=self.policy) if found is None else found
+            return solve_row(problem, width=self.width, policy=self.policy, shared=self.denominators)
         if self.is_numeric:
             return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start, near=near)
         return solve_exactly_instead(problem, width=self.width, policy=self.policy)

@@ -10,20 +10,32 @@ representation must pass, wherever it comes from.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from math import ceil, lcm, log2
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import ceil, gcd, lcm, log2
 from typing import Final
 
 import numpy as np
-from flint import arb, fmpz, fmpz_poly
+from flint import acb, arb, fmpz
 
 from pkm_exact.algebra.reconstruction import LATTICE_RESIDUES, MARGIN_BITS, common_fraction
 from pkm_exact.algebra.representation import UnivariateRepresentation, from_common_fractions
 from pkm_exact.geometry.problem import ForwardProblem
-from pkm_exact.numeric.refined_solutions import RefinedSolutions, refined_solutions
+from pkm_exact.geometry.study import Quadric, motion_quadrics
+from pkm_exact.numeric.refined_solutions import FIRST_BITS, RefinedSolutions, refined_solutions
+from pkm_exact.numeric.root_factors import (
+    fixed,
+    joined,
+    leading_coefficients,
+    padded,
+    root_factors,
+    root_of_norms,
+    value_of,
+)
 from pkm_exact.numeric.seeds import has_seeds, seeds
 from pkm_exact.numeric.study_system import Complex, rational_coordinates
 from pkm_exact.poses.expected_size import expected_bits
+from pkm_exact.poses.pose_denominators import PoseDenominators
 from pkm_exact.poses.study_equations import Chart, free_coordinates
 from pkm_exact.precision import working_precision
 
@@ -34,6 +46,12 @@ SPARE_BITS: Final = 48
 GROWTH: Final = 1.3
 """Of the bits of denominators that are looked for, from one attempt to the next."""
 ATTEMPTS: Final = 3
+SURE_BITS: Final = 160
+"""Behind the point, of numbers that are integers but for a factor of few bits."""
+ROOT_BITS: Final = 512
+"""Of the roots that are handed on."""
+FEW_BITS: Final = 32
+"""By which denominators are mostly longer at most than at other lengths."""
 CLOSE: Final = 2.0**-24
 """Relative distance of values of the form that doubles may not tell apart."""
 DOUBLED: Final = 3
@@ -48,6 +66,7 @@ def proposed_representation(
     degree: int,
     limit_bits: int,
     watch: Callable[[int], None] | None = None,
+    shared: PoseDenominators | None = None,
 ) -> UnivariateRepresentation | None:
     """The representation on the free coordinates of the chart, probably; None if there is nothing to propose.
 
@@ -63,6 +82,8 @@ def proposed_representation(
         More are not asked for.
     watch : callable, optional
         Gets the bits that are reached.
+    shared : PoseDenominators, optional
+        Of the same robot at other lengths; it gets what is found first.
     """
     expected = expected_bits(problem, degree)
     if expected < WORTHWHILE or not has_seeds(problem):
@@ -82,9 +103,15 @@ def proposed_representation(
     if solutions is None:
         return None
     refinement = _Refinement(
-        solutions, _margin(points, form), max(expected // DOUBLED, LEAST_DOUBLED), limit_bits, watch
+        solutions,
+        [form[k] for k in free_coordinates(chart, problem)],
+        motion_quadrics(problem.metric)[-1],
+        _margin(points, form),
+        max(expected // DOUBLED, LEAST_DOUBLED),
+        limit_bits,
+        watch,
     )
-    return _proposed(refinement, [form[k] for k in free_coordinates(chart, problem)], expected + expected // 16)
+    return _proposed(refinement, expected + expected // 16, shared)
 
 
 def _are_separated(roots: Complex) -> bool:
@@ -102,187 +129,208 @@ def _margin(points: Complex, form: Sequence[int]) -> int:
 
 @dataclass(eq=False)
 class _Refinement:
-    """Solutions with more and more bits.
+    """Solutions with more and more bits, and what follows from them in fixed point.
 
     Attributes
     ----------
     solutions : RefinedSolutions
+    form : sequence of int
+        On the free coordinates.
+    norm : Quadric
+        N(e).
     margin : int
-        Coefficients have so many bits less behind the point.
+        Coefficients have so many bits less behind the point than solutions.
     doubling : int
         Up to which bits Newton's method doubles them.
     limit : int
     watch : callable, optional
+    bits : int
+        So many are right behind the point.
     """
 
     solutions: RefinedSolutions
+    form: Sequence[int]
+    norm: Quadric
     margin: int
     doubling: int
     limit: int
     watch: Callable[[int], None] | None
+    bits: int = 0
 
-    def factors(self, form: Sequence[int], bits: int) -> list[_Factor]:
-        """Factors of h that are right to so many bits behind the point; none beyond the limit."""
+    @property
+    def rotation(self) -> int:
+        """How many of the coordinates are e's."""
+        return sum(k < 4 for k in self.solutions.equations.free)
+
+    def has(self, bits: int) -> bool:
+        """Whether so many bits are right behind the point, after refinement if need be; not beyond the limit."""
+        if bits + self.margin > self.limit:
+            return False
+        if bits > self.bits:
+            self.solutions = self.solutions.refined(bits + self.margin, self.doubling)
+            self.bits = bits
+            if self.watch is not None:
+                self.watch(bits + self.margin)
+        return True
+
+    def roots(self) -> list[arb | acb]:
+        """The values of the form, one of each conjugate pair."""
+        with working_precision(ROOT_BITS):
+            return [value_of(self.form, x) for x in self.solutions.points]
+
+    def relation(self) -> _Fixed:
+        """The coefficients of h."""
+        place = self.bits + self.margin
+        whole = joined(root_factors(self.solutions, self.form, (), place), place)
+        return _Fixed([*padded(whole.relation, whole.degree), fmpz(1) << place], place)
+
+    def numerators(self, wanted: Sequence[int], bits: int) -> _Fixed:
+        """The coefficients of some coordinates' numerators, one list after the other, with so many bits."""
         place = bits + self.margin
-        if place > self.limit:
-            return []
-        self.solutions = self.solutions.refined(place, self.doubling)
-        if self.watch is not None:
-            self.watch(place)
-        return _factors(self.solutions, form, place)
+        whole = joined(root_factors(self.solutions, self.form, wanted, place), place)
+        return _Fixed([value for each in whole.numerators for value in padded(each, whole.degree)], place)
+
+    def samples(self, wanted: Sequence[int], relation: Sequence[fmpz]) -> _Fixed:
+        """Some of these coefficients, without the others."""
+        place = self.bits + self.margin
+        second = (relation[-2] << place) // relation[-1]
+        return _Fixed(leading_coefficients(self.solutions, self.form, wanted, second, place), place)
+
+    def root_of_norms(self) -> arb:
+        """(prod N(e))^(1/2)."""
+        return root_of_norms(self.solutions, self.norm, max(self.bits + self.margin, FIRST_BITS))
 
 
-def _proposed(refinement: _Refinement, form: Sequence[int], bits: int) -> UnivariateRepresentation | None:
-    """The representation, from solutions that are refined until denominators are found."""
-    found = None
-    for _ in range(ATTEMPTS):
-        factors = refinement.factors(form, bits)
-        if not factors:
-            return None
-        place = bits + refinement.margin
-        found = _fractions(_product([factor.relation for factor in factors], place), place, bits)
-        if found is not None:
-            break
-        bits = int(GROWTH * bits)
-    if found is None:
-        return None
-    h, denominator = found
-    length = denominator.bit_length()
-    numerators = _Numerators(factors, place, bits - length, len(h) - 1, denominator)
-    rotation = sum(k < 4 for k in refinement.solutions.equations.free)
-    first = numerators.fractions(range(rotation))
-    if numerators.fractions([len(form) - 1]) is None:
-        bits = length + _bits_for(length)
-        place = bits + refinement.margin
-        factors = refinement.factors(form, bits)
-        if not factors:
-            return None
-        numerators = _Numerators(factors, place, bits - length, len(h) - 1, denominator)
-    second = numerators.fractions(range(rotation, len(form)))
-    if first is None or second is None:
-        return None
-    common = lcm(first[1], second[1])
-    lists = [[value * (common // scale) for value in values] for part, scale in (first, second) for values in part]
-    return from_common_fractions(form, h, denominator, lists, denominator * common)
+@dataclass(frozen=True)
+class _Fixed:
+    """Numbers times 2^place."""
 
-
-def _bits_for(length: int) -> int:
-    """Of reals, to find a common denominator of so many bits."""
-    return length + length // LATTICE_RESIDUES + 2 * MARGIN_BITS
-
-
-@dataclass(frozen=True, eq=False)
-class _Numerators:
-    """The numerators over h', from factors of h.
-
-    Attributes
-    ----------
-    factors : list of _Factor
-    place : int
-        The factors' coefficients are multiplied by 2^place.
-    bits : int
-        So many of a numerator times the denominator of h are right behind the point.
-    degree : int
-    denominator : int
-    """
-
-    factors: list[_Factor]
+    values: Sequence[fmpz]
     place: int
-    bits: int
-    degree: int
-    denominator: int
 
-    def fractions(self, wanted: Sequence[int]) -> tuple[list[list[int]], int] | None:
-        """Of some coordinates, times the denominator of h, as integers over one denominator."""
-        factors = [_Factor(f.relation, [f.numerators[k] for k in wanted]) for f in self.factors]
-        values = [
-            value * self.denominator
-            for numerator in _joined(factors, self.place).numerators
-            for value in _padded(numerator, self.degree)
-        ]
-        found = _fractions(values, self.place, self.bits)
+    def times(self, factor: fmpz | int) -> _Fixed:
+        """All by an integer."""
+        return _Fixed([value * factor for value in self.values], self.place)
+
+    def times_fixed(self, factor: fmpz) -> _Fixed:
+        """All by another such number."""
+        return _Fixed([value * factor >> self.place for value in self.values], self.place)
+
+    def fractions(self, bits: int) -> tuple[list[fmpz], int] | None:
+        """Integers n_j and one d with the numbers n_j / d, if so many bits behind the point tell."""
+        modulus = 1 << bits
+        shift = self.place - bits
+        found = common_fraction([(value >> shift) % modulus for value in self.values], modulus)
         if found is None:
             return None
-        flat = iter(found[0])
-        return [[next(flat) for _ in range(self.degree)] for _ in wanted], found[1]
+        half = fmpz(1) << (self.place - 1)
+        return [(value * found[1] + half) >> self.place for value in self.values], found[1]
 
 
-def _fractions(values: Sequence[fmpz], place: int, bits: int) -> tuple[list[int], int] | None:
-    """Integers n_j and one d with values_j / 2^place = n_j / d, if so many bits behind the point tell."""
-    modulus = 1 << bits
-    found = common_fraction([(value >> (place - bits)) % modulus for value in values], modulus)
+def _proposed(refinement: _Refinement, bits: int, shared: PoseDenominators | None) -> UnivariateRepresentation | None:
+    """The representation, from solutions that are refined until denominators are found."""
+    relation = None if shared is None else _relation_nearby(refinement, shared)
+    boundary, scale = (None, 0) if relation is None or shared is None else (shared.boundary, shared.translation)
+    if relation is None:
+        relation = _relation(refinement, bits)
+    if relation is None:
+        return None
+    if not scale:
+        boundary, scale = _boundary(refinement, relation[-1]), _translation_scale(refinement, relation)
+    count, last = refinement.rotation, len(refinement.form)
+    first = _numerators(refinement, range(count), relation, 1)
+    second = _numerators(refinement, range(count, last), relation, scale)
+    if not scale or first is None or second is None:
+        return None
+    if shared is not None and shared.boundary is None:
+        shared.boundary, shared.translation = boundary, second[1]
+    leading, common = int(relation[-1]), lcm(first[1], second[1])
+    lists = [[value * (common // scale) for value in values] for part, scale in (first, second) for values in part]
+    found = from_common_fractions(refinement.form, relation, leading, lists, leading * common)
+    return replace(found, near=refinement.roots())
+
+
+def _relation_nearby(refinement: _Refinement, shared: PoseDenominators) -> list[fmpz] | None:
+    """h over Z by what is known from other lengths, with the bits that f will need."""
+    boundary = shared.boundary
+    if boundary is None:
+        return None
+    size = arb(boundary.numerator) / (refinement.root_of_norms() * boundary.denominator)
+    if not refinement.has(_bits_of(size) + shared.translation.bit_length() + SURE_BITS + FEW_BITS):
+        return None
+    place = refinement.bits + refinement.margin
+    with working_precision(place + SURE_BITS):
+        leading = arb((boundary.numerator, place)) / (refinement.root_of_norms() * boundary.denominator)
+    relation = refinement.relation()
+    found = relation.times_fixed(fixed(leading, 0)).fractions(SURE_BITS)
+    return found[0] if found is not None and found[0][-1] > 0 else None
+
+
+def _relation(refinement: _Refinement, bits: int) -> list[fmpz] | None:
+    """h over Z; lattice reduction finds its leading coefficient."""
+    for _ in range(ATTEMPTS):
+        if not refinement.has(bits):
+            return None
+        found = refinement.relation().fractions(bits)
+        if found is not None:
+            return found[0]
+        bits = int(GROWTH * bits)
+    return None
+
+
+def _numerators(
+    refinement: _Refinement, wanted: Sequence[int], relation: Sequence[fmpz], scale: int
+) -> tuple[list[list[fmpz]], int] | None:
+    """The numerators of some coordinates times the leading coefficient of h, over one denominator, near ``scale``."""
+    bits = int(relation[-1].bit_length()) + scale.bit_length() + SURE_BITS
+    if not scale or not refinement.has(bits):
+        return None
+    found = refinement.numerators(wanted, bits).times(relation[-1] * scale).fractions(SURE_BITS)
     if found is None:
         return None
-    half = fmpz(1) << (place - 1)
-    return [int((value * found[1] + half) >> place) for value in values], found[1]
+    size = len(relation) - 1
+    return [found[0][start : start + size] for start in range(0, len(found[0]), size)], scale * found[1]
 
 
-def _padded(polynomial: fmpz_poly, size: int) -> list[fmpz]:
-    values = polynomial.coeffs()
-    return values + [fmpz(0)] * (size - len(values))
+def _translation_scale(refinement: _Refinement, relation: Sequence[fmpz]) -> int:
+    """What the numerators of f have as a denominator beyond the leading coefficient of h; 0 if it is not found."""
+    translation = range(refinement.rotation, len(refinement.form))
+    leading = relation[-1]
+    length = int(leading.bit_length())
+
+    def samples() -> _Fixed:
+        return refinement.samples(translation, relation).times(leading)
+
+    found = samples().fractions(refinement.bits - length)
+    if found is not None:
+        return found[1]
+    boundary = _boundary(refinement, leading)
+    if boundary is not None and refinement.has(length + boundary.numerator.bit_length() + SURE_BITS):
+        found = samples().times(boundary.numerator).fractions(SURE_BITS)
+        if found is not None:
+            multiple = boundary.numerator * found[1]
+            return multiple // gcd(multiple, *map(int, found[0]))
+    if not refinement.has(length + length + length // LATTICE_RESIDUES + 2 * MARGIN_BITS):
+        return 0
+    found = samples().fractions(refinement.bits - length)
+    return 0 if found is None else found[1]
 
 
-@dataclass(frozen=True, eq=False)
-class _Factor:
-    """A factor of h and, of each coordinate, the numerator over its derivative; times 2^place."""
-
-    relation: fmpz_poly
-    numerators: list[fmpz_poly]
-
-
-def _factors(solutions: RefinedSolutions, form: Sequence[int], place: int) -> list[_Factor]:
-    """T - t of each real solution, T^2 - 2 Re(t) T + |t|^2 of each pair."""
-    factors = []
-    with working_precision(2 * place):  # exact but for the division by powers of 2
-        for x in solutions.points[: solutions.count]:
-            t = sum(c * value for c, value in zip(form, x, strict=True) if c)
-            relation = [_rounded(-t, place), fmpz(1) << place]
-            factors.append(_Factor(fmpz_poly(relation), [fmpz_poly([_rounded(value, place)]) for value in x]))
-        for x in solutions.points[solutions.count :]:
-            t = sum(c * value for c, value in zip(form, x, strict=True) if c)
-            norm = t.real * t.real + t.imag * t.imag
-            relation = [_rounded(norm, place), _rounded(-2 * t.real, place), fmpz(1) << place]
-            numerators = [
-                fmpz_poly(
-                    [
-                        _rounded(-2 * (value.real * t.real + value.imag * t.imag), place),
-                        _rounded(2 * value.real, place),
-                    ]
-                )
-                for value in x
-            ]
-            factors.append(_Factor(fmpz_poly(relation), numerators))
-    return factors
+def _boundary(refinement: _Refinement, leading: fmpz) -> Fraction | None:
+    """The leading coefficient of h times (prod N(e))^(1/2), if that is a fraction with few bits below."""
+    root = refinement.root_of_norms()
+    with working_precision(refinement.bits + refinement.margin):
+        value = root * leading
+    bits = _bits_of(value)
+    if bits + SURE_BITS > refinement.bits:
+        return None
+    found = _Fixed([fixed(value, SURE_BITS)], SURE_BITS).fractions(SURE_BITS)
+    if found is None:
+        return None
+    with working_precision(refinement.bits + refinement.margin):
+        return Fraction(int(fixed(value * found[1] + arb(0.5), 0)), found[1])
 
 
-def _rounded(value: arb, place: int) -> fmpz:
-    """The middle of a ball, times 2^place."""
-    mantissa, exponent = value.mid().man_exp()
-    shift = int(exponent) + place
-    return mantissa << shift if shift >= 0 else mantissa >> -shift
-
-
-def _product(relations: Sequence[fmpz_poly], place: int) -> list[fmpz]:
-    while len(relations) > 1:
-        pairs = zip(relations[::2], relations[1::2], strict=False)
-        rest = list(relations[len(relations) - len(relations) % 2 :])
-        relations = [_scaled(a * b, place) for a, b in pairs] + rest
-    return relations[0].coeffs()
-
-
-def _joined(factors: Sequence[_Factor], place: int) -> _Factor:
-    while len(factors) > 1:
-        last = len(factors) == 2
-        joined = []
-        for a, b in zip(factors[::2], factors[1::2], strict=False):
-            relation = a.relation if last else _scaled(a.relation * b.relation, place)
-            numerators = [
-                _scaled(n * b.relation + m * a.relation, place) for n, m in zip(a.numerators, b.numerators, strict=True)
-            ]
-            joined.append(_Factor(relation, numerators))
-        factors = joined + list(factors[len(factors) - len(factors) % 2 :])
-    return factors[0]
-
-
-def _scaled(polynomial: fmpz_poly, place: int) -> fmpz_poly:
-    return fmpz_poly([value >> place for value in polynomial.coeffs()])
+def _bits_of(value: arb) -> int:
+    """Before the point."""
+    return int(fixed(value, 0).bit_length())

@@ -31,6 +31,8 @@ STEPS: Final = 8
 GUARD_BITS: Final = 48
 """For rounding; and so many are taken for lost in a step beyond those that were."""
 SLACK: Final = 6
+NEARLY: Final = 0.8
+"""Of the bits up to which steps double them: more are not doubled for the rest."""
 NOTHING: Final = -(1 << 40)
 """The exponent of 0."""
 
@@ -64,10 +66,10 @@ class RefinedSolutions:
     gain: int = 0
 
     def refined(self, bits: int, doubling: int) -> RefinedSolutions:
-        """The same with more bits: each step doubles them up to the number given, then adds that number."""
+        """The same with more bits: each step doubles them up to about the number given, then adds that number."""
         current = self
-        while current.accuracy < min(bits, doubling):
-            target = min(2 * current.accuracy - self.loss, bits)
+        while current.accuracy < min(bits, NEARLY * doubling):
+            target = min(2 * current.accuracy - self.loss, bits, doubling)
             current = current._doubled(target, target - current.accuracy + self.loss + GUARD_BITS)
         if bits > current.accuracy and not current.inverses:
             current = current._with_inverses()

@@ -81,7 +81,8 @@ class RootEnclosures:
     @cached_property
     def roots(self) -> tuple[RealRoot, ...]:
         """The real roots of h, isolated."""
-        isolated = isolated_and_enclosed(self.representation.univariate.primitive_polynomial)
+        univariate = self.representation.univariate
+        isolated = isolated_and_enclosed(univariate.primitive_polynomial, univariate.near)
         self._enclosed = [ball for _, ball in isolated]
         return tuple(root for root, _ in isolated)
 

@@ -142,4 +142,4 @@ def pose_representation(chart: Chart, problem: ForwardProblem, lifted: Univariat
             value -= chart[k] * numerators[k]
     numerators[dependent] = value
     lists = tuple(tuple(int(coefficient) for coefficient in numerator.coeffs()) for numerator in numerators)
-    return PoseRepresentation(chart, UnivariateRepresentation(tuple(form), lifted.eliminant, lists))
+    return PoseRepresentation(chart, UnivariateRepresentation(tuple(form), lifted.eliminant, lists, lifted.near))

@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
-from typing import cast
+from itertools import combinations, pairwise
+from typing import Any, cast
 
 from flint import acb, arb, arb_poly, fmpq, fmpz, fmpz_poly
 
@@ -22,6 +22,8 @@ from pkm_exact.roots.interval import Interval
 
 COARSEST_EXPONENT = 32
 """Intervals are at most 2^-32 wide."""
+NEAR_BITS = 128
+"""Beyond those that balls shall have: values near roots lose them."""
 MOST_COMPLEX_ROOTS = 64
 """Degree up to which all complex roots are enclosed; it takes the time of the degree's third power, or more."""
 
@@ -82,6 +84,45 @@ def refined_enclosures(polynomial: fmpz_poly, enclosures: Sequence[arb], precisi
     return found
 
 
+def enclosures_near(polynomial: fmpz_poly, near: Sequence[arb | acb], precision: int) -> list[arb] | None:
+    """One ball around each real root of a polynomial f, increasing, if numbers near all roots are given; or None.
+
+    The disc around z of radius n |f(z) / f'(z)| has a root, n the degree (Laguerre). So n disjoint discs have one each.
+    That in a disc around a real number is real, as its conjugate lies in the same disc.
+
+    Parameters
+    ----------
+    polynomial : fmpz_poly
+    near : sequence of arb and acb
+        Real numbers, and of two conjugate ones one.
+    precision : int
+
+    Examples
+    --------
+    >>> h, root = fmpz_poly([-2, 0, 1]), arb(2).sqrt()
+    >>> len(enclosures_near(h, [root, -root], 40)), enclosures_near(h, [root, root], 40)
+    (2, None)
+    """
+    degree = int(polynomial.degree())
+    real = [value for value in near if isinstance(value, arb)]
+    if not near or 2 * len(near) - len(real) != degree:
+        return None
+    with working_precision(precision + NEAR_BITS):
+        value, slope = arb_poly(polynomial), arb_poly(polynomial.derivative())
+        discs: list[Any] = []
+        for given in (*real, *(value for value in near if isinstance(value, acb))):
+            exact: Any = given
+            middle = (+exact).mid()
+            radius = arb(0, (degree * value(middle) / slope(middle)).abs_upper())
+            discs.append(middle + radius if isinstance(middle, arb) else middle + acb(radius, radius))
+    above = discs[len(real) :]
+    if not all(disc.is_finite() for disc in discs) or any(disc.imag.contains(0) for disc in above):
+        return None
+    if any(a.overlaps(b) for group in (discs[: len(real)], above) for a, b in combinations(group, 2)):
+        return None
+    return sorted(discs[: len(real)], key=_midpoint)
+
+
 def isolate_real_roots(polynomial: fmpz_poly) -> tuple[RealRoot, ...]:
     """The real roots of a squarefree polynomial, increasing, in cells of the coarsest grid that separates them.
 
@@ -93,11 +134,15 @@ def isolate_real_roots(polynomial: fmpz_poly) -> tuple[RealRoot, ...]:
     return tuple(root for root, _ in isolated_and_enclosed(polynomial))
 
 
-def isolated_and_enclosed(polynomial: fmpz_poly) -> tuple[tuple[RealRoot, arb], ...]:
-    """The same, each with a ball around it that has about as many bits as were needed."""
+def isolated_and_enclosed(polynomial: fmpz_poly, near: Sequence[arb | acb] = ()) -> tuple[tuple[RealRoot, arb], ...]:
+    """The same, each with a ball around it that has about as many bits as were needed.
+
+    Numbers ``near`` all roots, as ``enclosures_near`` has them, save time if they are.
+    """
     precision = 256
     exponent = COARSEST_EXPONENT
-    enclosures = _enclosures(polynomial, precision)
+    known = enclosures_near(polynomial, near, precision)
+    enclosures = _enclosures(polynomial, precision) if known is None else known
     while True:
         cells = [_cell(polynomial, ball, exponent) for ball in enclosures]
         if None in cells:
