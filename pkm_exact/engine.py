@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
+from typing import TYPE_CHECKING
 
 from flint import fmpz_poly
 
@@ -35,7 +36,6 @@ from pkm_exact.poses.modular import candidate_charts, candidate_forms
 from pkm_exact.poses.modular_start import Start
 from pkm_exact.poses.parameters import Parameters
 from pkm_exact.poses.pose import Pose
-from pkm_exact.poses.pose_denominators import PoseDenominators
 from pkm_exact.poses.pose_representation import PoseRepresentation, pose_representation
 from pkm_exact.poses.search import PoseSearch
 from pkm_exact.poses.self_motion import (
@@ -51,6 +51,9 @@ from pkm_exact.poses.study_equations import Chart
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Progress, Stages
+
+if TYPE_CHECKING:
+    from pkm_exact.poses.pose_denominators import PoseDenominators
 
 
 def solve(
