@@ -57,10 +57,17 @@ def _exact(value: Any) -> tuple[Fraction, Fraction]:
 
 def _value(polynomial: dict[tuple[int, int], int], point: Sequence[Any]) -> tuple[Fraction, Fraction]:
     """Of a polynomial at a point, with one more coordinate 1, exactly."""
-    x = [*map(_exact, point), (Fraction(1), Fraction(0))]
+    return _value_at(polynomial, [*map(_exact, point)], 1)
+
+
+def _value_at(
+    polynomial: dict[tuple[int, int], int], place: Sequence[tuple[Fraction, Fraction]], scale: int
+) -> tuple[Fraction, Fraction]:
+    """Of a polynomial at a point that is given exactly, scaled."""
+    x = [*place, (Fraction(1), Fraction(0))]
     real = sum((c * (x[i][0] * x[j][0] - x[i][1] * x[j][1]) for (i, j), c in polynomial.items()), Fraction(0))
     imaginary = sum((c * (x[i][0] * x[j][1] + x[i][1] * x[j][0]) for (i, j), c in polynomial.items()), Fraction(0))
-    return real, imaginary
+    return real / scale, imaginary / scale
 
 
 @budget(25)
@@ -106,6 +113,43 @@ def test_values_are_exact_to_twice_the_bits_where_coordinates_are_of_different_s
 def test_too_many_monomials_are_refused() -> None:
     with pytest.raises(OverflowError):
         DoubleForms.of([{(i, j): 1 for i in range(15) for j in range(i, 15)}])
+
+
+@pytest.mark.parametrize("is_complex", [True, False])
+def test_values_from_derivatives_are_within_their_bounds(is_complex: bool) -> None:
+    """At points, and beside points at which they are known exactly."""
+    random, size = np.random.default_rng(3), 8
+    integers = Random(3)
+    polynomials = [
+        {(i, j): integers.randint(-(1 << 70), 1 << 70) for i in range(size) for j in range(i, size + 1)}
+        for _ in range(size)
+    ]
+    equations = DoubleEquations(tuple(range(size)), DoubleForms.of(polynomials), np.ones(size))
+    points: Any = random.standard_normal((4, size)) * [*[1] * 4, *[1e4] * 4]
+    moves: Any = 2.0**-30 * random.standard_normal((4, size))
+    if is_complex:
+        points, moves = points + 1j * random.standard_normal((4, size)), moves * (1 + 2j)
+    found = (equations.values_at(points), equations.values_beside(points, moves, equations.forms.at(points)))
+    for (values, bounds), moved, least in zip(found, (False, True), (1e-4, 1e-6), strict=True):
+        worst = 0.0
+        for row in range(4):
+            place = [_exact(value) for value in points[row]]
+            if moved:
+                place = [(a + c, b + d) for (a, b), (c, d) in zip(place, map(_exact, moves[row]), strict=True)]
+            for k, polynomial in enumerate(polynomials):
+                exact = _value_at(polynomial, place, 2 ** int(equations.forms.powers[k]))
+                for part, value in zip(exact, _exact(values[row, k]), strict=True):
+                    assert abs(part - value) <= Fraction(float(bounds[row, k]))
+                    worst = max(worst, float(abs(part - value) / Fraction(float(bounds[row, k]))))
+        assert worst > least
+
+
+def test_values_at_points_that_are_too_large_prove_nothing() -> None:
+    forms = DoubleForms.of([{(0, 0): 1, (0, 2): 3, (1, 1): 1 << 70}])
+    wrong = np.array([[1.0, np.inf], [np.nan, 1.0], [1e300, 1e-300], [1.0, 2.0]])
+    values, _ = forms.at(wrong)
+    assert np.isfinite(values[:, 0]).tolist() == [False, False, False, True]
+    assert np.isinf(forms.at_integers([[[1 << 900, 1]]], 0, [0])).all()
 
 
 @budget(50)

@@ -114,19 +114,20 @@ def test_values_at_integers_are_exact_but_for_one_rounding() -> None:
     assert mixed is not None
     assert original is not None
     points = [[(random.randrange(-(1 << 70), 1 << 70), random.randrange(1 << 70)) for _ in range(8)] for _ in range(2)]
-    found = mixed.values(points, 64)
-    for x, values in zip(points, found, strict=True):
+    parts = [[list(part) for part in zip(*x, strict=True)] for x in points]
+    found = mixed.equations.forms.at_integers(parts, 64, [0, 0])
+    for x, (reals, imaginaries) in zip(points, found.tolist(), strict=True):
         z = [(Fraction(a, 1 << 64), Fraction(b, 1 << 64)) for a, b in x]
         plain = [_value(quadric, z) for quadric in system.quadrics]
         real, imaginary = (sum(w * v[k] for w, v in zip(system.chart, z, strict=False)) for k in (0, 1))
         plain.append((Fraction(real - 1), Fraction(imaginary)))
         scaled = [[part / 2 ** int(k) for part in v] for v, k in zip(plain, original.forms.powers, strict=True)]
-        for row, value in zip(mixed.mixing.tolist(), values.tolist(), strict=True):
-            for k, part in enumerate((value.real, value.imag)):
+        for row, *value in zip(mixed.mixing.tolist(), reals, imaginaries, strict=True):
+            for k, part in enumerate(value):
                 exact = sum(Fraction(w) * v[k] for w, v in zip(row, scaled, strict=True))
                 assert abs(Fraction(part) - exact) <= abs(exact) / 2**52
-    place = mixed.monomials.index((4, 4))
-    assert sum(row[place] != 0 for row in mixed.coefficients.tolist()) == 1
+    forms = mixed.equations.forms
+    assert np.count_nonzero(forms.head[:, (forms.first == 4) & (forms.second == 4)]) == 1
 
 
 def _value(quadric: Any, z: list[tuple[Fraction, Fraction]]) -> tuple[Fraction, Fraction]:

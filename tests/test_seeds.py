@@ -39,7 +39,7 @@ def test_seeds_lead_to_all_finite_solutions(name: str) -> None:
 
 def test_guesses_are_on_the_forms_and_on_the_variety() -> None:
     forms = numeric_section(shipped("mourrain-l")).legs.real
-    values = motion_seeds(forms)
+    values = motion_seeds(forms[None])[0]
     values /= np.linalg.norm(values, axis=1)[:, None]
     assert values.shape == (40, 17)
     assert np.abs(values @ forms.T).max() < 1e-12
@@ -108,7 +108,7 @@ def _nonsense(_: object) -> Any:
 
 
 def _few(forms: Any) -> Any:
-    return motion_seeds(forms)[:31]
+    return motion_seeds(forms)[:, :31]
 
 
 @pytest.mark.parametrize("wrong", [_nothing, _nonsense, _few])

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pkm_exact.numeric.double_krawczyk import (
+    SLACK,
     DoubleEquations,
     DoubleSolution,
     double_proofs,
@@ -40,6 +41,8 @@ ARRIVED: Final = 2.0**-10
 """Newton steps that are this small, in units, have arrived."""
 SETTLED: Final = 2.0**-20
 """Those that are larger are followed by another one all the same: how far off a solution may be is in proportion."""
+EXACT: Final = 2.0**-32
+"""Steps that are this small times how wide Y F'(X) is, are not followed by another one after all."""
 ASTRAY: Final = 2.0**-16
 """Where Newton's method leads farther than this, relative to the point, it is not followed."""
 HOPELESS: Final = 1.0
@@ -95,7 +98,10 @@ def double_boxes(equations: DoubleEquations, points: Complex, exponent: int) -> 
         with np.errstate(all="ignore"):
             near, has_arrived = _arrived(equations, *real_or_complex(points), exponent)
             found.points[:] = near.points
-            _add_boxes(equations, near, has_arrived, exponent, found)
+            doubtful = _add_boxes(equations, near, has_arrived, exponent, found)
+            if doubtful.any():
+                _add_exact_values(equations, near.points, doubtful, (near.values, near.off))
+                _add_boxes(equations, near, has_arrived, exponent, found)
     return found
 
 
@@ -131,18 +137,21 @@ class _Near:
 
 def _add_boxes(
     equations: DoubleEquations, near: _Near, decided: NDArray[np.bool_], exponent: int, found: DoubleBoxes
-) -> None:
-    """The boxes of those points, at their places in what is found."""
+) -> NDArray[np.bool_]:
+    """The boxes of those points, at their places in what is found; which may be another with more exact values."""
     points, are_real = near.points, near.are_real
     exponents, units, is_sure = grids_of(equations, points, exponent)
-    grid = np.floor(np.stack([points.real, points.imag], axis=-1) / units[:, :, None] + 0.5)
+    limits = points - products(near.inverses, near.values)
+    grid = np.floor(np.stack([limits.real, limits.imag], axis=-1) / units[:, :, None] + 0.5)
     centres = (grid[..., 0] + 1j * grid[..., 1] if np.iscomplexobj(points) else grid[..., 0]) * units
     place = points - centres, near.values, near.off
     # Inverses at the points serve as well: boxes are far larger than what lies between these and the centres.
     proofs = double_proofs(equations, near.inverses, centres, RADIUS * units, ROOM, place)
     decided = decided & is_sure & proofs.proved & (np.abs(grid) < GREATEST).all(axis=(1, 2))
     distance = np.maximum(np.abs(proofs.moved.real), np.abs(proofs.moved.imag)) + proofs.errors
-    decided &= (distance < SURE * units).all(axis=1)
+    are_nearest = (distance < SURE * units).all(axis=1)
+    doubtful: NDArray[np.bool_] = decided & ~are_nearest & ~are_real
+    decided &= are_nearest
     decided &= (np.abs(near.begun - centres) <= NEAR * 2.0**exponent * units).all(axis=1)
     decided &= are_real | centres.imag.any(axis=1)  # what is real after all is left to others
     chosen = np.flatnonzero(decided)
@@ -152,6 +161,7 @@ def _add_boxes(
         found.boxes[row] = box
         if box.is_real:
             found.solutions[row] = DoubleSolution(points[row].real, proofs.steps[row].real, proofs.errors[row])
+    return doubtful
 
 
 def _arrived(
@@ -159,32 +169,61 @@ def _arrived(
 ) -> tuple[_Near, NDArray[np.bool_]]:
     """Where Newton's method leads until steps are far smaller than units, and where it does so.
 
-    Where no box can be proved it takes one step with more exact values of F.
+    Real points get more exact values of F: coordinates of poses follow from them. Others do where there is a doubt.
     """
     inverses = inverses_at(equations, begun, are_real)
     points = newton_step(equations, begun, inverses)
-    values, off = equations.forms.at(points)
+    values, off = equations.values_at(points)
+    _add_exact_values(equations, points, are_real, (values, off))
     units = grids_of(equations, points, exponent)[1]
-    left, sizes, is_hopeless = np.arange(len(points)), np.zeros(len(points)), np.zeros(len(points), dtype=np.bool_)
-    for number in range(STEPS):
-        steps = products(inverses[left], values[left])
-        sizes[left] = (np.abs(steps) / units[left]).max(axis=1)
-        moves = ~(sizes[left] < SETTLED)
-        left = left[moves]
-        points[left] -= steps[moves]
-        if number == 0 and len(left):
-            rows = equations.places(left, len(points))
-            is_hopeless[rows] = _widths(equations, inverses[rows], units[rows], are_real[rows]) > HOPELESS
-            left = left[~is_hopeless[left]]
+    steps = products(inverses, values)
+    sizes = (np.abs(steps) / units).max(axis=1)
+    blurs = products(np.abs(inverses), off)
+    moves = np.where(are_real, ~(sizes < SETTLED), ~(sizes < ARRIVED) | _are_doubtful(points - steps, blurs, units))
+    is_hopeless = np.zeros(len(points), dtype=np.bool_)
+    if moves.any():
+        rows = equations.places(np.flatnonzero(moves), len(points))
+        widths = _widths(equations, inverses[rows], units[rows], are_real[rows])
+        is_hopeless[rows] = widths > HOPELESS
+        # How far off a solution may be is in proportion to both.
+        moves[rows] &= ~is_hopeless[rows] & ~(are_real[rows] & (sizes[rows] < ARRIVED) & (sizes[rows] * widths < EXACT))
+    for _ in range(STEPS - 1):
+        left = np.flatnonzero(moves)
         if not len(left):
             break
+        points[left] -= steps[left]
         rows = equations.places(left, len(points))
         inverses[rows] = inverses_at(equations, points[rows], are_real[rows])
-        values[rows], off[rows] = equations.forms.at(points[rows])
+        _add_exact_values(equations, points, moves, (values, off))
+        steps[left] = products(inverses[left], values[left])
+        sizes[left] = (np.abs(steps[left]) / units[left]).max(axis=1)
+        moves[left] = ~(sizes[left] < SETTLED)
     is_near = (np.abs(points - begun) <= ASTRAY * np.abs(begun).max(axis=1, keepdims=True)).all(axis=1)
     has_arrived = is_near & (sizes < ARRIVED) & ~is_hopeless
-    points = np.where((is_near & (has_arrived | is_hopeless))[:, None], points, begun)
+    points = np.where(has_arrived[:, None], points, begun)
     return _Near(begun, points, are_real, inverses, values, off), has_arrived
+
+
+def _are_doubtful(points: NDArray[Any], blurs: Real, units: Real) -> NDArray[np.bool_]:
+    """Where it is in doubt, by so much, which point of the grid is nearest."""
+    places = points / units
+    beside = places - np.rint(places)
+    apart = np.maximum(np.abs(beside.real), np.abs(beside.imag)) + SLACK * blurs / units
+    found: NDArray[np.bool_] = np.logical_not((apart < SURE).all(axis=1))
+    return found
+
+
+def _add_exact_values(
+    equations: DoubleEquations,
+    points: NDArray[Any],
+    chosen: NDArray[np.bool_],
+    found: tuple[NDArray[Any], Real],
+) -> None:
+    """Values of F, and how far they are off, where points are chosen: exact but for one rounding."""
+    rows = np.flatnonzero(chosen)
+    if len(rows):
+        for values, better in zip(found, equations.forms.at(points, rows), strict=True):
+            values[rows] = better
 
 
 def _widths(equations: DoubleEquations, inverses: NDArray[Any], units: Real, are_real: NDArray[np.bool_]) -> Real:
@@ -212,26 +251,28 @@ def grids_of(
     """
     halves = np.array(equations.support) // 4
     largest = np.maximum(np.abs(points.real), np.abs(points.imag))
-    sizes = [largest[:, halves == half].max(axis=1, initial=0) for half in (0, 1)]
+    sizes = np.zeros((2, len(points)))
     # Turns about a point have no f; where there are f and they are 0, they are very small.
-    least = [-GREATEST_SHIFT if (halves == half).any() else 0 for half in (0, 1)]
-    (e, also_e), (f, also_f) = (
-        [
-            np.where(size > 0, np.frexp(size * (1 + 2.0**-NEARLY_BITS) * factor)[1], smallest)
-            for factor in (1 - DOUBT, 1 + DOUBT)
-        ]
-        for size, smallest in zip(sizes, least, strict=True)
-    )
+    smallest = np.zeros((2, 1, 1), dtype=np.intp)
+    for half in (0, 1):
+        places = np.flatnonzero(halves == half)
+        if len(places):
+            sizes[half], smallest[half] = largest[:, places].max(axis=1), -GREATEST_SHIFT
+    limits = (1 + 2.0**-NEARLY_BITS) * np.array([1 - DOUBT, 1 + DOUBT])
+    (e, also_e), (f, also_f) = np.where(sizes[:, None] > 0, np.frexp(sizes[:, None] * limits[:, None])[1], smallest)
     shifts = np.maximum(f - also_e, 0)
-    is_sure = (shifts == np.maximum(also_f - e, 0)) & np.isfinite(largest).all(axis=1) & (sizes[0] > 0)
-    exponents = np.stack([np.full(len(points), exponent), np.maximum(exponent - shifts, 0)], axis=1)
+    is_sure = (shifts == np.maximum(also_f - e, 0)) & np.isfinite(sizes).all(axis=0) & (sizes[0] > 0)
+    exponents = np.empty((len(points), 2), dtype=np.intp)
+    exponents[:, 0], exponents[:, 1] = exponent, np.maximum(exponent - shifts, 0)
     return exponents, np.ldexp(1.0, -exponents[:, halves]), is_sure
 
 
 def box_at(exponents: Sequence[int], grid: Sequence[Sequence[int]], support: Sequence[int]) -> Box:
     """Of the box and its conjugate, the one whose first coordinate that is not real has a positive imaginary part."""
-    centre = [(0, 0)] * 8
     sign = next((-1 if imaginary < 0 else 1 for _, imaginary in grid if imaginary), 1)
+    if len(support) == 8:
+        return Box((exponents[0], exponents[1]), tuple([(real, sign * imaginary) for real, imaginary in grid]))
+    centre = [(0, 0)] * 8
     for index, (real, imaginary) in zip(support, grid, strict=True):
         centre[index] = (real, sign * imaginary)
     return Box((exponents[0], exponents[1]), tuple(centre))

@@ -1,7 +1,9 @@
-"""Values of quadratic polynomials with large integer coefficients, at points in doubles, with twice as many bits.
+"""Values of quadratic polynomials with large integer coefficients, at points in doubles: exactly, or with more bits.
 
 A residual is the small difference of large terms: in doubles alone it tells a solution to far fewer digits than a
-double has. Here its error is bounded by about 2^-85 of the largest term. Coefficients and products of coordinates are
+double has. Points in doubles are integers in a unit that is small enough, and so values at them are exact in integers:
+that is quick for polynomials that are met once. For those that are the same for all robots there are doubles with an
+error of about 2^-85 of the largest term: coefficients and products of coordinates are
 split into slices of ``BITS`` bits: products of slices, and sums of these, are exact in doubles, in whatever order they
 are added, and so one product of matrices has most of the work (Ozaki, Ogita, Oishi and Rump, "Error-free
 transformations of matrix multiplication by using fast routines of matrix multiplication", Numerical Algorithms 59,
@@ -13,9 +15,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Final
+from itertools import groupby
+from math import inf
+from operator import itemgetter
+from typing import Final, TypeAlias
 
 import numpy as np
+from flint import fmpz, fmpz_mat
 from numpy.typing import NDArray
 
 from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U, two_product, twofold_sums
@@ -28,6 +34,13 @@ EXACT: Final = 2.0**53
 """Integers below are doubles."""
 MOST_TERMS: Final = 100
 """Sums of 5 x 100 products of two slices, of 23 and 22 bits with their signs, are below 2^53 units."""
+FEW: Final = 24
+"""Values at so many real points are quicker in integers, for polynomials that are met once."""
+DIGITS: Final = 53
+GREATEST: Final = 400
+"""Doubles have so many bits; coordinates beyond such powers of 2 are refused."""
+Integers: TypeAlias = list[list[list[int]]]
+"""For each point the numerators of its real parts, and those of its imaginary parts if it is complex."""
 LACKING: Final = 2.0**-95
 """What the slices of a product and of its coefficient miss, of size 1 and complex, together."""
 
@@ -49,6 +62,10 @@ class DoubleForms:
         Exponents of 2 of what the polynomials are divided by.
     kinds : (n + 1,) array of int
         Which coordinates are of about one size.
+    polynomials : sequence of mappings
+        Over the integers, not scaled; none if several lists are stacked.
+    several : sequence of DoubleForms
+        What is stacked.
     """
 
     first: NDArray[np.intp]
@@ -57,6 +74,8 @@ class DoubleForms:
     tail: Real
     powers: NDArray[np.intp]
     kinds: NDArray[np.intp]
+    polynomials: Sequence[Mapping[tuple[int, int], int]] = ()
+    several: Sequence[DoubleForms] = ()
 
     @classmethod
     def of(
@@ -84,7 +103,7 @@ class DoubleForms:
         first, second = np.array(places, dtype=np.intp).reshape(-1, 2).T
         table = np.array([heads, tails]).reshape(2, len(polynomials), len(places))
         table = np.ldexp(table, -np.array(powers)[:, None])
-        return cls(first, second, table[0], table[1], np.array(powers), np.array(sorts, dtype=np.intp))
+        return cls(first, second, table[0], table[1], np.array(powers), np.array(sorts, dtype=np.intp), polynomials)
 
     @classmethod
     def stacked(cls, several: Sequence[DoubleForms]) -> DoubleForms | None:
@@ -95,74 +114,117 @@ class DoubleForms:
         head, tail, powers = (
             np.stack([getattr(forms, name) for forms in several]) for name in ("head", "tail", "powers")
         )
-        return cls(first.first, first.second, head, tail, powers, first.kinds)
+        return cls(first.first, first.second, head, tail, powers, first.kinds, several=tuple(several))
 
     @cached_property
     def _table(self) -> _Table:
         begins, counts, kinds = _classes(self.first.tobytes(), self.second.tobytes(), self.kinds.tobytes())
-        sizes = np.maximum.reduceat(np.abs(self.head), begins, axis=-1)
-        exponents = np.frexp(sizes)[1].astype(np.intp)
-        scaled = -exponents.repeat(counts, axis=-1)
-        slices = _slices(np.ldexp(self.head, scaled), np.ldexp(self.tail, scaled))
-        slices = np.moveaxis(np.moveaxis(slices, 0, -3), -1, -3)  # (.., t, l, q)
-        lead, (size, count) = self.head.shape[:-2], self.head.shape[-2:]
-        matrix = np.zeros((*lead, LEVELS, count, len(counts), LEVELS, size))
+        exponents = np.frexp(np.maximum.reduceat(np.abs(self.head), begins, axis=1))[1].astype(np.intp)
+        scaled = -exponents.repeat(counts, axis=1)
+        slices = _slices(np.ldexp(self.head, scaled), np.ldexp(self.tail, scaled)).transpose(2, 0, 1)  # (t, l, q)
+        size, count = self.head.shape
+        matrix = np.zeros((LEVELS, count, len(counts), LEVELS, size))
         for place, (begin, number) in enumerate(zip(begins.tolist(), counts.tolist(), strict=True)):
+            rows = slice(begin, begin + number)
             for level in range(LEVELS):
-                rows = matrix[..., level, begin : begin + number, place, level:, :]
-                rows[...] = slices[..., begin : begin + number, : LEVELS - level, :]
-        exponents = np.moveaxis(exponents, -1, -2).copy()
-        return _Table(kinds, exponents, counts, matrix.reshape(*lead, LEVELS * count, -1))
+                matrix[level, rows, place, level:] = slices[rows, : LEVELS - level]
+        return _Table(kinds, exponents.T.copy(), counts, matrix.reshape(LEVELS * count, -1))
 
     @cached_property
     def _members(self) -> list[NDArray[np.intp]]:
         """The coordinates of each kind."""
         return [np.flatnonzero(self.kinds == kind) for kind in range(self.kinds.max() + 1)]
 
-    def at(self, points: Real | Complex) -> tuple[Real | Complex, Real]:
+    @cached_property
+    def _integers(self) -> list[fmpz_mat]:
+        """(t, q): coefficients of each list of polynomials."""
+        if self.several:
+            return [table for forms in self.several for table in forms._integers]
+        places = zip(self.first.tolist(), self.second.tolist(), strict=True)
+        return [fmpz_mat([[polynomial.get(place, 0) for polynomial in self.polynomials] for place in places])]
+
+    def at(self, points: Real | Complex, chosen: NDArray[np.intp] | None = None) -> tuple[Real | Complex, Real]:
         """(p, q) values at (p, n) points, rounded to double, and how far they are off at most, this rounding included.
 
-        Of complex values, how far off real and imaginary part are together.
+        Of complex values, how far off real and imaginary part are together. Where points, or values in their units, are
+        too large or of too different sizes, values are infinite or nan. If places are chosen, it is of points there.
         """
-        if not np.iscomplexobj(points):
-            return _rounded(*self.in_two(points.real))
-        x = np.stack([_extended(points.real, 1.0), _extended(points.imag, 0.0)])
-        x, exponents = self._scaled(x)
-        left, right = x[[0, 1, 0, 1]], x[[0, 1, 1, 0]]
-        parts = _slices(*two_product(left[..., self.first], right[..., self.second]))
-        both = np.stack([parts[:, 0] - parts[:, 1], parts[:, 2] + parts[:, 3]], axis=1)
-        (real, imaginary), (off, also_off) = _rounded(*self._sums(both, exponents))
-        return real + 1j * imaginary, off + also_off
+        count = len(points)
+        rows = np.arange(count) if chosen is None else chosen
+        here = points[rows]
+        if len(rows) > FEW and not (self.several or np.iscomplexobj(points)):
+            first, second, bound = self.in_two(here.real)
+            return first + second, (bound + U * np.abs(first + second)) * OUTWARD
+        parts = np.stack([here.real, here.imag], axis=1) if np.iscomplexobj(points) else here[:, None].copy()
+        exponents = np.where(parts != 0, np.frexp(parts)[1], 0)
+        lowest, highest = exponents.min(axis=(1, 2), initial=0), exponents.max(axis=(1, 2), initial=0)
+        are_wrong = ~np.isfinite(parts).all(axis=(1, 2)) | (lowest < -GREATEST) | (highest > GREATEST)
+        parts[are_wrong] = 0
+        bits = DIGITS - int(lowest[~are_wrong].min(initial=0))
+        integers = [[list(map(int, part)) for part in row] for row in np.ldexp(parts, bits).tolist()]
+        found = self.at_integers(integers, bits, rows * max(1, len(self.several)) // max(1, count))
+        values: Real | Complex = found[:, 0] + 1j * found[:, 1] if np.iscomplexobj(points) else found[:, 0]
+        values[are_wrong] = np.nan
+        return values, U * np.abs(found).sum(axis=1) * OUTWARD + SMALL
+
+    def at_integers(self, points: Integers, bits: int, owners: Sequence[int] | NDArray[np.intp]) -> Real:
+        """(p, r, q) values at points in units of 2^-bits, rounded once; infinite where they are too large for doubles.
+
+        Parameters
+        ----------
+        points : list of p lists of r lists of n int
+            Real parts, and imaginary ones if r is 2.
+        bits : int
+        owners : sequence of p int
+            Which of the stacked lists of polynomials each point is for; in order.
+        """
+        pairs, one = list(zip(self.first.tolist(), self.second.tolist(), strict=True)), fmpz(1 << bits)
+        numbers: list[float] = []
+        several = zip(owners, points, strict=True)
+        for owner, group in groupby(several, key=itemgetter(0)):
+            rows: list[list[fmpz]] = []
+            for _, (real, *imaginary) in group:
+                a = [*map(fmpz, real), one]
+                if imaginary and any(imaginary[0]):
+                    b = [*map(fmpz, imaginary[0]), fmpz(0)]
+                    rows.append([a[i] * a[j] - b[i] * b[j] for i, j in pairs])
+                    rows.append([a[i] * b[j] + b[i] * a[j] for i, j in pairs])
+                else:
+                    rows.append([a[i] * a[j] for i, j in pairs])
+                    rows += [[fmpz(0)] * len(pairs)] * len(imaginary)
+            numbers += map(_double, (fmpz_mat(rows) * self._integers[owner]).entries())
+        values = np.array(numbers).reshape(len(points), -1, self.head.shape[-2])
+        powers = self.powers.reshape(-1, 1, self.powers.shape[-1])[np.asarray(owners, dtype=np.intp)]
+        found: Real = np.ldexp(values, -2 * bits - powers)
+        return found
 
     def in_two(self, points: Real) -> tuple[Real, Real, Real]:
-        """The same at real points as sums of two doubles, the second not rounded away: heads, tails, and bounds."""
-        x, exponents = self._scaled(_extended(points, 1.0)[None])
-        parts = _slices(*two_product(x[..., self.first], x[..., self.second]))
-        first, second, bound = self._sums(parts, exponents)
-        return first[0], second[0], bound[0]
+        """The same at real points as sums of two doubles, the second not rounded away: heads, tails, and bounds.
+
+        Not of lists that are stacked.
+        """
+        x, exponents = self._scaled(np.concatenate([points, np.ones((len(points), 1))], axis=1))
+        return self._sums(_slices(*two_product(x[:, self.first], x[:, self.second])), exponents)
 
     def _scaled(self, x: Real) -> tuple[Real, NDArray[np.intp]]:
-        """Points (r, p, n + 1) with coordinates below 1, by a power of 2 for each kind; its exponents, (p, kinds)."""
-        sizes = np.abs(x).max(axis=0)
+        """Points (p, n + 1) with coordinates below 1, by a power of 2 for each kind; its exponents, (p, kinds)."""
+        sizes = np.abs(x)
         exponents = np.frexp(np.stack([sizes[:, members].max(axis=1) for members in self._members], axis=1))[1]
         return np.ldexp(x, -exponents[:, self.kinds]), exponents
 
     def _sums(self, parts: Real, exponents: NDArray[np.intp]) -> tuple[Real, Real, Real]:
-        """Values (r, p, q) from slices (l, r, p, t) of the products of coordinates.
+        """Values (p, q) from slices (l, p, t) of the products of coordinates.
 
         Notes
         -----
         Products are exact as two doubles; adding the second after two slices is off by 2^-97 at most, likewise of the
         coefficients. Products of slices that are left out, i + j >= 5, are below 2^-108 each.
         """
-        rows, points = parts.shape[1:3]
-        table, size = self._table, self.head.shape[-2]
-        lead = self.head.shape[:-2]
-        slices = parts.transpose(1, 2, 0, 3).reshape(rows, *lead, -1, table.matrix.shape[-2])
-        each = table.exponents.repeat(points // lead[0], axis=0) if lead else table.exponents
-        shifts = exponents[:, table.kinds].sum(axis=2)[:, :, None] + each  # (p, classes, q)
-        sums = (slices @ table.matrix).reshape(rows, points, len(table.counts), LEVELS, -1)
-        terms = np.ldexp(sums, shifts[:, :, None]).reshape(rows, points, -1, size).transpose(0, 1, 3, 2)
+        points, table, size = parts.shape[1], self._table, len(self.head)
+        slices = parts.transpose(1, 0, 2).reshape(points, -1)
+        shifts = exponents[:, table.kinds].sum(axis=2)[:, :, None] + table.exponents  # (p, classes, q)
+        sums = (slices @ table.matrix).reshape(points, len(table.counts), LEVELS, -1)
+        terms = np.ldexp(sums, shifts[:, :, None]).reshape(points, -1, size).transpose(0, 2, 1)
         lost = np.ldexp((LACKING * table.counts)[:, None], shifts).sum(axis=1)
         first, second, bound = twofold_sums(terms, np.zeros(1))
         return first, second, (bound + lost) * OUTWARD + SMALL
@@ -175,11 +237,11 @@ class _Table:
     Attributes
     ----------
     kinds : (c, 2) array of int
-    exponents : (.., c, q) array of int
+    exponents : (c, q) array of int
         Of the largest coefficients.
     counts : (c,) array of int
         Numbers of monomials.
-    matrix : (.., l t, c l q) array
+    matrix : (l t, c l q) array
         With slices of products, level after level, it gives the sums of all products of levels i + j = s, for each s.
     """
 
@@ -218,12 +280,8 @@ def _slices(high: Real, low: Real) -> Real:
     return slices
 
 
-def _rounded(first: Real, second: Real, bound: Real) -> tuple[Real, Real]:
-    """The sums as doubles, and how far they are off at most."""
-    value: Real = first + second
-    return value, (bound + U * np.abs(value)) * OUTWARD
-
-
-def _extended(points: Real, last: float) -> Real:
-    """With one more coordinate."""
-    return np.concatenate([points, np.full((len(points), 1), last)], axis=1)
+def _double(value: fmpz) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return inf

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pkm_exact.numeric.double_forms import DoubleForms
-from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, are_moderate, gamma
+from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U, are_moderate, gamma
 from pkm_exact.numeric.study_system import Complex, Real
 
 TERMS: Final = 12
@@ -118,6 +118,37 @@ class DoubleEquations:
     def variations(self, radii: Real) -> Real:
         """(p, n, n) bounds of how much entries of F' change within radii; the absolute values of what adds up to F'."""
         return self._times(radii, self._tables[1])
+
+    def values_at(self, points: NDArray[Any]) -> tuple[NDArray[Any], Real]:
+        """(p, n) values of F at points, from F' in doubles, and how far both parts are off at most.
+
+        Notes
+        -----
+        F(x) = F(0) + (F'(x) + F'(0)) x / 2. Entries of F' have less than ``TERMS`` roundings in a row, sums of eight
+        complex products 16 more.
+        """
+        (constants, slopes), sizes = self.at_zero(len(points)), _sums(points)
+        found: NDArray[Any] = products(self._times(points, self._tables[0]) / 2 + slopes, points) + constants
+        around = products(self._times(sizes, self._tables[1]) + np.abs(slopes), sizes) + np.abs(constants)
+        return found, gamma(4 * TERMS) * around * OUTWARD + SMALL
+
+    def values_beside(
+        self, points: NDArray[Any], moves: NDArray[Any], known: tuple[NDArray[Any], Real]
+    ) -> tuple[NDArray[Any], Real]:
+        """(p, n) values of F at points + moves, from those at points, and how far both parts are off at most.
+
+        Of the values that are known it is told likewise how far they are off. Points are given up to two roundings.
+
+        Notes
+        -----
+        F(x + s) = F(x) + (F'(x) + F''(s) / 2) s. Entries of F' have less than ``TERMS`` roundings in a row, and some
+        more with those of the points and of F''(s); sums of eight complex products have 16.
+        """
+        steps, sizes = self._times(moves, self._tables[0]) / 2, _sums(moves)
+        found: NDArray[Any] = known[0] + products(self.jacobians(points) + steps, moves)
+        around = self.variations(_sums(points) + sizes) + np.abs(self.at_zero(len(points))[1])
+        off = known[1] + gamma(4 * TERMS) * products(around, sizes) + 2 * U * _largest(found)
+        return found, off * OUTWARD + SMALL
 
     def _times(self, rows: NDArray[Any], table: Real) -> NDArray[Any]:
         size = len(self.norm)

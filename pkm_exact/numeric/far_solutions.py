@@ -11,13 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pkm_exact.numeric.chart_equations import ChartSystem
-from pkm_exact.numeric.chart_mixture import Integers, MixedEquations
 from pkm_exact.numeric.double_boxes import (
     ASTRAY,
     NEAR,
@@ -28,14 +27,23 @@ from pkm_exact.numeric.double_boxes import (
     inverses_at,
     real_or_complex,
 )
-from pkm_exact.numeric.double_krawczyk import SLACK, DoubleEquations, DoubleSolution, Proofs, double_proofs, products
+from pkm_exact.numeric.double_krawczyk import (
+    SLACK,
+    DoubleEquations,
+    DoubleSolution,
+    Proofs,
+    double_proofs,
+    newton_step,
+    products,
+)
 from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U
 from pkm_exact.numeric.grids import GRIDS, WIDEST
 from pkm_exact.numeric.study_system import Complex, Real
 from pkm_exact.poses.isolated_solutions import RADIUS, ROOM, Box
 
 BITS: Final = 128
-"""Of the units of points."""
+UNITS: Final = 2.0**BITS
+"""Points are integers in units of 2^-BITS."""
 TRIED: Final = (44, 72)
 """Grids that are tried here."""
 STEPS: Final = 5
@@ -44,6 +52,8 @@ CLOSE: Final = 2.0**-10
 """Points of which steps are this small, in units of the finest grid, are not moved any more."""
 LARGEST: Final = 2.0**200
 """Coordinates are smaller."""
+Integers: TypeAlias = list[list[tuple[int, int]]]
+"""For each point its coordinates, real and imaginary parts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,15 +62,12 @@ class _Equations:
 
     Attributes
     ----------
-    several : sequence of MixedEquations
-        Of each robot.
     mixed, original : DoubleEquations
         G and F.
     mixing : (k, n, n) array
         A of each robot.
     """
 
-    several: Sequence[MixedEquations]
     mixed: DoubleEquations
     original: DoubleEquations
     mixing: Real
@@ -79,16 +86,14 @@ class _Equations:
             original = DoubleEquations.stacked(originals)
         if mixed is None or original is None:
             return None
-        return cls(several, mixed, original, np.stack([entry.mixing for entry in several]))
+        return cls(mixed, original, np.stack([entry.mixing for entry in several]))
 
-    def values(self, points: Integers, chosen: NDArray[np.bool_]) -> NDArray[np.complex128]:
+    def values(self, points: Integers, chosen: NDArray[np.bool_]) -> NDArray[Any]:
         """(p, n): G at those points that are chosen, in units of 2^-BITS; both parts are rounded once."""
-        found = []
-        for mixed, rows in zip(self.several, np.array_split(np.arange(len(points)), len(self.several)), strict=True):
-            here = rows[chosen[rows]].tolist()
-            if here:
-                found.append(mixed.values([points[row] for row in here], BITS))
-        return np.concatenate(found)
+        rows, several = np.flatnonzero(chosen), len(self.mixing)
+        parts = [[list(part) for part in zip(*points[row], strict=True)] for row in rows.tolist()]
+        found = self.mixed.forms.at_integers(parts, BITS, rows * several // len(points))
+        return found[:, 0] + 1j * found[:, 1]
 
     def variations(self, inverses: NDArray[Any], radii: Real, are_real: NDArray[np.bool_]) -> Real:
         """(p, n, n): how much Y A F' varies, entry by entry, when it is computed as by balls: in F, not in G."""
@@ -110,14 +115,15 @@ class _Limits:
         The same, rounded.
     inverses : (p, n, n) array
         Of G' there or nearby.
-    values : (p, n) array
-        G there, both parts rounded once.
+    values, off : (p, n) arrays
+        G there, and how far both parts are off at most.
     """
 
     points: Integers
     near: NDArray[Any]
     inverses: NDArray[Any]
     values: NDArray[Any]
+    off: Real
 
 
 def far_solutions(systems: Sequence[ChartSystem], points: Sequence[Complex]) -> list[DoubleBoxes]:
@@ -167,34 +173,37 @@ def _fit(points: Complex) -> NDArray[np.intp]:
 def _limits(
     equations: _Equations, begun: NDArray[Any], are_real: NDArray[np.bool_], are_new: NDArray[np.bool_]
 ) -> _Limits:
-    """From where it begins; points that are not new are the ones before them again."""
-    source = np.maximum.accumulate(np.where(are_new, np.arange(len(begun)), 0))
-    units = grids_of(equations.mixed, begun, max(TRIED))[1]
-    near, inverses = begun, inverses_at(equations.mixed, begun, are_real)
-    values: NDArray[Any] = equations.mixed.forms.at(begun)[0]
-    points: Integers = [[(int(a), int(b)) for a, b in row] for row in _parts(begun)]
-    moves = np.ones(len(begun), dtype=np.bool_)
-    for number in range(STEPS):
-        steps = products(inverses, values)
-        sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag))
-        # After the first step, values are as exact as asked for.
-        moves = np.isfinite(steps).all(axis=1) & ((sizes >= CLOSE * units).any(axis=1) | (number == 0))
-        if number and not moves.any():
+    """From where it begins; points that are not new are the ones before them again.
+
+    Where values are known exactly and a step is short, doubles tell it so well that the values after it follow.
+    """
+    source, mixed = np.maximum.accumulate(np.where(are_new, np.arange(len(begun)), 0)), equations.mixed
+    near = newton_step(mixed, begun, inverses_at(mixed, begun, are_real))
+    near = np.where((np.abs(near) < LARGEST).all(axis=1)[:, None], near, begun)
+    inverses, units = inverses_at(mixed, near, are_real), grids_of(mixed, begun, max(TRIED))[1]
+    points: Integers = [[(int(a), int(b)) for a, b in row] for row in _parts(near)]
+    values, off, chosen = np.zeros_like(begun), np.zeros(begun.shape), are_new
+    for _ in range(STEPS):
+        exact = equations.values(points, chosen)
+        values[chosen] = exact if np.iscomplexobj(begun) else exact.real
+        off[chosen] = (np.abs(exact.real) + np.abs(exact.imag)) * U * OUTWARD + SMALL
+        values, off = values[source], off[source]
+        steps = np.rint(products(inverses, values) * UNITS)
+        sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag)) / UNITS
+        moves = np.isfinite(steps).all(axis=1) & (sizes >= CLOSE * units).any(axis=1)
+        if not moves.any():
             break
+        steps = np.where(moves[:, None], steps, 0) / UNITS
         points = [
-            [(a - int(c), b - int(d)) for (a, b), (c, d) in zip(x, row, strict=True)] if move else x
-            for x, row, move in zip(points, _parts(np.where(moves[:, None], steps, 0)), moves.tolist(), strict=True)
+            [(a - int(c), b - int(d)) for (a, b), (c, d) in zip(points[k], row, strict=True)]
+            for k, row in zip(source.tolist(), _parts(steps), strict=True)
         ]
+        values, off = mixed.values_beside(near, -steps, (values, off))
         near = _rounded(points, BITS, begun)
-        if number == 0:  # later ones are as good: what doubles know of derivatives out there is less than they change
-            inverses = inverses_at(equations.mixed, near, are_real)
-        asked = are_new & (moves | (number == 0))
-        if asked.any():
-            exact = equations.values(points, asked)
-            values[asked] = exact if np.iscomplexobj(begun) else exact.real
-        values = values[source]
-        points = [points[k] for k in source.tolist()]
-    return _Limits(points, near, inverses, values)
+        chosen = are_new & moves & ~(products(np.abs(inverses), off) < CLOSE * units).all(axis=1)
+        if not chosen.any():
+            break
+    return _Limits(points, near, inverses, values, off)
 
 
 def _parts(values: NDArray[Any]) -> list[list[list[float]]]:
@@ -250,7 +259,7 @@ def _boxes(
     mixed = equations.mixed
     rows = mixed.places(np.flatnonzero(grids), len(begun))
     grid = np.where(grids[rows] > 0, grids[rows], TRIED[0])
-    near, values = limits.near[rows], limits.values[rows]
+    near = limits.near[rows]
     exponents, units, decided = grids_of(mixed, near, grid)
     halves = [index // 4 for index in mixed.support]
     shifts = [[BITS - row[half] for half in halves] for row in exponents.tolist()]
@@ -267,8 +276,7 @@ def _boxes(
     are_real = np.logical_not(near.imag.any(axis=1))
     inverses = inverses_at(mixed, middle, are_real)
     wider = equations.variations(inverses, RADIUS * units, are_real)
-    off = (np.abs(values.real) + np.abs(values.imag)) * U * OUTWARD + SMALL
-    place = _rounded(beside, BITS, near), values, off
+    place = _rounded(beside, BITS, near), limits.values[rows], limits.off[rows]
     proofs = double_proofs(mixed, inverses, middle, RADIUS * units, ROOM, place, wider)
     distance = np.maximum(np.abs(proofs.moved.real), np.abs(proofs.moved.imag)) + proofs.errors
     decided &= proofs.proved & (distance < SURE * units).all(axis=1) & (grids[rows] > 0)

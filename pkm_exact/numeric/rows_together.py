@@ -23,7 +23,7 @@ from pkm_exact.numeric.double_krawczyk import DoubleEquations
 from pkm_exact.numeric.grids import GRIDS
 from pkm_exact.numeric.nearby import ENOUGH, GREATEST_CHANGE, HOME_STEPS
 from pkm_exact.numeric.poses import Charted, in_chart, is_tracked, poses_in_doubles
-from pkm_exact.numeric.seeds import has_seeds, seeds
+from pkm_exact.numeric.seeds import has_seeds, seeds_of_each
 from pkm_exact.numeric.start import SAME, StartSection
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates, section_quadrics
 from pkm_exact.numeric.tracker import polished
@@ -58,14 +58,14 @@ def rows_together(problems: Sequence[ForwardProblem], start: StartSection, width
 def _guesses(problems: Sequence[ForwardProblem], start: StartSection) -> dict[int, Complex]:
     """All eight coordinates of approximate solutions of rows, with one of each conjugate pair."""
     found: dict[int, Complex] = {}
+    section, legs = _sections(problems, start)
     if start.home is not None and len(start.home):
-        section, legs = _sections(problems, start)
         points, rows = _solutions(section, legs, start.home, problems[0].solution_bound)
         found = {row: rational_coordinates(points[row], section) for row in rows}
-    if start.has_long_paths and has_seeds(problems[0]):
-        for row in set(range(len(problems))) - set(found):
-            seeded = seeds(problems[row])
-            found[row] = without_conjugates(rational_coordinates(seeded.points, seeded.section))
+    rest = [row for row in range(len(problems)) if row not in found]
+    if rest and start.has_long_paths and has_seeds(problems[0]):
+        for row, seeded in zip(rest, seeds_of_each(legs[rest]), strict=True):
+            found[row] = without_conjugates(rational_coordinates(seeded, section))
     return found
 
 

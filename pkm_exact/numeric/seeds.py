@@ -13,7 +13,7 @@ import numpy as np
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.numeric.poses import GREATEST_CHANGE, Approximations, is_tracked
-from pkm_exact.numeric.study_system import QUANTITIES, Complex, Real, motion_forms, numeric_section
+from pkm_exact.numeric.study_system import QUANTITIES, Complex, Real, motion_forms, numeric_section, section_quadrics
 from pkm_exact.numeric.template import motion_seeds
 from pkm_exact.numeric.tracker import polished
 
@@ -37,13 +37,24 @@ def seeds(problem: ForwardProblem) -> Approximations:
         If a number of the robot is too large for floating point.
     """
     section = numeric_section(problem)
+    return Approximations(section, seeds_of_each(section.legs[None])[0])
+
+
+def seeds_of_each(legs: Complex) -> list[Complex]:
+    """The points of ``seeds`` for each of several lists of forms (k, 6, 17), all of which go through the template."""
+    count = len(legs)
     with np.errstate(all="ignore"):
         try:
-            points = study_points(motion_seeds(section.legs.real))
+            points = study_points(motion_seeds(legs.real).reshape(-1, QUANTITIES))
         except np.linalg.LinAlgError:
-            points = np.zeros((0, 8), dtype=complex)
-        points, change = polished(points[np.isfinite(points).all(axis=1)], section.quadrics, enough=ENOUGH)
-    return Approximations(section, points[change < GREATEST_CHANGE])
+            if count == 1:
+                return [np.zeros((0, 8), dtype=complex)]
+            return seeds_of_each(legs[: count // 2]) + seeds_of_each(legs[count // 2 :])
+        are_finite = np.isfinite(points).all(axis=1)
+        points[~are_finite] = 1
+        points, change = polished(points, section_quadrics(legs, SPATIAL), enough=ENOUGH)
+        good = (are_finite & (change < GREATEST_CHANGE)).reshape(count, -1)
+    return [rows[chosen] for rows, chosen in zip(points.reshape(count, -1, 8), good, strict=True)]
 
 
 def study_points(values: Complex) -> Complex:

@@ -28,7 +28,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,25 +60,31 @@ def motion_seeds(forms: Real) -> Complex:
 
     Parameters
     ----------
-    forms : (6, 17) array
-        On (|C|^2; u; C; R; h), in ordinary coordinates.
+    forms : (k, 6, 17) array
+        On (|C|^2; u; C; R; h), in ordinary coordinates; of k robots, or lengths, at once.
 
     Returns
     -------
-    (40, 17) complex array
+    (k, 40, 17) complex array
         Projective points, those at infinity (h = 0) included.
 
     Raises
     ------
     numpy.linalg.LinAlgError
-        If the forms are special in a way that the construction does not bear.
+        If the forms, of one of them, are special in a way that the construction does not bear.
     """
     tables = _tables()
-    basis = np.linalg.qr(forms.T, mode="complete")[0][:, len(forms) :] @ tables.turn
-    second = _with_multiples(_second(basis.T @ tables.quadrics @ basis))
-    matrix = _product_with_first(_third(second, tables.relations))
-    vectors = np.linalg.eig(matrix)[1].astype(np.complex128)  # real where all solutions are
-    found: Complex = vectors[:FREE].T @ basis.T
+    basis = np.linalg.qr(_turned(forms), mode="complete")[0][..., forms.shape[1] :] @ tables.turn
+    second = _with_multiples(_second(_turned(basis)[:, None] @ (tables.quadrics @ basis[:, None])))
+    matrices = _products_with_first(_third(second, tables.relations))
+    vectors = np.linalg.eig(matrices)[1].astype(np.complex128)  # real where all solutions are
+    found: Complex = _turned(vectors[:, :FREE]) @ _turned(basis)
+    return found
+
+
+def _turned(matrices: NDArray[Any]) -> NDArray[Any]:
+    """Transposes."""
+    found: NDArray[Any] = np.swapaxes(matrices, -1, -2)
     return found
 
 
@@ -118,115 +124,122 @@ def _tables() -> _Tables:
 
 
 def _second(quadrics: Real) -> Real:
-    """(10, 10, 29): x_i x_j in 1, x and an orthonormal basis of the 18, from the quadrics on z."""
+    """(k, 10, 10, 29): x_i x_j in 1, x and an orthonormal basis of the 18, from the quadrics on z."""
     i, j = np.triu_indices(INNER)
     weights = np.where(i == j, 1, np.sqrt(2))
-    top = quadrics[:, 1:, 1:][:, i, j] * weights
-    low = np.concatenate([quadrics[:, :1, 0], 2 * quadrics[:, 0, 1:]], axis=1)
-    rotation, triangle = np.linalg.qr(top.T, mode="complete")
-    bound, free = rotation[:, :QUADRICS], rotation[:, QUADRICS:]
-    lower = -bound @ np.linalg.solve(triangle[:QUADRICS].T, low)
-    values = np.concatenate([lower, free], axis=1) / weights[:, None]
+    top = quadrics[..., 1 + i, 1 + j] * weights
+    low = np.concatenate([quadrics[..., :1, 0], 2 * quadrics[..., 0, 1:]], axis=2)
+    rotation, triangle = np.linalg.qr(_turned(top), mode="complete")
+    bound, free = rotation[..., :QUADRICS], rotation[..., QUADRICS:]
+    lower = -bound @ np.linalg.solve(_turned(triangle[:, :QUADRICS]), low)
+    values = np.concatenate([lower, free], axis=2) / weights[:, None]
     place = np.empty((INNER, INNER), dtype=np.intp)
     place[i, j] = place[j, i] = np.arange(len(i))
-    table: Real = values[place]
+    table: Real = values[:, place]
     return table
 
 
 def _with_multiples(second: Real) -> Real:
     """The same in 1, x, b and a: b_k is x_0 x_k as a whole, what it has in lower degrees included."""
-    rotation, triangle = np.linalg.qr(second[0, :, ONE:].T, mode="complete")
-    top = second[:, :, ONE:].reshape(-1, SECOND) @ rotation
-    multiples = np.linalg.solve(triangle[:INNER], top[:, :INNER].T).T
-    low = second[:, :, :ONE].reshape(-1, ONE) - multiples @ second[0, :, :ONE]
-    table = np.concatenate([low, multiples, top[:, INNER:]], axis=1).reshape(INNER, INNER, TWO)
-    table[0] = np.eye(INNER, TWO, ONE)
-    table[:, 0] = table[0]
+    count = len(second)
+    rotation, triangle = np.linalg.qr(_turned(second[:, 0, :, ONE:]), mode="complete")
+    top = second[..., ONE:].reshape(count, -1, SECOND) @ rotation
+    multiples = _turned(np.linalg.solve(triangle[:, :INNER], _turned(top[..., :INNER])))
+    low = second[..., :ONE].reshape(count, -1, ONE) - multiples @ second[:, 0, :, :ONE]
+    table = np.concatenate([low, multiples, top[..., INNER:]], axis=2).reshape(count, INNER, INNER, TWO)
+    table[:, 0] = np.eye(INNER, TWO, ONE)
+    table[:, :, 0] = table[:, 0]
     return table
 
 
 def _third(second: Real, relations: tuple[NDArray[np.intp], ...]) -> Real:
-    """(10, 29, 39): x_i times each of 1, x, b and a, in 1, x, b, a and f."""
+    """(k, 10, 29, 39): x_i times each of 1, x, b and a, in 1, x, b, a and f."""
     place, i, j, k = relations
-    known = np.zeros((INNER, TWO, TWO + SECOND))  # the same in 1, x, b, a, then x_0 a, x_0 b; rows of x_i a are left 0
+    several, rank = len(second), len(place)
+    # The same in 1, x, b, a, then x_0 a, x_0 b; rows of x_i a are left 0.
+    known = np.zeros((several, INNER, TWO, TWO + SECOND))
     axes = np.arange(INNER)
-    known[axes, 0, 1 + axes] = 1
-    known[:, 1:ONE, :TWO] = second
-    known[:, ONE:A, 1] = second[:, :, 0]  # x_i b_k is x_0 times x_i x_k
-    known[:, ONE:A, ONE:A] = second[:, :, 1:ONE]
-    known[:, ONE:A, TWO : TWO + OTHERS] = second[:, :, A:]
-    known[:, ONE:A, TWO + OTHERS :] = second[:, :, ONE:A]
-    led = second[list(LED)]
-    left = (second.reshape(-1, TWO) @ known[list(LED)]).reshape(len(LED), INNER, INNER, -1)
-    rows = left[place, j, k] - (led[:, None] @ known)[place, j, k]
-    top = np.zeros((len(rows), INNER, OTHERS))  # x_1 a, .., x_9 a, x_0 a
-    count = np.arange(len(rows))
-    top[count, i - 1] = second[j, k, A:]
-    top[count, j - 1] -= second[i, k, A:]
-    top[:, -1] = rows[:, TWO : TWO + OTHERS]
-    symbols = np.concatenate([top.reshape(len(rows), -1), rows[:, TWO + OTHERS :]], axis=1)
-    others = _solved(symbols, rows[:, :TWO], THIRD).reshape(INNER, OTHERS, THREE)
-    below = np.zeros((INNER, TWO, THREE))
-    below[:, :, :TWO] = known[:, :, :TWO]
-    below[:, ONE:A] += known[:, ONE:A, TWO : TWO + OTHERS] @ others[-1]
-    below[:, ONE:A, TWO:] += known[:, ONE:A, TWO + OTHERS :]
-    below[0, A:], below[1:, A:] = others[-1], others[:-1]
+    known[:, axes, 0, 1 + axes] = 1
+    known[:, :, 1:ONE, :TWO] = second
+    known[:, :, ONE:A, 1] = second[..., 0]  # x_i b_k is x_0 times x_i x_k
+    known[:, :, ONE:A, ONE:A] = second[..., 1:ONE]
+    known[:, :, ONE:A, TWO : TWO + OTHERS] = second[..., A:]
+    known[:, :, ONE:A, TWO + OTHERS :] = second[..., ONE:A]
+    led = second[:, list(LED)]
+    left = (second.reshape(several, 1, -1, TWO) @ known[:, list(LED)]).reshape(several, len(LED), INNER, INNER, -1)
+    rows = left[:, place, j, k] - (led[:, :, None] @ known[:, None])[:, place, j, k]
+    top = np.zeros((several, rank, INNER, OTHERS))  # x_1 a, .., x_9 a, x_0 a
+    count = np.arange(rank)
+    top[:, count, i - 1] = second[:, j, k, A:]
+    top[:, count, j - 1] -= second[:, i, k, A:]
+    top[:, :, -1] = rows[..., TWO : TWO + OTHERS]
+    symbols = np.concatenate([top.reshape(several, rank, -1), rows[..., TWO + OTHERS :]], axis=2)
+    others = _solved(symbols, rows[..., :TWO], THIRD).reshape(several, INNER, OTHERS, THREE)
+    below = np.zeros((several, INNER, TWO, THREE))
+    below[..., :TWO] = known[..., :TWO]
+    below[:, :, ONE:A] += known[:, :, ONE:A, TWO : TWO + OTHERS] @ others[:, -1:]
+    below[:, :, ONE:A, TWO:] += known[:, :, ONE:A, TWO + OTHERS :]
+    below[:, 0, A:], below[:, 1:, A:] = others[:, -1], others[:, :-1]
     return below
 
 
-def _product_with_first(below: Real) -> Real:
-    """(40, 40): x_0 times each of 1, x, b, a, f, e."""
-    free = np.concatenate([np.zeros((OTHERS, ONE)), -below[0, A:, TWO:], np.eye(OTHERS)], axis=1)
+def _products_with_first(below: Real) -> Real:
+    """(k, 40, 40): x_0 times each of 1, x, b, a, f, e."""
+    several = len(below)
+    free = np.zeros((several, 1, OTHERS, TWO))
+    free[..., ONE:A], free[..., A:] = -below[:, :1, A:, TWO:], np.eye(OTHERS)
     moved = free @ below  # x_j n
-    products = moved[1:].reshape(-1, THREE)
-    low = products[:, :TWO] @ below[0] - (moved[0, :, :TWO] @ below[1:]).reshape(-1, THREE)
-    fourth = _normal_forms(products[:, TWO:], low, 1)  # x_0 f
-    matrix = np.zeros((THREE + 1, THREE + 1))
-    matrix[:TWO, :THREE] = below[0]
-    matrix[TWO:THREE] = fourth
-    matrix[THREE] = _last(below, fourth)
-    return matrix
+    products = moved[:, 1:].reshape(several, -1, THREE)
+    low = products[..., :TWO] @ below[:, 0] - (moved[:, :1, :, :TWO] @ below[:, 1:]).reshape(several, -1, THREE)
+    fourth = _normal_forms(products[..., TWO:], low, 1)  # x_0 f
+    matrices = np.zeros((several, THREE + 1, THREE + 1))
+    matrices[:, :TWO, :THREE] = below[:, 0]
+    matrices[:, TWO:THREE] = fourth
+    matrices[:, THREE:] = _last(below, fourth)
+    return matrices
 
 
 def _last(below: Real, fourth: Real) -> Real:
-    """(40,): x_0 e."""
-    tops = fourth[:, THREE]
-    first = tops / np.linalg.norm(tops)
-    values = below[1:, ONE:A, TWO:] @ tops  # e in x_j f_k = x_0 (x_j b_k)
-    rest = values - np.outer(values @ first, first)
-    k = int(np.argmax(np.linalg.norm(rest, axis=1)))
-    chosen = rest[k] / (rest[k] @ rest[k])  # x_0 f has no e, x_k f has it once
+    """(k, 1, 40): x_0 e."""
+    tops = fourth[:, None, :, THREE:]
+    first = tops / np.linalg.norm(tops, axis=2, keepdims=True)
+    values = (below[:, 1:, ONE:A, TWO:] @ tops)[..., 0]  # e in x_j f_k = x_0 (x_j b_k)
+    rest = values - (values @ first[:, 0]) * first[:, 0, :, 0][:, None]
+    each, sizes = np.arange(len(below)), (rest * rest).sum(axis=2)
+    k = np.argmax(sizes, axis=1)
+    chosen = rest[each, k] / sizes[each, k][:, None]  # x_0 f has no e, x_k f has it once
+    beside = below[each, 1 + k]
 
     def first_times(value: Real) -> Real:
-        product: Real = value[TWO:] @ fourth
-        product[:THREE] += value[:TWO] @ below[0]
+        product: Real = value[..., TWO:] @ fourth
+        product[..., :THREE] += value[..., :TWO] @ below[:, 0]
         return product
 
     def other_times(value: Real) -> Real:
-        product = first_times(value[TWO:] @ below[1 + k, ONE:A])
-        product[:THREE] += value[:TWO] @ below[1 + k]
+        product = first_times(value[..., TWO:] @ beside[:, ONE:A])
+        product[..., :THREE] += value[..., :TWO] @ beside
         return product
 
-    f = np.concatenate([np.zeros(TWO), chosen])
-    last: Real = other_times(first_times(f)[:THREE]) - first_times(other_times(f)[:THREE])
+    f = np.concatenate([np.zeros((len(below), 1, TWO)), chosen[:, None]], axis=2)
+    last: Real = other_times(first_times(f)[..., :THREE]) - first_times(other_times(f)[..., :THREE])
     return last
 
 
 def _solved(symbols: Real, low: Real, dimension: int) -> Real:
-    """(s - dimension, l + dimension): the first of s symbols in what is lower and the last ones, from relations.
+    """(k, s - dimension, l + dimension): the first of s symbols in what is lower and the last ones, from relations.
 
     Relations are rows on the symbols and on the l lower ones; their rank on the symbols is s - dimension.
     """
-    rank = symbols.shape[1] - dimension
-    triangle = np.asarray(np.linalg.qr(np.concatenate([symbols, low], axis=1), mode="r"))
-    solved = -np.linalg.solve(triangle[:rank, :rank], triangle[:rank, rank:])
-    return np.concatenate([solved[:, dimension:], solved[:, :dimension]], axis=1)
+    rank = symbols.shape[2] - dimension
+    triangle = np.asarray(np.linalg.qr(np.concatenate([symbols, low], axis=2), mode="r"))
+    solved = -np.linalg.solve(triangle[:, :rank, :rank], triangle[:, :rank, rank:])
+    return np.concatenate([solved[..., dimension:], solved[..., :dimension]], axis=2)
 
 
 def _normal_forms(symbols: Real, low: Real, dimension: int) -> Real:
-    """(s, l + dimension): all symbols in what is lower and an orthonormal basis of what relations leave of them."""
-    solved = _solved(symbols, low, dimension)
-    width = low.shape[1]
-    free = np.linalg.qr(np.concatenate([solved[:, width:], np.eye(dimension)]))[0]
-    below = np.concatenate([solved[:, :width], np.zeros((dimension, width))])
-    return np.concatenate([below - free @ (free.T @ below), free], axis=1)
+    """(k, s, l + dimension): all symbols in what is lower and an orthonormal basis of what relations leave of them."""
+    solved, width, several = _solved(symbols, low, dimension), low.shape[2], len(low)
+    units = np.broadcast_to(np.eye(dimension), (several, dimension, dimension))
+    free = np.linalg.qr(np.concatenate([solved[..., width:], units], axis=1))[0]
+    below = np.concatenate([solved[..., :width], np.zeros((several, dimension, width))], axis=1)
+    return np.concatenate([below - free @ (_turned(free) @ below), free], axis=2)
