@@ -12,13 +12,14 @@ from flint import fmpz_poly
 
 from pkm_exact.algebra.groebner import UnluckyPrimeError
 from pkm_exact.algebra.representation import UnivariateRepresentation
-from pkm_exact.claim import Claim, CompletenessRoute
+from pkm_exact.claim import Claim
 from pkm_exact.claim_wording import DETECTED_NOTE, NO_SOLUTION_NOTE
 from pkm_exact.completeness.completeness_proof import (
     CompletenessProof,
     has_as_many_legs_as_freedoms,
     prove_complete,
     prove_inconsistent,
+    prove_shortly,
 )
 from pkm_exact.completeness.pose_slices import MorePoses
 from pkm_exact.constraints.distance import Distance
@@ -32,7 +33,7 @@ from pkm_exact.notes import inconsistent_note, isolated_note, motion_note, open_
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, RootEnclosures, exponent_for_width, order_of, pose_boxes
 from pkm_exact.poses.jacobian import pose_jacobians
-from pkm_exact.poses.modular import candidate_charts, candidate_forms
+from pkm_exact.poses.modular import Form, common_charts, common_forms
 from pkm_exact.poses.modular_start import Start
 from pkm_exact.poses.parameters import Parameters
 from pkm_exact.poses.pose import Pose
@@ -47,13 +48,13 @@ from pkm_exact.poses.self_motion import (
     translational_motion,
 )
 from pkm_exact.poses.singularity import are_isolated, singularity
-from pkm_exact.poses.study_equations import Chart
+from pkm_exact.poses.study_equations import Chart, free_coordinates
 from pkm_exact.roots.isolation import has_root
 from pkm_exact.solution import Solution, Statistics
 from pkm_exact.stages import Progress, Stages
 
 if TYPE_CHECKING:
-    from pkm_exact.poses.pose_denominators import PoseDenominators
+    from pkm_exact.completeness.shared_rows import SharedRows
 
 
 def solve(
@@ -75,15 +76,18 @@ def solve_row(
     *,
     width: Fraction = DEFAULT_WIDTH,
     policy: Policy | None = None,
-    shared: PoseDenominators | None = None,
+    shared: SharedRows | None = None,
 ) -> Solution:
     """The answer of ``solve`` to one of many problems that differ in lengths alone, with what others had in common.
 
     Certificates are the same, to the byte; statistics are not.
     """
-    found = solve_without_elimination(problem, width=width, policy=policy, shared=shared)
-    if found is not None:
-        return found
+    if shared is None or shared.may_go_directly:
+        found = solve_without_elimination(problem, width=width, policy=policy, shared=shared)
+        if shared is not None:
+            shared.misses += 1 if found is None else -1
+        if found is not None:
+            return found
     run = _Run(problem, formulation_codes()[0], policy or Policy(), Stages(None), shared)
     with attached(problem, run.stages, method="exact", formulation=run.code, width=width, policy=run.policy):
         return consistent(run.solution(width))
@@ -94,12 +98,12 @@ def solve_without_elimination(
     *,
     width: Fraction = DEFAULT_WIDTH,
     policy: Policy | None = None,
-    shared: PoseDenominators | None = None,
+    shared: SharedRows | None = None,
 ) -> Solution | None:
-    """The answer of ``solve`` where the chart and form tried first show as many isolated poses as there can be.
+    """The answer of ``solve`` where doubles lead to all poses, and their number or a short proof shows that; or None.
 
-    None if they do not, or doubles do not lead to all of them. Nothing is taken from doubles but what is then verified
-    over Q; that no pose is missing is proved by their number, and so no elimination need count them.
+    Nothing is taken from doubles but what is then verified over Q; that no pose is missing is proved by the number of
+    poses, or of poses and points at infinity, and so no elimination need count them.
     """
     run = _Run(problem, formulation_codes()[0], policy or Policy(), Stages(None), shared)
     with attached(problem, run.stages, method="exact", formulation=run.code, width=width, policy=run.policy):
@@ -107,43 +111,42 @@ def solve_without_elimination(
         return None if found is None else consistent(found)
 
 
-def _proposed(
-    problem: ForwardProblem,
-    chart: Chart,
-    form: Sequence[int],
-    degree: int,
-    limit_bits: int,
-    watch: Callable[[int], None] | None = None,
-    shared: PoseDenominators | None = None,
-) -> UnivariateRepresentation | None:
-    """The representation that numerical solutions propose."""
-    if problem.motion != SPATIAL:
-        return None
-    # Floating point is needed for this alone.
-    from pkm_exact.numeric.proposed_representation import proposed_representation
-
-    return proposed_representation(problem, chart, form, degree, limit_bits, watch, shared)
-
-
 def _proposal(
-    shared: PoseDenominators | None,
+    shared: SharedRows | None,
     problem: ForwardProblem,
     chosen: Parameters,
     limit_bits: int,
     watch: Callable[[int], None],
 ) -> UnivariateRepresentation | None:
-    """What is proposed in the chart and form that were chosen modulo a prime."""
-    return _proposed(problem, chosen.chart, chosen.form, chosen.modular.degree, limit_bits, watch, shared)
+    """What numerical solutions propose in the chart and form that were chosen modulo a prime."""
+    if problem.motion != SPATIAL:
+        return None
+    # Floating point is needed for this alone.
+    from pkm_exact.numeric.proposed_representation import proposed_representation
+
+    denominators = None if shared is None else shared.denominators
+    degree = chosen.modular.degree
+    return proposed_representation(problem, chosen.chart, chosen.form, degree, limit_bits, watch, denominators)
 
 
-def _proposed_poses(
-    problem: ForwardProblem, policy: Policy, shared: PoseDenominators | None
-) -> PoseRepresentation | None:
-    """The poses that are proposed in the chart and form tried first, as many as there can be."""
-    chart = next(candidate_charts(policy.seed, policy.seed))
-    form = next(candidate_forms(chart, policy.seed, policy.seed))
-    lifted = _proposed(problem, chart, form, problem.solution_bound, policy.lifting_bits, shared=shared)
-    return None if lifted is None else pose_representation(chart, problem, lifted)
+def _proposed_poses(problem: ForwardProblem, policy: Policy, shared: SharedRows | None) -> PoseRepresentation | None:
+    """The poses that are proposed in the chart and form that ``solve`` would take; None if these may be others."""
+    if problem.motion != SPATIAL:
+        return None
+    # Floating point is needed for this alone.
+    from pkm_exact.numeric.proposed_representation import first_representation
+    from pkm_exact.poses.skipped_choices import are_passed_over
+
+    def forms(chart: Chart) -> list[Form]:
+        free = free_coordinates(chart, problem)
+        return [form for form in common_forms(chart, policy.seed) if any(form[k] for k in free)]
+
+    denominators = None if shared is None else shared.denominators
+    found = first_representation(problem, common_charts(policy.seed), forms, policy.lifting_bits, denominators)
+    if found is None:
+        return None
+    poses = pose_representation(found.chart, problem, found.univariate)
+    return poses if are_passed_over(poses, found.charts, found.forms) else None
 
 
 @dataclass(frozen=True)
@@ -154,7 +157,7 @@ class _Run:
     code: str
     policy: Policy
     stages: Stages
-    shared: PoseDenominators | None = None
+    shared: SharedRows | None = None
 
     @cached_property
     def search(self) -> PoseSearch:
@@ -183,7 +186,7 @@ class _Run:
         raise InternalContradictionError("there are more poses than any prime shows")
 
     def general_solution(self, width: Fraction) -> Solution | None:
-        """The answer if there are as many poses as there can be, in the chart and form that are tried first."""
+        """The answer if doubles lead to all poses, and no elimination is needed to prove that."""
         if self.policy.lifting != "numeric":
             return None
         self.stages.enter("self-motion")
@@ -197,10 +200,9 @@ class _Run:
         if not representation.is_verified(self.problem):
             return None
         self.stages.enter("completeness")
-        if not are_isolated(representation, self.problem, self.policy):
-            return None
-        proof = CompletenessProof(CompletenessRoute.REFINED_BEZOUT, representation.univariate.degree)
-        return self._listed(None, representation, proof, width)
+        boundary = None if self.shared is None else self.shared.boundary
+        proof = prove_shortly(representation, self.problem, self.policy, boundary)
+        return None if proof is None else self._listed(None, representation, proof, width)
 
     def _without_list(self, start: Start, exponent: int, width: Fraction) -> Solution:
         """The answer where there are infinitely many solutions modulo two primes, or none."""

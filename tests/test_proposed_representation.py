@@ -14,6 +14,10 @@ from pkm_exact import engine
 from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.certify.build import canonical_bytes, certificate
+from pkm_exact.completeness import infinity
+from pkm_exact.completeness.conditions import Conditions
+from pkm_exact.completeness.shared_boundary import SharedBoundary
+from pkm_exact.completeness.shared_rows import SharedRows
 from pkm_exact.engine import solve, solve_row, solve_without_elimination
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric import proposed_representation as module
@@ -22,6 +26,7 @@ from pkm_exact.numeric.refined_solutions import refined_solutions
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.poses.pose_denominators import PoseDenominators
+from pkm_exact.poses.skipped_choices import are_passed_over
 from pkm_exact.poses.study_equations import free_coordinates
 
 Patch = pytest.MonkeyPatch
@@ -157,34 +162,83 @@ def _row(name: str, number: int) -> ForwardProblem:
 
 
 def test_rows_share_denominators_and_need_no_lattice_for_them(monkeypatch: Patch) -> None:
-    name, shared = "carriage-hexapod", PoseDenominators()
+    name, shared = "carriage-hexapod", SharedRows()
     first, second = (_row(name, number) for number in (0, 3))
     solve_row(first, shared=shared)
-    assert shared.boundary is not None
-    before = replace(shared)
+    before = replace(shared.denominators)
+    assert before.boundary is not None
     alone = solve_without_elimination(second)
     assert alone is not None
     monkeypatch.setattr(module, "_relation", lambda *_: pytest.fail("a lattice for what is known"))
     together = solve_row(second, shared=shared)
-    assert shared == before
+    assert shared.denominators == before
     assert together.representation == alone.representation
     assert (together.poses, together.notes) == (alone.poses, alone.notes)
 
 
 def test_denominators_of_another_robot_do_no_harm() -> None:
-    found = solve_row(shipped("carriage-hexapod"), shared=PoseDenominators(Fraction(1, 7**90), 11**50))
+    found = solve_row(shipped("carriage-hexapod"), shared=SharedRows(PoseDenominators(Fraction(1, 7**90), 11**50)))
     assert found.representation == solved("carriage-hexapod").representation
 
 
-def test_fewer_poses_or_another_form_need_an_elimination() -> None:
-    assert solve_without_elimination(shipped("mssm")) is None
-    assert solve_without_elimination(shipped("6-6pp")) is None  # opposite poses have the same first coordinate
-    assert solve_without_elimination(shipped("carriage-hexapod"), policy=Policy(lifting="newton")) is None
+@pytest.mark.parametrize("name", ["mssm", pytest.param("6-6pp", marks=pytest.mark.slow)])
+def test_points_at_infinity_and_other_forms_need_no_elimination(name: str) -> None:
+    """Opposite poses of the 6-6pp have the same first coordinate."""
+    found, other = solve_without_elimination(shipped(name)), solved(name)
+    assert found is not None
+    assert found.representation is not None
+    assert other.representation is not None
+    assert found.representation.separating_form == other.representation.separating_form
+    bytes_of = [canonical_bytes(certificate(model(name), None, solution)) for solution in (found, other)]
+    assert bytes_of[0] == bytes_of[1]
+
+
+def test_rows_share_what_is_at_infinity(monkeypatch: Patch) -> None:
+    shared, at = SharedRows(), infinity._Section.at
+    for _ in range(2):
+        found = solve_row(shipped("mssm"), shared=shared)
+        monkeypatch.setattr(infinity._Section, "at", lambda *_: pytest.fail("found before"))
+    assert found.completeness == solved("mssm").completeness
+    monkeypatch.setattr(infinity._Section, "at", at)
+    other = _row("mssm", 1)
+    assert solve_row(other, shared=shared).completeness == solve(other).completeness
+
+
+def test_other_conditions_at_infinity_begin_anew() -> None:
+    shared = SharedBoundary()
+    conditions = Conditions.of(shipped("mssm"))
+    shared.of(conditions).bounds.append(5)
+    assert shared.of(Conditions.of(_row("mssm", 1))).bounds == [5]
+    assert not shared.of(Conditions.of(shipped("tssm"))).bounds
+
+
+def test_lifting_otherwise_needs_an_elimination() -> None:
+    assert solve_without_elimination(shipped("mssm"), policy=Policy(lifting="newton")) is None
+
+
+def test_rows_that_need_an_elimination_are_soon_not_tried_without(monkeypatch: Patch) -> None:
+    tried: list[object] = []
+    monkeypatch.setattr(engine, "solve_without_elimination", lambda problem, **_: tried.append(problem))
+    shared = SharedRows()
+    for _ in range(3):
+        solve_row(shipped("3-rpr-merlet-p"), shared=shared)
+    assert len(tried) == 2
+
+
+@pytest.mark.parametrize("kind", ["charts", "forms"])
+def test_what_the_search_by_primes_would_take_is_not_passed_over(kind: str) -> None:
+    found = solved("mssm").representation
+    assert found is not None
+    charts, forms = ([found.chart], []) if kind == "charts" else ([], [found.separating_form])
+    assert not are_passed_over(found, charts, forms)
+    assert are_passed_over(found, [], [(0, 0, 0, 0, 0, 0, 0, 0)])
+    assert are_passed_over(found, [], [])
 
 
 def test_rows_of_a_robot_that_needs_an_elimination_have_one() -> None:
-    rows = RowSolver.of([shipped("mssm")], DEFAULT_WIDTH, Policy(), "exact")
-    assert rows.solution(shipped("mssm")).statistics.primes == solved("mssm").statistics.primes
+    name = "3-rpr-merlet-p"
+    rows = RowSolver.of([shipped(name)], DEFAULT_WIDTH, Policy(), "exact")
+    assert rows.solution(shipped(name)).statistics.primes == solved(name).statistics.primes
 
 
 def test_a_wrong_proposal_without_an_elimination_is_no_answer(monkeypatch: Patch) -> None:

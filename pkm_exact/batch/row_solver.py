@@ -13,6 +13,7 @@ from typing import Final
 
 import numpy as np
 
+from pkm_exact.completeness.shared_rows import SharedRows
 from pkm_exact.engine import solve_row
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.nearby import from_home, nearby_start
@@ -21,7 +22,6 @@ from pkm_exact.numeric.rows_together import rows_together
 from pkm_exact.numeric.start import StartSection
 from pkm_exact.numeric_engine import solve_exactly_instead, solve_krawczyk
 from pkm_exact.policy import Policy
-from pkm_exact.poses.pose_denominators import PoseDenominators
 from pkm_exact.solution import Solution
 
 METHODS: Final = ("krawczyk", "exact")
@@ -47,8 +47,8 @@ class RowSolver:
         Near the robot; None if the generic one is used.
     is_numeric : bool
         Whether the numeric engine is tried at all.
-    denominators : PoseDenominators
-        Of the exact engine's representations: what the first row finds. A matter of time only, too.
+    shared : SharedRows
+        What the exact engine finds at the first rows for the others. A matter of time only, too.
     """
 
     method: str
@@ -56,7 +56,7 @@ class RowSolver:
     policy: Policy
     start: StartSection | None = None
     is_numeric: bool = True
-    denominators: PoseDenominators = field(default_factory=PoseDenominators, repr=False, compare=False)
+    shared: SharedRows = field(default_factory=SharedRows, repr=False, compare=False)
 
     @classmethod
     def of(
@@ -90,7 +90,7 @@ class RowSolver:
             As ``engine.solve``, if that has to be called.
         """
         if self.method == "exact":
-            return solve_row(problem, width=self.width, policy=self.policy, shared=self.denominators)
+            return solve_row(problem, width=self.width, policy=self.policy, shared=self.shared)
         if self.is_numeric:
             return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start, near=near)
         return solve_exactly_instead(problem, width=self.width, policy=self.policy)

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from pkm_exact.completeness.closed_section import ClosedSection
     from pkm_exact.completeness.conditions import Conditions
     from pkm_exact.completeness.infinity import PointsAtInfinity
+    from pkm_exact.completeness.shared_boundary import SharedBoundary
 
 
 @dataclass(frozen=True)
@@ -117,22 +118,36 @@ def prove_complete(
     UnluckyPrimeError
         If it is proved that there are more poses.
     """
+    proof, section = _without_elimination(representation, problem, policy)
+    if proof is not None:
+        return proof
+    found = bases(elimination_system(problem, section), policy, watch, earlier)
+    proofs = (_by_elimination(basis, representation, problem, policy) for basis in found)
+    return next((proof for proof in proofs if proof is not None), None)
+
+
+def prove_shortly(
+    representation: PoseRepresentation, problem: ForwardProblem, policy: Policy, shared: SharedBoundary | None = None
+) -> CompletenessProof | None:
+    """The proof of ``prove_complete`` where that needs no elimination, or None."""
+    return _without_elimination(representation, problem, policy, shared)[0]
+
+
+def _without_elimination(
+    representation: PoseRepresentation, problem: ForwardProblem, policy: Policy, shared: SharedBoundary | None = None
+) -> tuple[CompletenessProof | None, ClosedSection | None]:
+    """The proof by the number of poses, or a short one, and the closed section if that was needed."""
     degree = representation.univariate.degree
     if (
         not problem.motion.is_planar
         and degree == problem.solution_bound
         and are_isolated(representation, problem, policy)
     ):
-        return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree)
-    section = None
-    if goes_shortly(problem, policy):
-        conditions, section = _closed(problem)
-        proof = _shortly(representation, problem, policy, conditions, section)
-        if proof is not None:
-            return proof
-    found = bases(elimination_system(problem, section), policy, watch, earlier)
-    proofs = (_by_elimination(basis, representation, problem, policy) for basis in found)
-    return next((proof for proof in proofs if proof is not None), None)
+        return CompletenessProof(CompletenessRoute.REFINED_BEZOUT, degree), None
+    if not goes_shortly(problem, policy):
+        return None, None
+    conditions, section = _closed(problem)
+    return _shortly(representation, problem, policy, conditions, section, shared), section
 
 
 def goes_shortly(problem: ForwardProblem, policy: Policy) -> bool:
@@ -148,6 +163,7 @@ def _shortly(
     policy: Policy,
     conditions: Conditions,
     section: ClosedSection,
+    shared: SharedBoundary | None,
 ) -> CompletenessProof | None:
     """A proof without an elimination, in which multiple poses count twice."""
     from pkm_exact.completeness.short_proof import short_proof
@@ -158,7 +174,7 @@ def _shortly(
         least = least_multiplicities(representation, problem, policy)
         found = tuple((factor, min(multiplicity, 2)) for factor, multiplicity in least)
     total = total_of(found) if found else degree
-    proof = short_proof(conditions, degree, total, policy, section)
+    proof = short_proof(conditions, degree, total, policy, section, shared)
     return None if proof is None else CompletenessProof(proof.route, total, (), found, proof.infinity)
 
 

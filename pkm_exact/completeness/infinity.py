@@ -22,6 +22,7 @@ from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.algebra.rur import ModularRepresentation, squarefree_part
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.rigid_motions import HORIZON, IntegerSection, Quadric, boundary_quadrics, variety_quadrics
+from pkm_exact.completeness.shared_boundary import SharedBoundary
 from pkm_exact.constraints.form import SIZE
 from pkm_exact.digests import digest
 from pkm_exact.errors import ReconstructionError
@@ -65,7 +66,12 @@ class PointsAtInfinity:
 
 
 def points_at_infinity(
-    conditions: Conditions, primes: Iterator[int], limit_bits: int, *, is_quick: bool = False
+    conditions: Conditions,
+    primes: Iterator[int],
+    limit_bits: int,
+    *,
+    is_quick: bool = False,
+    shared: SharedBoundary | None = None,
 ) -> PointsAtInfinity | None:
     """All points at infinity on the conditions, verified over Q; None if there are none or too many, or at a limit.
 
@@ -78,13 +84,12 @@ def points_at_infinity(
         Of the product of the primes used.
     is_quick : bool
         Whether few relations are taken, which nearly always suffice.
+    shared : SharedBoundary, optional
+        Of robots with the same conditions at infinity; it gets the sections that are found.
     """
-    chosen: Chosen = {}
-    first = FEW if is_quick else None
-    boundary = IntegerSection.of(
-        [*boundary_quadrics(conditions.metric), *conditions.quadrics], [*conditions.forms, HORIZON]
-    )
-    section = _Section.at(boundary, next(primes), chosen, first)
+    known = [] if shared is None else shared.of(conditions).sections[is_quick]
+    sections = _sections(conditions, primes, known, FEW if is_quick else None)
+    section = next(sections)
     if section is None or not section.dimension:
         return None
     random = Random(conditions.digest)
@@ -95,9 +100,24 @@ def points_at_infinity(
             form = _random_form(random, terms)
             image = section.representation(chart, form)
             if image is not None and image.degree == distinct:
-                along = (_Section.at(boundary, prime, chosen, first) for prime in primes)
-                return _lifted(conditions, along, (chart, form, image), limit_bits)
+                return _lifted(conditions, sections, (chart, form, image), limit_bits)
     return None
+
+
+def _sections(
+    conditions: Conditions, primes: Iterator[int], known: list[_Section], first: int | None
+) -> Iterator[_Section | None]:
+    """Those that are known, and then at further primes, which become known."""
+    yield from list(known)
+    chosen: Chosen = {}
+    boundary = IntegerSection.of(
+        [*boundary_quadrics(conditions.metric), *conditions.quadrics], [*conditions.forms, HORIZON]
+    )
+    for prime in primes:
+        section = _Section.at(boundary, prime, chosen, first)
+        if section is not None:
+            known.append(section)
+        yield section
 
 
 def _lifted(

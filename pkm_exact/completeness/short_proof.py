@@ -19,6 +19,7 @@ from pkm_exact.completeness.finite_section import is_finite, most_at_infinity
 from pkm_exact.completeness.infinity import PointsAtInfinity, points_at_infinity
 from pkm_exact.completeness.modular_rank import modular_rank
 from pkm_exact.completeness.pose_bound import form_rank, pose_bound
+from pkm_exact.completeness.shared_boundary import SharedBoundary
 from pkm_exact.failures.contradiction import require
 from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.policy import Policy
@@ -43,7 +44,12 @@ class ShortProof:
 
 
 def short_proof(
-    conditions: Conditions, distinct: int, total: int, policy: Policy, section: ClosedSection | None = None
+    conditions: Conditions,
+    distinct: int,
+    total: int,
+    policy: Policy,
+    section: ClosedSection | None = None,
+    shared: SharedBoundary | None = None,
 ) -> ShortProof | None:
     """A proof that the poses listed are all, or None if no short way closes.
 
@@ -59,6 +65,8 @@ def short_proof(
         For primes, and how far points at infinity are lifted.
     section : ClosedSection, optional
         That of the conditions, if it is known.
+    shared : SharedBoundary, optional
+        Of robots with the same conditions at infinity.
     """
     primes = primes_from(policy.seed_for(conditions.digest), policy.prime_bits)
     bound = pose_bound(conditions)
@@ -69,11 +77,11 @@ def short_proof(
         return ShortProof(CompletenessRoute.MODULAR_RANK)
     if conditions.motion != SPATIAL or conditions.quadrics:
         return None
-    if not _has_room(conditions, bound.degree - total, primes):
+    if not _has_room(conditions, bound.degree - total, primes, shared):
         return None
     # "No" may be the fault of primes or of too few relations: it is asked twice.
     bits = min(policy.lifting_bits, LIFTING_BITS)
-    tried = (points_at_infinity(conditions, primes, bits, is_quick=is_quick) for is_quick in (True, False))
+    tried = (points_at_infinity(conditions, primes, bits, is_quick=each, shared=shared) for each in (True, False))
     found = next(filter(None, tried), None)
     if found is None or total + found.multiplicity < bound.degree:
         return None
@@ -96,14 +104,20 @@ def can_close(conditions: Conditions, policy: Policy) -> bool:
     return _has_room(conditions, 0, primes)
 
 
-def _has_room(conditions: Conditions, wanted: int, primes: Iterator[int]) -> bool:
+def _has_room(conditions: Conditions, wanted: int, primes: Iterator[int], shared: SharedBoundary | None = None) -> bool:
     """Whether points at infinity may make up a number: no curves, nor too few points, are there.
 
     Both are seen soonest in a bound for the number of points. "No" may be the fault of primes or of too few relations:
     it is asked twice.
     """
-    bounds = (most_at_infinity(conditions, next(primes), is_quick=is_quick) for is_quick in (False, True))
-    return any(most is not None and 2 * most >= wanted for most in bounds)
+    known = [] if shared is None else shared.of(conditions).bounds
+    for attempt, is_quick in enumerate((False, True)):
+        if attempt == len(known):
+            known.append(most_at_infinity(conditions, next(primes), is_quick=is_quick))
+        most = known[attempt]
+        if most is not None and 2 * most >= wanted:
+            return True
+    return False
 
 
 def _is_square(conditions: Conditions) -> bool:

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import combinations
 from math import ceil, gcd, lcm, log2
 from typing import Final
 
@@ -35,8 +36,9 @@ from pkm_exact.numeric.root_factors import (
 from pkm_exact.numeric.seeds import has_seeds, seeds
 from pkm_exact.numeric.study_system import Complex, rational_coordinates
 from pkm_exact.poses.expected_size import expected_bits
+from pkm_exact.poses.modular import Form
 from pkm_exact.poses.pose_denominators import PoseDenominators
-from pkm_exact.poses.study_equations import Chart, free_coordinates
+from pkm_exact.poses.study_equations import Chart
 from pkm_exact.precision import working_precision
 
 WORTHWHILE: Final = 384
@@ -54,6 +56,10 @@ FEW_BITS: Final = 32
 """By which denominators are mostly longer at most than at other lengths."""
 CLOSE: Final = 2.0**-24
 """Relative distance of values of the form that doubles may not tell apart."""
+NEVER: Final = 2.0**-36
+"""Relative size of what is 0 in doubles."""
+SEPARATED, SAME = 40, 72
+"""Values differ by more than 2^-40, or by less than 2^-72, or it is not told which."""
 DOUBLED: Final = 3
 LEAST_DOUBLED: Final = 600
 """Newton's method doubles the bits up to a part of the expected ones, or so many; inverses serve from there on."""
@@ -85,26 +91,111 @@ def proposed_representation(
     shared : PoseDenominators, optional
         Of the same robot at other lengths; it gets what is found first.
     """
-    expected = expected_bits(problem, degree)
-    if expected < WORTHWHILE or not has_seeds(problem):
+    points = _approximations(problem)
+    if points is None or len(points) != degree:
+        return None
+    values = points[:, :4] @ np.array(chart, dtype=float)
+    if not np.all(values):
+        return None
+    points = points / values[:, None]
+    if not _are_separated(points @ np.array(form, dtype=float)):
+        return None
+    solutions = refined_solutions(problem, chart, points)
+    return None if solutions is None else _represented(problem, points, form, solutions, limit_bits, watch, shared)
+
+
+def first_representation(
+    problem: ForwardProblem,
+    charts: Sequence[Chart],
+    forms: Callable[[Chart], Sequence[Form]],
+    limit_bits: int,
+    shared: PoseDenominators | None = None,
+) -> FirstRepresentation | None:
+    """The representation of all solutions that are found, in the first chart and by the first form that seem to serve.
+
+    Parameters
+    ----------
+    problem : ForwardProblem
+    charts : sequence of chart
+        To be tried.
+    forms : callable
+        Those to be tried in a chart.
+    limit_bits : int
+    shared : PoseDenominators, optional
+    """
+    points = _approximations(problem)
+    if points is None or not len(points):
+        return None
+    sizes = np.abs(points[:, :4]).max(axis=1)
+    number = 0
+    while True:
+        values = points[:, :4] @ np.array(charts[number], dtype=float)
+        least = float(np.min(np.abs(values) / sizes))
+        if least > CLOSE:
+            break
+        number += 1
+        if least > NEVER or number == len(charts):
+            return None
+    chart = charts[number]
+    points = points / values[:, None]
+    solutions = refined_solutions(problem, chart, points)
+    if solutions is None:
+        return None
+    tried = forms(chart)
+    for place, form in enumerate(tried):
+        found = _separates(points, solutions, form)
+        if found is None:
+            return None
+        if found:
+            lifted = _represented(problem, points, form, solutions, limit_bits, None, shared)
+            return None if lifted is None else FirstRepresentation(chart, lifted, charts[:number], tried[:place])
+    return None
+
+
+@dataclass(frozen=True)
+class FirstRepresentation:
+    """A representation on the free coordinates of a chart, and what was tried before.
+
+    Attributes
+    ----------
+    chart : tuple of 4 int
+    univariate : UnivariateRepresentation
+    charts, forms : sequence
+        Charts that seem to miss a pose, and forms that seem to take a value twice.
+    """
+
+    chart: Chart
+    univariate: UnivariateRepresentation
+    charts: Sequence[Chart]
+    forms: Sequence[Form]
+
+
+def _approximations(problem: ForwardProblem) -> Complex | None:
+    """Solutions in doubles, if the template is one for the problem and the numbers are long enough."""
+    if expected_bits(problem, problem.solution_bound) < WORTHWHILE or not has_seeds(problem):
         return None
     try:
         found = seeds(problem)
     except OverflowError:
         return None
-    points = rational_coordinates(found.points, found.section)
-    values = points[:, :4] @ np.array(chart, dtype=float)
-    if len(points) != degree or not np.all(values):
-        return None
-    points /= values[:, None]
-    if not _are_separated(points @ np.array(form, dtype=float)):
-        return None
-    solutions = refined_solutions(problem, chart, points)
-    if solutions is None:
+    return rational_coordinates(found.points, found.section)
+
+
+def _represented(
+    problem: ForwardProblem,
+    points: Complex,
+    form: Sequence[int],
+    solutions: RefinedSolutions,
+    limit_bits: int,
+    watch: Callable[[int], None] | None,
+    shared: PoseDenominators | None,
+) -> UnivariateRepresentation | None:
+    expected = expected_bits(problem, len(points))
+    if expected < WORTHWHILE:
         return None
     refinement = _Refinement(
         solutions,
-        [form[k] for k in free_coordinates(chart, problem)],
+        [form[k] for k in solutions.equations.free],
         motion_quadrics(problem.metric)[-1],
         _margin(points, form),
         max(expected // DOUBLED, LEAST_DOUBLED),
@@ -112,6 +203,25 @@ def proposed_representation(
         watch,
     )
     return _proposed(refinement, expected + expected // 16, shared)
+
+
+def _separates(points: Complex, solutions: RefinedSolutions, form: Form) -> bool | None:
+    """Whether a form seems to take as many values as there are solutions; None if values are too close to tell."""
+    if _are_separated(points @ np.array(form, dtype=float)):
+        return True
+    with working_precision(FIRST_BITS):
+        values = [acb(value_of([form[k] for k in solutions.equations.free], x)) for x in solutions.points]
+        values += [acb(value.real, -value.imag) for value in values[solutions.count :]]
+        distances = [_bits_below(a - b) for a, b in combinations(values, 2)]
+    if any(SEPARATED < distance < SAME for distance in distances):
+        return None
+    return all(distance <= SEPARATED for distance in distances)
+
+
+def _bits_below(value: acb) -> int:
+    """About minus the binary logarithm of the size."""
+    mantissa, exponent = value.abs_upper().man_exp()
+    return -int(mantissa.bit_length() + exponent) if mantissa else FIRST_BITS
 
 
 def _are_separated(roots: Complex) -> bool:

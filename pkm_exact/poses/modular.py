@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import count
+from itertools import count, islice
 from random import Random
 from typing import Final
 
@@ -147,6 +147,16 @@ def candidate_charts(seed: int, own: int) -> Iterator[Chart]:
         for _ in count() if number is None else range(number):
             x, y, z = (random.randrange(-size, size + 1) for _ in range(3))
             yield x, y, z, 1
+
+
+def common_charts(seed: int) -> list[Chart]:
+    """Those of the charts that are tried with every robot."""
+    return list(islice(candidate_charts(seed, seed), 4 + COMMON_CHOICES))
+
+
+def common_forms(chart: Chart, seed: int) -> list[Form]:
+    """Those of the forms that are tried with every robot."""
+    return list(islice(candidate_forms(chart, seed, seed), 3 + 2 * COMMON_CHOICES - 1))
 
 
 def candidate_forms(chart: Chart, seed: int, own: int) -> Iterator[Form]:
