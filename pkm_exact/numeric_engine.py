@@ -115,7 +115,9 @@ def _searches(
     if start is not None:
         ways.append((PATHS, partial(approximations, problem, start, 0, stages.amount)))
     if has_seeds(problem):
-        ways.insert(0 if start and start.has_long_paths else len(ways), (TEMPLATE, partial(seeds, problem)))
+        ways.insert(
+            0 if start and start.has_long_paths else len(ways), (TEMPLATE, partial(seeds, problem, conjugates=False))
+        )
     yield from ways
     for attempt in range(ATTEMPTS):
         yield PATHS, partial(approximations, problem, None, policy.seed * attempt, stages.amount)

@@ -41,7 +41,7 @@ def test_guesses_are_on_the_forms_and_on_the_variety() -> None:
     forms = numeric_section(shipped("mourrain-l")).legs.real
     values = motion_seeds(forms[None])[0]
     values /= np.linalg.norm(values, axis=1)[:, None]
-    assert values.shape == (40, 17)
+    assert values.shape == (22, 17)  # four are real
     assert np.abs(values @ forms.T).max() < 1e-12
     points = study_points(values)
     again = np.einsum("kij,pi,pj->pk", motion_forms()[:17], points, points)
@@ -123,3 +123,11 @@ def test_what_has_no_template() -> None:
     assert not has_seeds(shipped("8-8"))
     assert not has_seeds(ForwardProblem(()))
     assert has_seeds(shipped("rcid"))
+
+
+def test_conjugate_solutions_are_left_out_or_added() -> None:
+    problem = shipped("mourrain-l")
+    half, whole = seeds(problem, conjugates=False).points, seeds(problem).points
+    assert (len(half), len(whole)) == (22, 40)
+    overlaps = np.abs(whole.conj() @ whole.T) > 1 - 1e-8
+    assert np.count_nonzero(overlaps) == 40

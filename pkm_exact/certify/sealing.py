@@ -40,13 +40,17 @@ def _text(value: object, line: str) -> str:
     """What ``json.dumps`` with an indent of 1 writes after the given beginning of a line, in a third of its time."""
     if isinstance(value, str):
         return encode_basestring_ascii(value)
+    if value is None:
+        return "null"
+    if type(value) is int:
+        return str(value)
     inner = line + " "
     if isinstance(value, dict) and value:
         entries = [f"{inner}{encode_basestring_ascii(k)}: {_text(v, inner)}" for k, v in value.items()]
         return "{" + ",".join(entries) + line + "}"
     if isinstance(value, list | tuple) and value:
-        entries = [encode_basestring_ascii(v) if isinstance(v, str) else _text(v, inner) for v in value]
+        # Most lists are of texts.
+        is_text = isinstance(value[0], str) and all(isinstance(entry, str) for entry in value)
+        entries = list(map(encode_basestring_ascii, value)) if is_text else [_text(entry, inner) for entry in value]
         return "[" + inner + f",{inner}".join(entries) + line + "]"
-    if type(value) is int:
-        return str(value)
     return json.dumps(value, allow_nan=False)

@@ -13,7 +13,6 @@ from functools import lru_cache
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pkm_exact.geometry.study import Quadric, motion_quadrics
 from pkm_exact.numeric.double_forms import DoubleForms
@@ -163,15 +162,9 @@ def double_cells(found: DoubleCoordinates, exponent: int) -> list[list[Interval 
     decided = (are_far | are_near) & (np.abs(values) < GREATEST)
     low = np.where(are_near, nearest - 1, np.floor(values))
     high = np.where(are_near, nearest, low) + 1
-    return [
-        [Interval.on_grid(a, b, exponent) if is_sure else None for a, b, is_sure in row]
-        for row in (
-            zip(*rows, strict=True)
-            for rows in zip(_integers(low, decided), _integers(high, decided), decided.tolist(), strict=True)
-        )
-    ]
-
-
-def _integers(values: Real, chosen: NDArray[np.bool_]) -> list[list[int]]:
-    numbers: list[list[int]] = np.where(chosen, values, 0).astype(np.int64).tolist()
-    return numbers
+    numbers = [np.where(decided, ends, 0).astype(np.int64).ravel().tolist() for ends in (low, high)]
+    cells: list[Interval | None] = [Interval.on_grid(a, b, exponent) for a, b in zip(*numbers, strict=True)]
+    for place in np.flatnonzero(~decided).tolist():
+        cells[place] = None
+    width = values.shape[1]
+    return [cells[start : start + width] for start in range(0, len(cells), width)]

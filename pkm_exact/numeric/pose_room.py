@@ -20,7 +20,6 @@ from pkm_exact.numeric.double_rounding import gamma
 from pkm_exact.numeric.study_system import Real
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_consistency import require_on_robot
-from pkm_exact.roots.interval import common_ends
 
 _FEW: Final = 16
 """Roundings in a row, at most."""
@@ -75,8 +74,14 @@ def _have_room(poses: Sequence[Pose], problem: ForwardProblem, chart: Sequence[i
 
 def _ends(poses: Sequence[Pose]) -> Real:
     """(p, 16, 2): those of position, rotation and quaternion, rounded."""
-    ends, exponent = common_ends([(*pose.box, *pose.quaternion) for pose in poses])
-    return np.ldexp(np.array(ends, dtype=np.float64), -exponent)
+    intervals = [interval for pose in poses for interval in (*pose.box, *pose.quaternion)]
+    cells = [interval.cell for interval in intervals]
+    if None in cells:
+        ends = np.array([(float(interval.lo), float(interval.hi)) for interval in intervals])
+    else:
+        numbers = np.array(cells, dtype=np.float64)
+        ends = np.ldexp(numbers[:, :2], -numbers[:, 2:].astype(np.intp))
+    return ends.reshape(len(poses), -1, 2)
 
 
 def _fits(value: Real, radius: Real, size: Real) -> NDArray[np.bool_]:

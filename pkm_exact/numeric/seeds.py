@@ -13,6 +13,7 @@ import numpy as np
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.numeric.poses import GREATEST_CHANGE, Approximations, is_tracked
+from pkm_exact.numeric.start import SAME
 from pkm_exact.numeric.study_system import QUANTITIES, Complex, Real, motion_forms, numeric_section, section_quadrics
 from pkm_exact.numeric.template import motion_seeds
 from pkm_exact.numeric.tracker import polished
@@ -28,8 +29,10 @@ def has_seeds(problem: ForwardProblem) -> bool:
     return problem.motion == SPATIAL and is_tracked(problem)
 
 
-def seeds(problem: ForwardProblem) -> Approximations:
+def seeds(problem: ForwardProblem, *, conjugates: bool = True) -> Approximations:
     """The solutions that Newton's method finds from the template's guesses; none where the template breaks down.
+
+    Of two conjugate ones the second is left out if it is not asked for.
 
     Raises
     ------
@@ -37,11 +40,18 @@ def seeds(problem: ForwardProblem) -> Approximations:
         If a number of the robot is too large for floating point.
     """
     section = numeric_section(problem)
-    return Approximations(section, seeds_of_each(section.legs[None])[0])
+    points = seeds_of_each(section.legs[None])[0]
+    if conjugates:
+        are_complex = np.abs((points * points).sum(axis=1)) <= 1 - SAME
+        points = np.concatenate([points, points[are_complex].conj()])
+    return Approximations(section, points)
 
 
 def seeds_of_each(legs: Complex) -> list[Complex]:
-    """The points of ``seeds`` for each of several lists of forms (k, 6, 17), all of which go through the template."""
+    """For each of several lists of forms (k, 6, 17), which the template takes all at once, the points of ``seeds``.
+
+    Conjugate ones are mostly left out.
+    """
     count = len(legs)
     with np.errstate(all="ignore"):
         try:

@@ -65,8 +65,9 @@ def motion_seeds(forms: Real) -> Complex:
 
     Returns
     -------
-    (k, 40, 17) complex array
-        Projective points, those at infinity (h = 0) included.
+    (k, s, 17) complex array
+        Projective points, those at infinity (h = 0) included; of two conjugate ones, one. 40 of them and the conjugate
+        ones that are left out, if k is 1; else, where others have more, some conjugate ones as well.
 
     Raises
     ------
@@ -77,8 +78,12 @@ def motion_seeds(forms: Real) -> Complex:
     basis = np.linalg.qr(_turned(forms), mode="complete")[0][..., forms.shape[1] :] @ tables.turn
     second = _with_multiples(_second(_turned(basis)[:, None] @ (tables.quadrics @ basis[:, None])))
     matrices = _products_with_first(_third(second, tables.relations))
-    vectors = np.linalg.eig(matrices)[1].astype(np.complex128)  # real where all solutions are
-    found: Complex = _turned(vectors[:, :FREE]) @ _turned(basis)
+    values, vectors = np.linalg.eig(matrices)
+    # Eigenvalues of real matrices come in conjugate pairs, exactly.
+    are_left_out = values.imag < 0
+    order = np.argsort(are_left_out, axis=1, kind="stable")[:, : values.shape[1] - int(are_left_out.sum(axis=1).min())]
+    chosen = np.take_along_axis(vectors[:, :FREE], order[:, None], axis=2)
+    found: Complex = _turned(chosen).astype(np.complex128) @ _turned(basis)  # real where all solutions are
     return found
 
 
@@ -98,12 +103,18 @@ class _Tables:
         An orthonormal basis of the quadrics on the variety.
     turn : (11, 11) array
         A random orthogonal matrix.
+    pairs : two (55,) arrays of int
+        i <= j.
+    place : (10, 10) array of int
+        Where i, j or j, i is among the pairs.
     relations : four (r,) arrays of int
         Places of i in ``LED``, then i < j and k >= i of the relations x_i (x_j x_k) = x_j (x_i x_k).
     """
 
     quadrics: Real
     turn: Real
+    pairs: tuple[NDArray[np.intp], NDArray[np.intp]]
+    place: NDArray[np.intp]
     relations: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]
 
 
@@ -117,15 +128,18 @@ def _tables() -> _Tables:
             matrix[j, i] += value / 2
     orthonormal = np.linalg.svd(matrices.reshape(len(found), -1), full_matrices=False)[2][:QUADRICS]
     turn = np.linalg.qr(np.random.default_rng(SEED).standard_normal((FREE, FREE)))[0]
+    first, second = np.triu_indices(INNER)
+    table = np.empty((INNER, INNER), dtype=np.intp)
+    table[first, second] = table[second, first] = np.arange(len(first))
     place, i, j, k = np.array(
         [(n, i, j, k) for n, i in enumerate(LED) for j in range(i + 1, INNER) for k in range(i, INNER)], dtype=np.intp
     ).T
-    return _Tables(orthonormal.reshape(QUADRICS, SIZE, SIZE), turn, (place, i, j, k))
+    return _Tables(orthonormal.reshape(QUADRICS, SIZE, SIZE), turn, (first, second), table, (place, i, j, k))
 
 
 def _second(quadrics: Real) -> Real:
     """(k, 10, 10, 29): x_i x_j in 1, x and an orthonormal basis of the 18, from the quadrics on z."""
-    i, j = np.triu_indices(INNER)
+    (i, j), place = _tables().pairs, _tables().place
     weights = np.where(i == j, 1, np.sqrt(2))
     top = quadrics[..., 1 + i, 1 + j] * weights
     low = np.concatenate([quadrics[..., :1, 0], 2 * quadrics[..., 0, 1:]], axis=2)
@@ -133,8 +147,6 @@ def _second(quadrics: Real) -> Real:
     bound, free = rotation[..., :QUADRICS], rotation[..., QUADRICS:]
     lower = -bound @ np.linalg.solve(_turned(triangle[:, :QUADRICS]), low)
     values = np.concatenate([lower, free], axis=2) / weights[:, None]
-    place = np.empty((INNER, INNER), dtype=np.intp)
-    place[i, j] = place[j, i] = np.arange(len(i))
     table: Real = values[:, place]
     return table
 

@@ -18,8 +18,6 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Final
 
-from pkm_exact.roots.interval import common_ends
-
 if TYPE_CHECKING:
     from pkm_exact.motions.motion import Motion
     from pkm_exact.poses.pose import Pose
@@ -77,7 +75,12 @@ def pose_signature(
 
 def _direction(vector: Sequence[Interval]) -> str:
     """The axis that all vectors of a box are nearest to."""
-    (ends,), _ = common_ends([vector])
+    cells = [interval.cell for interval in vector]
+    grids = {None if cell is None else cell[2] for cell in cells}
+    # Mostly all are on one grid, whose units do not matter.
+    ends: Sequence[tuple[Any, Any]] = [cell[:2] for cell in cells if cell is not None]
+    if len(grids) > 1 or None in grids:
+        ends = [(interval.lo, interval.hi) for interval in vector]
     sizes = [_size(low, high) for low, high in ends]
     for axis, (low, _) in enumerate(ends):
         if all(sizes[axis][0] > most for other, (_, most) in enumerate(sizes) if other != axis):

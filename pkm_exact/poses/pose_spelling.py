@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from pkm_exact.poses.pose import Pose
@@ -27,8 +28,16 @@ def ends(interval: Interval) -> list[str]:
 
 def _dyadic(value: int, exponent: int) -> str:
     """The value times 2^-exponent, as a fraction is written."""
+    if value & 1 and exponent:
+        return f"{value}{_below(exponent)}"
     twos = min((value & -value).bit_length() - 1, exponent) if value else exponent
     return f"{value >> twos}/{1 << exponent - twos}" if twos < exponent else str(value >> twos)
+
+
+@lru_cache(maxsize=64)
+def _below(exponent: int) -> str:
+    """A denominator, which in an answer hundreds of ends have in common."""
+    return f"/{1 << exponent}"
 
 
 def pose_entry(pose: Pose) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, Context, Decimal
 from fractions import Fraction
+from functools import lru_cache
 from math import inf, nextafter
 from typing import TYPE_CHECKING, Final, TypeAlias
 
@@ -189,13 +190,26 @@ def decimal(interval: Interval) -> str:
     '-0.375000000000000'
     """
     # In integers, and not in fractions, which are ten times slower: a sweep writes a hundred decimals per row.
-    (low, below), (high, above) = _ratios(interval)
-    width = high * below - low * above
-    digits = len(str(max(1, below * above // width))) - 1 if width else DIGITS_OF_EXACT
-    scaled = _nearest((high * below + low * above) * 10**digits, 2 * below * above)
+    cell = interval.cell
+    if cell is not None and cell[0] < cell[1]:
+        low, high, exponent = cell
+        digits, power = _digits_of_cells(high - low, exponent)
+        scaled = _nearest((low + high) * power, 2 << exponent)
+    else:
+        (low, below), (high, above) = _ratios(interval)
+        width = high * below - low * above
+        digits = len(str(max(1, below * above // width))) - 1 if width else DIGITS_OF_EXACT
+        scaled = _nearest((high * below + low * above) * 10**digits, 2 * below * above)
     sign = "-" if scaled < 0 else ""
     whole, rest = divmod(abs(scaled), 10**digits)
     return f"{sign}{whole}.{rest:0{digits}d}" if digits else f"{sign}{whole}"
+
+
+@lru_cache(maxsize=64)
+def _digits_of_cells(width: int, exponent: int) -> tuple[int, int]:
+    """Certain decimals of an interval that is so many units of 2^-exponent wide, and the power of ten for them."""
+    digits = len(str(max(1, (1 << exponent) // width))) - 1
+    return digits, 10**digits
 
 
 def _ratios(interval: Interval) -> tuple[tuple[int, int], tuple[int, int]]:
