@@ -18,6 +18,7 @@ from pkm_exact.errors import InputError
 from pkm_exact.wording import printable, shown
 
 MOST_BYTES: Final = 1 << 16
+_DEEPEST: Final = 8
 JOINT_TYPES: Final = {
     "SPHERICAL": "ball",
     "FIXED": "fixed",
@@ -79,9 +80,16 @@ def _content(path: Path) -> dict[str, Any]:
         raise InputError(f"has more than {MOST_BYTES} bytes; a file of closures is smaller")
     try:
         text = data.decode("utf-8")
-        # Aliases of aliases are short, and may stand for more than memory holds.
-        if any(isinstance(event, yaml.AliasEvent) for event in yaml.parse(text, yaml.SafeLoader)):
-            raise InputError("has an alias (*..); write out what it stands for")
+        depth = 0
+        for event in yaml.parse(text, yaml.SafeLoader):
+            # Aliases of aliases are short, and may stand for more than memory holds.
+            if isinstance(event, yaml.AliasEvent):
+                raise InputError("has an alias (*..); write out what it stands for")
+            # The time to read a list grows with the square of its depth.
+            depth += isinstance(event, yaml.CollectionStartEvent)
+            depth -= isinstance(event, yaml.CollectionEndEvent)
+            if depth > _DEEPEST:
+                raise InputError(f"lists within lists, {_DEEPEST + 1} deep; write closed_loop: [[frame, frame]]")
         found = yaml.safe_load(text)
     except (yaml.YAMLError, ValueError, RecursionError):
         raise InputError("is not YAML; write closed_loop: [[frame, frame]]") from None
