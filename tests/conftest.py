@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from hypothesis import settings
 from processor_time import ProcessorTime
+from slow_tests import MEASURED, is_listed
 
 from pkm_exact.certify import pure
 
@@ -22,6 +23,15 @@ def pytest_configure(config: pytest.Config) -> None:
     config.pluginmanager.register(ProcessorTime())
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What was measured to be slow is marked before marks are asked for."""
+    for item in items:
+        if is_listed(item.nodeid, MEASURED):
+            item.add_marker(pytest.mark.slow)
+            item.add_marker(pytest.mark.in_corpus)
 
 
 def pytest_collection_finish() -> None:

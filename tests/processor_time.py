@@ -1,7 +1,11 @@
-"""What tests cost: processor time, of the processes that they start too, by file; a busy machine changes it little."""
+"""What tests cost: processor time, of the processes that they start too, by file; a busy machine changes it little.
+
+With ``PKM_EXACT_TIMES=FILE`` every test's is written there, a line each: what ``slow_tests.py`` chooses from.
+"""
 
 from __future__ import annotations
 
+import json
 import os
 from collections import Counter
 from collections.abc import Generator
@@ -24,6 +28,8 @@ class ProcessorTime:
     def __init__(self) -> None:
         self._start = _seconds()
         self._spent: Counter[str] = Counter()
+        # Where results are shown; a worker's reports come there too.
+        self._times = "" if "PYTEST_XDIST_WORKER" in os.environ else os.environ.get("PKM_EXACT_TIMES", "")
 
     def pytest_runtest_logstart(self) -> None:
         """A test begins."""
@@ -40,7 +46,11 @@ class ProcessorTime:
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
         """Its result has arrived."""
         if report.when == "teardown":
-            self._spent[report.nodeid.partition("::")[0]] += dict(report.user_properties).get(KEY, 0)
+            spent = dict(report.user_properties).get(KEY, 0)
+            self._spent[report.nodeid.partition("::")[0]] += spent
+            if self._times:
+                with Path(self._times).open("a", encoding="utf-8") as stream:
+                    stream.write(json.dumps([report.nodeid, round(spent, 3)]) + "\n")
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
         """All results are there."""

@@ -106,7 +106,11 @@ def test_no_other_module_says_that_a_robot_moves() -> None:
     """Sentences in the program, docstrings apart: all of them are in one module, the checkers' are in the docs."""
     found = {}
     for path in (ROOT / "pkm_exact").rglob("*.py"):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+        source = path.read_text(encoding="utf-8")
+        # Words of one string may stand on two lines, and only there.
+        if not MOVING.search(re.sub(r'"?\s*\n\s*f?"?', "", source)) and not MOVING.search(source):
+            continue
+        tree = ast.parse(source)
         docs = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
         texts = (n.value for n in ast.walk(tree) if isinstance(n, ast.Constant) and id(n) not in docs)
         if any(isinstance(text, str) and MOVING.search(text) for text in texts):
