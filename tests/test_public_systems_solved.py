@@ -41,9 +41,9 @@ LONG = ("fourbar",)
 """Out of reach."""
 
 BY_ORACLE = ("cyclic-7", "katsura-9", "virasoro")
-MOST_FOR_THE_PLAIN_CHECKER = 163
-"""Distinct solutions: a minute or so at most; a few minutes for all others."""
-LONGEST_FOR_THE_PLAIN_CHECKER = 2_000_000
+MOST_FOR_THE_PLAIN_CHECKER = 100
+"""Distinct solutions: some seconds; a minute or so up to 163, a few minutes for all others."""
+LONGEST_FOR_THE_PLAIN_CHECKER = 500_000
 """Bytes: discret3s has 12 MB, and takes it five minutes."""
 
 FINITE = [
