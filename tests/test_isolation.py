@@ -148,3 +148,11 @@ def test_numbers_that_do_not_tell_all_roots_apart_give_none() -> None:
     ]
     assert [enclosures_near(h, near, 100) for near in wrong] == [None] * len(wrong)
     assert isolated_and_enclosed(h, wrong[2])[0][0] == isolate_real_roots(h)[0]
+
+
+def test_a_disc_around_a_real_number_may_hold_two_conjugate_roots() -> None:
+    size = 10**9
+    h = fmpz_poly([1, 0, size**2]) * fmpz_poly([-1, 1]) * fmpz_poly([-2, 1])
+    small = arb(1) / size
+    assert enclosures_near(h, [small, arb(1), acb(0, small)], 100) is None
+    assert enclosures_near(h, [arb(1), arb(2), acb(0, small)], 100) is not None

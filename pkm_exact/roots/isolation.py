@@ -118,7 +118,9 @@ def enclosures_near(polynomial: fmpz_poly, near: Sequence[arb | acb], precision:
     above = discs[len(real) :]
     if not all(disc.is_finite() for disc in discs) or any(disc.imag.contains(0) for disc in above):
         return None
-    if any(a.overlaps(b) for group in (discs[: len(real)], above) for a, b in combinations(group, 2)):
+    # A disc around a real number reaches beyond the real line, perhaps as far as to one of those above it.
+    plane = [acb(disc, disc - disc.mid()) for disc in discs[: len(real)]] + above
+    if any(one.overlaps(other) for one, other in combinations(plane, 2)):
         return None
     return sorted(discs[: len(real)], key=_midpoint)
 
