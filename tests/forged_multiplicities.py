@@ -50,7 +50,7 @@ def forged(
     """
     document = read(canonical_bytes(sealed(content)))
     steps = _steps(document, pose, direction, degree)
-    left = len(eliminate(document.legs, document.metric, steps).standard(40))
+    left = len(eliminate(document.legs, document.metric, steps).elimination.standard(40))
     assert left > content["complex_solutions"]
     elimination = [[" ".join(map(str, (index, *factors))) for index, factors in step] for step in steps]
     poses = [{**p, "multiplicity": m} for p, m in zip(content["poses"], multiplicities, strict=True)]
@@ -89,7 +89,7 @@ def _steps(document: Document, pose: Pose, direction: Mapping[str, Fraction], de
     steps: list[list[Row]] = []
     number = 0
     while True:
-        elements = eliminate(document.legs, document.metric, steps).elements
+        elements = eliminate(document.legs, document.metric, steps).elimination.elements
         if len(elements) == number:
             return steps[:-1]
         number = len(elements)

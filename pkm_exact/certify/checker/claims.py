@@ -108,7 +108,8 @@ def _nothing_listed(document: Document) -> Iterator[str]:
     elif proved == (False, "positive-dimensional-detected", None):
         yield "positive dimension detected: evidence found by the solver, no proof"
     elif document.elimination is not None and proved[1:] == ("inconsistent", "exact-elimination"):
-        eliminate(document.legs, document.metric, document.elimination).standard(0)
+        if eliminate(document.legs, document.metric, document.elimination).left(0, 0):
+            raise rejected("elimination: it leaves monomials")
         yield "inconsistent: 1 = 0 follows from the leg lengths, there is no solution, real or complex"
     else:
         raise rejected(f"claim: {document.claim} is not proved by what is in the certificate")
@@ -155,16 +156,15 @@ def _filling(
     """
     legs, metric = document.legs, document.metric
     number = int(representation.eliminant.degree())
-    elimination = eliminate(legs, metric, steps)
-    left = len(elimination.standard(GREATEST_NUMBER))
+    multiple = () if simple else multiple_factors(representation, legs, metric)
+    weight = number + sum(int(factor.degree()) for factor in multiple)
+    eliminated = eliminate(legs, metric, steps)
+    left = eliminated.left(weight, GREATEST_NUMBER)
     if simple and left > number:
         raise rejected(f"elimination: it leaves {left} monomials, but the {number} solutions are proved simple")
-    multiple = () if simple else multiple_factors(representation, legs, metric)
-    if left == number + sum(int(factor.degree()) for factor in multiple) and all(
-        is_multiple(factor, representation, legs, metric) for factor in multiple
-    ):
+    if left == weight and all(is_multiple(factor, representation, legs, metric) for factor in multiple):
         return left, tuple((factor, 2) for factor in multiple)
-    algebra = quotient_algebra(elimination)
+    algebra = quotient_algebra(eliminated.elimination)
     if algebra is None or algebra.distinct_solutions() != number:
         raise rejected(f"elimination: it leaves {left} monomials, the solutions are not proved to fill them")
     found = multiplicities(algebra, representation, legs, metric)

@@ -192,7 +192,7 @@ def _isolated(h: fmpz_poly, finest: int) -> Iterator[tuple[fmpq, fmpq]]:
         m, k, q = pending.pop()
         terms, bits = int(q.length()), int(q.height_bits())
         charge(30000 + terms * (1000 + limbs(bits) * (8 + terms // 3)))
-        work += int(q.degree()) ** 2 * max(int(abs(value)).bit_length() for value in q.coeffs())
+        work += int(q.degree()) ** 2 * bits
         if work > MAX_WORK:
             raise too_large("real poses: to tell the roots apart takes too long")
         changes = _changes(q)

@@ -9,7 +9,7 @@ from flint import fmpz_poly
 
 from pkm_exact.certify.checker.claims import check_listed_multiplicities
 from pkm_exact.certify.checker.document import Representation
-from pkm_exact.certify.checker.elimination import Elimination, follow
+from pkm_exact.certify.checker.elimination import Elimination, Steps
 from pkm_exact.certify.checker.infinity_points import check_infinity
 from pkm_exact.certify.checker.mechanism_document import MechanismDocument
 from pkm_exact.certify.checker.mechanism_motion import check_mechanism_motion
@@ -146,20 +146,18 @@ def _filling(document: MechanismDocument, listed: _Listed) -> tuple[int, tuple[t
     """Number of all solutions with multiplicity, and the multiple factors; those listed must fill the elimination."""
     mechanism = document.mechanism
     section = Section(mechanism)
-    if section.is_empty:
-        elimination = Elimination(section.size, ({(0,) * section.size: 1},))
-    else:
-        elimination = follow(section.size, section.elements, document.elimination or ())
-    if document.elimination and section.is_empty:
+    steps = document.elimination or ()
+    if steps and section.is_empty:
         raise rejected("elimination: a step names an element that there is not")
-    left = len(elimination.standard(mechanism.degree_bound))
+    eliminated = Steps(section.size, section.elements, steps)
+    left = eliminated.left(listed.weight, mechanism.degree_bound)
     if listed.weight == left:
         return left, tuple((factor, 2) for factor in listed.irregular)
     if listed.simple or document.representation is None:
         raise rejected(
             f"elimination: it leaves {left} monomials, the solutions listed are proved to fill {listed.weight}"
         )
-    return left, _by_algebra(elimination, document.representation, document, section.free, listed)
+    return left, _by_algebra(eliminated.elimination, document.representation, document, section.free, listed)
 
 
 def _by_algebra(

@@ -14,10 +14,11 @@ from math import gcd
 from typing import Final
 
 from flint import fmpz, fmpz_poly, nmod_poly
+from flint.utils.flint_exceptions import DomainError
 
 from pkm_exact.certify.checker.budget import charge, limbs, polynomials_cost
 from pkm_exact.certify.checker.document import Representation
-from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
+from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, Motion, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
 
 PRIMES: Final = tuple((1 << 63) - offset for offset in (25, 165, 259, 301, 375, 387))
@@ -86,17 +87,42 @@ def check_poses(representation: Representation, legs: Sequence[Leg], metric: Met
         raise rejected("motion: e1, e2, f0 and f3 are not all 0, but the robot is planar")
     forms = [leg_form(leg, metric) for leg in legs]
     charge_products(representation, 60 + len(legs) * limbs(_bits(forms)))
-    placed = motion(representation.quaternion, representation.translation, metric)
+    placed, turn, shift = primitive_motion(representation, metric)
     if not vanishes(placed.study, h0):
         raise rejected("motion: e.f is not 0 at every root of the eliminant")
     if not proved_coprime(h0, lambda p: modulo(placed.norm, p)):
         raise rejected("motion: not proved that N(e) is nowhere 0")
     yield "motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
-    coordinates = placed.coordinates()
-    for number, form in enumerate(forms, 1):
-        if not vanishes(combination(form, coordinates), h0):
+    *coordinates, square = placed.coordinates()
+    for number, (*form, squares) in enumerate(_without_squares(forms), 1):
+        value = turn * combination(form[:10], coordinates[:10]) + shift * combination(form[10:], coordinates[10:])
+        if not vanishes(turn * value + shift**2 * squares * square if squares else value, h0):
             raise rejected(f"legs: leg {number} does not have its length at every solution")
     yield f"legs: all {len(legs)} have their lengths at every solution"
+
+
+def primitive_motion(representation: Representation, metric: Metric) -> tuple[Motion, int, int]:
+    """The quantities of (E, F), with E and F each divided by a number, and the two numbers.
+
+    The entries of E have most of the denominator in common: without it numbers are shorter by a third.
+    """
+    e, f = (
+        gcd(*(int(value.content()) for value in part))
+        for part in (representation.quaternion, representation.translation)
+    )
+    quaternion, translation = (
+        [fmpz_poly([coefficient // size for coefficient in value.coeffs()]) for value in part]
+        for size, part in ((e, representation.quaternion), (f, representation.translation))
+    )
+    return motion(quaternion, translation, metric), e, f
+
+
+def _without_squares(forms: Sequence[Sequence[int]]) -> Iterator[Sequence[int]]:
+    """The first form, and multiples of the others minus multiples of it, without |C|^2, of which none is 0."""
+    first, *others = forms
+    yield first
+    for form in others:
+        yield [first[-1] * one - form[-1] * other for one, other in zip(form, first, strict=True)]
 
 
 def irreducible_factors(h0: fmpz_poly) -> list[fmpz_poly]:
@@ -154,4 +180,8 @@ def vanishes(value: fmpz_poly, h0: fmpz_poly) -> bool:
     steps = max(int(value.length() - h0.length()), 0) + 1
     words = limbs(int(value.height_bits())) + steps * limbs(int(h0.height_bits()))
     charge(3 * polynomials_cost(steps + int(h0.length()), words))
-    return not divmod(value, h0)[1]
+    try:
+        value / h0
+    except DomainError:  # a remainder is left
+        return False
+    return True

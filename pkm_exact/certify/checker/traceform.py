@@ -19,7 +19,7 @@ from flint import fmpz, fmpz_mat, nmod_mat, nmod_poly
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import echelon_form
-from pkm_exact.certify.checker.elimination import Elimination, Monomial, Polynomial
+from pkm_exact.certify.checker.elimination import Elimination, Monomial, Polynomial, shifted
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER
 
 
@@ -98,9 +98,9 @@ class Algebra:
         charge(3000 * (1 + sum(monomial)))
         while reached not in vectors:
             axes.append(next(axis for axis, exponent in enumerate(reached) if exponent))
-            reached = _shifted(reached, axes[-1], -1)
+            reached = shifted(reached, axes[-1], -1)
         for axis in reversed(axes):
-            larger = _shifted(reached, axis, 1)
+            larger = shifted(reached, axis, 1)
             vectors[larger] = vectors[reached].times(self.unknowns[axis])
             reached = larger
         return vectors[monomial]
@@ -112,7 +112,7 @@ class Algebra:
         powers = {self.basis[0]: _Fractions(one, fmpz(1))}
         for monomial in self.basis[1:]:
             axis = next(i for i, exponent in enumerate(monomial) if exponent)
-            powers[monomial] = powers[_shifted(monomial, axis, -1)].times(self.unknowns[axis])
+            powers[monomial] = powers[shifted(monomial, axis, -1)].times(self.unknowns[axis])
         ordered = [powers[monomial] for monomial in self.basis]
         traces = [_row([sum((m.numerators[i, i] for i in range(size)), fmpz(0))], m.denominator) for m in ordered]
         column = _stacked(traces)
@@ -171,10 +171,6 @@ def quotient_algebra(elimination: Elimination, most: int = GREATEST_NUMBER) -> A
     return algebra if algebra.commutes() and algebra.vanish(elimination.elements) else None
 
 
-def _shifted(monomial: Monomial, axis: int, step: int) -> Monomial:
-    return (*monomial[:axis], monomial[axis] + step, *monomial[axis + 1 :])
-
-
 class _Reduction:
     """Coordinates of monomials on the basis, each found once."""
 
@@ -188,7 +184,7 @@ class _Reduction:
     def matrices(self) -> list[_Fractions]:
         """Multiplication by each unknown: row b holds the coordinates of the product with the b-th monomial."""
         return [
-            _stacked([self.row(_shifted(monomial, axis, 1)) for monomial in self.basis]) for axis in range(self.size)
+            _stacked([self.row(shifted(monomial, axis, 1)) for monomial in self.basis]) for axis in range(self.size)
         ]
 
     def row(self, monomial: Monomial) -> _Fractions:
@@ -215,11 +211,11 @@ class _Reduction:
         if smaller not in self.known:
             return [smaller]
         values = zip(self.basis, self.known[smaller].numerators.entries(), strict=True)
-        return [_shifted(other, axis, 1) for other, value in values if value]
+        return [shifted(other, axis, 1) for other, value in values if value]
 
     def _lowered(self, monomial: Monomial) -> tuple[int, Monomial]:
         """The first unknown by which a monomial that is neither standard nor leading can be divided to be so again."""
-        lowered = ((axis, _shifted(monomial, axis, -1)) for axis in range(self.size) if monomial[axis])
+        lowered = ((axis, shifted(monomial, axis, -1)) for axis in range(self.size) if monomial[axis])
         return next((axis, other) for axis, other in lowered if other not in self.place)
 
     def _found(self, monomial: Monomial) -> _Fractions:
@@ -232,5 +228,5 @@ class _Reduction:
         axis, smaller = self._lowered(monomial)
         vector = self.row(smaller)
         values = zip(self.basis, map(int, vector.numerators.entries()), strict=True)
-        terms = [(value, self.row(_shifted(other, axis, 1))) for other, value in values if value]
+        terms = [(value, self.row(shifted(other, axis, 1))) for other, value in values if value]
         return _combined(terms, int(vector.denominator), size)
