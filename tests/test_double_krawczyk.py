@@ -150,6 +150,7 @@ def test_values_at_points_that_are_too_large_prove_nothing() -> None:
     values, _ = forms.at(wrong)
     assert np.isfinite(values[:, 0]).tolist() == [False, False, False, True]
     assert np.isinf(forms.at_integers([[[1 << 900, 1]]], 0, [0])).all()
+    assert forms.at(wrong[:0])[0].shape == (0, 1)
 
 
 @budget(50)

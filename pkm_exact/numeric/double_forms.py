@@ -193,7 +193,7 @@ class DoubleForms:
                     rows.append([a[i] * a[j] for i, j in pairs])
                     rows += [[fmpz(0)] * len(pairs)] * len(imaginary)
             numbers += map(_double, (fmpz_mat(rows) * self._integers[owner]).entries())
-        values = np.array(numbers).reshape(len(points), -1, self.head.shape[-2])
+        values = np.array(numbers).reshape(len(points), len(points[0]) if points else 1, self.head.shape[-2])
         powers = self.powers.reshape(-1, 1, self.powers.shape[-1])[np.asarray(owners, dtype=np.intp)]
         found: Real = np.ldexp(values, -2 * bits - powers)
         return found

@@ -27,15 +27,7 @@ from pkm_exact.numeric.double_boxes import (
     inverses_at,
     real_or_complex,
 )
-from pkm_exact.numeric.double_krawczyk import (
-    SLACK,
-    DoubleEquations,
-    DoubleSolution,
-    Proofs,
-    double_proofs,
-    newton_step,
-    products,
-)
+from pkm_exact.numeric.double_krawczyk import SLACK, DoubleEquations, DoubleSolution, Proofs, double_proofs, products
 from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U
 from pkm_exact.numeric.grids import GRIDS, WIDEST
 from pkm_exact.numeric.study_system import Complex, Real
@@ -178,10 +170,9 @@ def _limits(
     Where values are known exactly and a step is short, doubles tell it so well that the values after it follow.
     """
     source, mixed = np.maximum.accumulate(np.where(are_new, np.arange(len(begun)), 0)), equations.mixed
-    near = newton_step(mixed, begun, inverses_at(mixed, begun, are_real))
-    near = np.where((np.abs(near) < LARGEST).all(axis=1)[:, None], near, begun)
-    inverses, units = inverses_at(mixed, near, are_real), grids_of(mixed, begun, max(TRIED))[1]
-    points: Integers = [[(int(a), int(b)) for a, b in row] for row in _parts(near)]
+    inverses, units = inverses_at(mixed, begun, are_real), grids_of(mixed, begun, max(TRIED))[1]
+    points: Integers = [[(int(a), int(b)) for a, b in row] for row in _parts(begun)]
+    near = _rounded(points, BITS, begun)
     values, off, chosen = np.zeros_like(begun), np.zeros(begun.shape), are_new
     for _ in range(STEPS):
         exact = equations.values(points, chosen)
