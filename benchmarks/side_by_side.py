@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import Any
 
 from measure import Run, run
@@ -83,7 +83,7 @@ def warm_engines(models: Sequence[Path], runs: int, log: Log) -> dict[str, dict[
 
 
 def formulations(model: Path, runs: int, limit: float, log: Log) -> dict[str, dict[str, Any]]:
-    """Of each formulation: our engine in this process, and msolve as a process on the same system, in turn."""
+    """Processor time of our engine in this process and of msolve on the same system, in turn, for each formulation."""
     robot = read_robot(model)
     problem = robot.problem(robot.configuration())
     results: dict[str, dict[str, Any]] = {}
@@ -92,16 +92,16 @@ def formulations(model: Path, runs: int, limit: float, log: Log) -> dict[str, di
         with TemporaryDirectory() as name:
             command = msolve_on(code, problem, Path(name))
             for number in range(runs + 1):
-                before = perf_counter()
+                before = process_time()
                 solve(problem, formulation=code)
                 if number:
-                    entry["engine"].append(perf_counter() - before)
+                    entry["engine"].append(process_time() - before)
                 if command is not None and entry["ended"]:
                     done = run(command.words, limit, Path(name))
                     entry["ended"] = done.code in GOOD_EXITS
                     entry["answer"] = command.answer(done) if entry["ended"] else f"none in {limit:g} s"
                     if number or not entry["ended"]:
-                        entry["msolve"].append(done.seconds)
+                        entry["msolve"].append(done.processor)
                 log(f"{model.stem}: {code}, run {number}")
         results[code] = entry
     return results

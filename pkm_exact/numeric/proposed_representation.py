@@ -60,9 +60,6 @@ NEVER: Final = 2.0**-36
 """Relative size of what is 0 in doubles."""
 SEPARATED, SAME = 40, 72
 """Values differ by more than 2^-40, or by less than 2^-72, or it is not told which."""
-DOUBLED: Final = 3
-LEAST_DOUBLED: Final = 600
-"""Newton's method doubles the bits up to a part of the expected ones, or so many; inverses serve from there on."""
 
 
 def proposed_representation(
@@ -198,7 +195,6 @@ def _represented(
         [form[k] for k in solutions.equations.free],
         motion_quadrics(problem.metric)[-1],
         _margin(points, form),
-        max(expected // DOUBLED, LEAST_DOUBLED),
         limit_bits,
         watch,
     )
@@ -250,8 +246,6 @@ class _Refinement:
         N(e).
     margin : int
         Coefficients have so many bits less behind the point than solutions.
-    doubling : int
-        Up to which bits Newton's method doubles them.
     limit : int
     watch : callable, optional
     bits : int
@@ -262,7 +256,6 @@ class _Refinement:
     form: Sequence[int]
     norm: Quadric
     margin: int
-    doubling: int
     limit: int
     watch: Callable[[int], None] | None
     bits: int = 0
@@ -277,7 +270,7 @@ class _Refinement:
         if bits + self.margin > self.limit:
             return False
         if bits > self.bits:
-            self.solutions = self.solutions.refined(bits + self.margin, self.doubling)
+            self.solutions = self.solutions.refined(bits + self.margin)
             self.bits = bits
             if self.watch is not None:
                 self.watch(bits + self.margin)

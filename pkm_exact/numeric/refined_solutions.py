@@ -31,6 +31,8 @@ STEPS: Final = 8
 GUARD_BITS: Final = 48
 """For rounding; and so many are taken for lost in a step beyond those that were."""
 SLACK: Final = 6
+PARTS, LEAST_DOUBLED = 3, 600
+"""Newton's method doubles the bits up to this part of those wanted, or so many; inverses serve from there on."""
 NEARLY: Final = 0.8
 """Of the bits up to which steps double them: more are not doubled for the rest."""
 NOTHING: Final = -(1 << 40)
@@ -65,9 +67,9 @@ class RefinedSolutions:
     inverses: Sequence[Balls] = ()
     gain: int = 0
 
-    def refined(self, bits: int, doubling: int) -> RefinedSolutions:
-        """The same with more bits: each step doubles them up to about the number given, then adds that number."""
-        current = self
+    def refined(self, bits: int) -> RefinedSolutions:
+        """The same with more bits: each step doubles them up to about a third, then adds as many as that is."""
+        current, doubling = self, max(bits // PARTS, LEAST_DOUBLED) + self.loss
         while current.accuracy < min(bits, NEARLY * doubling):
             target = min(2 * current.accuracy - self.loss, bits, doubling)
             current = current._doubled(target, target - current.accuracy + self.loss + GUARD_BITS)
