@@ -9,6 +9,7 @@ from fractions import Fraction
 from functools import partial
 from random import Random
 
+from certificate_tools import CERTS
 from flint import fmpq_mat, fmpq_poly, fmpz_poly
 from forged_infinity import eliminant_of, infinity_of, isotropic_points
 from forged_margins import ACCEPTED, NO_POSE, REJECTED, Case
@@ -186,6 +187,19 @@ def _in_a_small_unit() -> Content:
     return content
 
 
+def _beside_a_cylinder() -> Content:
+    """An honest certificate with one constraint more, which follows: in a plane, a distance is one from an axis."""
+    content: Content = json.loads((CERTS / "3-rps.json").read_bytes())
+    del content["digest"]
+    constraints = content["robot"]["constraints"]
+    leg, hinge = constraints[:2]
+    base, normal, platform = (vector(*map(Fraction, x)) for x in (leg["base"], hinge["normal"], leg["platform"]))
+    cylinder = AxisDistance(base, normal, platform, Fraction(leg["length_squared"]))
+    metric = [int(g) for g in content["robot"]["metric"]]
+    constraints.append({**constraint_entry(cylinder, (metric[0], metric[1], metric[2])), "name": "it follows"})
+    return content
+
+
 AT_INFINITY: dict[str, Case] = {
     "points at infinity in a unit that a prime is of": (_in_a_small_unit, ACCEPTED),
     **{
@@ -209,6 +223,7 @@ AT_INFINITY: dict[str, Case] = {
         for number in (7, 9, 12)
     },
     "points at infinity of a mechanism with a cylinder": (_on_a_cylinder_too, REJECTED),
+    "points at infinity beside a cylinder that follows": (_beside_a_cylinder, REJECTED),
     **{f"points where {name} is not 0": (partial(_off_the_motions, name), REJECTED) for name in OFF_THE_MOTIONS},
     **{f"points that are not on the form {number}": (partial(_off_a_form, number), REJECTED) for number in (0, 3, 5)},
     "an eliminant that is a square": (_nowhere_squarefree, REJECTED),
