@@ -7,9 +7,14 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from campaign import model
 from certificate_tools import canonical_bytes, golden, sealed
 
+from pkm_exact import solve
 from pkm_exact.certify import check, pure
+from pkm_exact.certify.build import certificate_bytes
+from pkm_exact.geometry.reader import robot_from_toml
+from pkm_exact.geometry.robot import Robot
 
 ROOT = Path(__file__).parents[1]
 CASES = Path(__file__).parent / "cases"
@@ -29,6 +34,20 @@ def test_honest_certificates_need_half_of_the_work_allowed_at_most(path: Path) -
     answer, work = pure.check_counted(data)
     assert answer.status == "accepted", answer
     assert 0 < 2 * work.spent <= work.allowed
+
+
+@pytest.mark.slow
+def test_an_elimination_with_long_coefficients_needs_half_of_the_work_allowed() -> None:
+    """It was refused: the last step, with coefficients of 10,000 bits, was taken over Q where a prime tells as much."""
+    robot = robot_from_toml(model("spatial-237"))
+    assert isinstance(robot, Robot)
+    data = certificate_bytes(robot, "home", solve(robot.problem(robot.configuration())))
+    verdict, budget = check.check_counted(data)
+    assert verdict, verdict
+    assert 2 * budget.spent <= budget.limit
+    answer, work = pure.check_counted(data)
+    assert (answer.status, answer.lines) == (verdict.status, verdict.lines)
+    assert 2 * work.spent <= work.allowed
 
 
 def test_a_step_that_would_take_minutes_is_not_begun() -> None:
