@@ -108,8 +108,7 @@ def _nothing_listed(document: Document) -> Iterator[str]:
     elif proved == (False, "positive-dimensional-detected", None):
         yield "positive dimension detected: evidence found by the solver, no proof"
     elif document.elimination is not None and proved[1:] == ("inconsistent", "exact-elimination"):
-        if eliminate(document.legs, document.metric, document.elimination).left(0, 0):
-            raise rejected("elimination: it leaves monomials")
+        eliminate(document.legs, document.metric, document.elimination).elimination.standard(0)
         yield "inconsistent: 1 = 0 follows from the leg lengths, there is no solution, real or complex"
     else:
         raise rejected(f"claim: {document.claim} is not proved by what is in the certificate")
@@ -156,15 +155,20 @@ def _filling(
     """
     legs, metric = document.legs, document.metric
     number = int(representation.eliminant.degree())
+    followed = eliminate(legs, metric, steps)
     multiple = () if simple else multiple_factors(representation, legs, metric)
     weight = number + sum(int(factor.degree()) for factor in multiple)
-    eliminated = eliminate(legs, metric, steps)
-    left = eliminated.left(weight, GREATEST_NUMBER)
+    are_multiple = all(is_multiple(factor, representation, legs, metric) for factor in multiple)
+    if are_multiple and followed.has_at_most(weight):
+        left = weight
+    else:
+        left = len(followed.elimination.standard(GREATEST_NUMBER))
     if simple and left > number:
         raise rejected(f"elimination: it leaves {left} monomials, but the {number} solutions are proved simple")
-    if left == weight and all(is_multiple(factor, representation, legs, metric) for factor in multiple):
+    if left == weight and are_multiple:
         return left, tuple((factor, 2) for factor in multiple)
-    algebra = quotient_algebra(eliminated.elimination)
+    # What a prime left fills the list, or is not looked at: from here on what is left is so over Q.
+    algebra = quotient_algebra(followed.elimination)
     if algebra is None or algebra.distinct_solutions() != number:
         raise rejected(f"elimination: it leaves {left} monomials, the solutions are not proved to fill them")
     found = multiplicities(algebra, representation, legs, metric)

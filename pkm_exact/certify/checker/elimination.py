@@ -7,7 +7,8 @@ are ordered by degree, then reverse lexicographically. Whatever is combined, eve
 
 Bound. Every polynomial is, modulo the elements, a combination of the monomials that no leading monomial divides. If
 these are n, then the unknowns take at most n different values at poses, and a pose is determined by them. For the last
-step, which nothing is multiplied after, ranks modulo a prime say as much: over Q they are not less.
+step, which nothing is multiplied after, leading monomials modulo a prime say as much, if a power of each unknown is
+among those that are as high over Q.
 """
 
 from __future__ import annotations
@@ -16,12 +17,13 @@ from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from hashlib import sha256
+from itertools import count, product
 from math import lcm, prod
 from operator import add, le
-from typing import Final, TypeAlias
+from typing import TypeAlias
 
-from flint import fmpq, nmod_mat
+from flint import fmpq, fmpz, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import pivots_of, reduced_rows
@@ -38,8 +40,6 @@ _TERM = 3000
 """Operations charged for a term that is multiplied or put into a matrix."""
 _DIVISION = 2000
 """Operations charged for asking whether one monomial divides another."""
-_PRIME: Final = (1 << 63) - 25
-"""The prime of last steps; any serves."""
 
 
 @dataclass(frozen=True)
@@ -56,12 +56,15 @@ class Elimination:
             raise rejected(f"elimination: it leaves more than {most} monomials")
         return found
 
-    def products(self, step: Sequence[Row], number: int) -> list[Polynomial]:
-        """The products of a step, which has this number."""
+    def products(self, step: Sequence[Row]) -> list[Polynomial]:
+        """The products of a step that ``require`` lets pass."""
+        return [_multiple(self.elements[index], factors) for index, factors in step]
+
+    def require(self, step: Sequence[Row], number: int) -> None:
+        """Reject a step, which has this number, of what there is not; refuse one that is too long."""
         if any(index >= len(self.elements) or max(factors, default=0) >= self.size for index, factors in step):
             raise rejected(f"elimination: step {number} names an element or an unknown that there is not")
         _limit_terms(sum(len(self.elements[index]) for index, _ in step))
-        return [_multiple(self.elements[index], factors) for index, factors in step]
 
     def followed(self, products: Sequence[Polynomial]) -> Elimination:
         """With the further elements that the products of a step yield."""
@@ -69,22 +72,25 @@ class Elimination:
         _limit_terms(sum(map(len, (*self.elements, *found))))
         return Elimination(self.size, (*self.elements, *found))
 
-    def at_most(self, products: Sequence[Polynomial], most: int) -> int | None:
-        """How many monomials the products of a further step leave, at most: their echelon form modulo a prime tells.
+    def at_most(self, step: Sequence[Row], most: int) -> int | None:
+        """How many poses there are at most, by the products of a further step modulo a prime, with multiplicity.
 
-        None if it does not, or if they are more than ``most``.
+        None if these do not tell, or if it is more than ``most``. Any prime serves; one that follows from the elements
+        nearly always tells what the step tells over Q, as no element can be built on it.
         """
-        heads = (next(iter(element.items())) for element in self.elements)
-        leading = {monomial for monomial, value in heads if value % _PRIME}
+        prime = _prime(self.elements)
+        elements = [{monomial: value % prime for monomial, value in element.items()} for element in self.elements]
+        leading = {next(iter(element)) for element in elements if next(iter(element.values()))}
+        products = [_multiple(elements[index], factors) for index, factors in step]
         columns = _columns(products)
         charge(len(products) * len(columns) * (50 + min(len(products), len(columns)) // 3))
         place = {monomial: column for column, monomial in enumerate(columns)}
-        table = nmod_mat(len(products), len(columns), _PRIME)
+        table = nmod_mat(len(products), len(columns), prime)
         for row, polynomial in enumerate(products):
             for monomial, value in polynomial.items():
-                table[row, place[monomial]] = value % _PRIME
+                table[row, place[monomial]] = value
         pivots = {columns[place] for place in pivots_of(*table.rref())}
-        # Over Q a row may begin in another column on the left of its pivot, where there is none.
+        # Over Q a row may begin on the left of its pivot, in a column that has none: powers of this degree last.
         degree = max((sum(monomial) for monomial in columns if monomial not in pivots), default=0)
         lasting = leading.union(monomial for monomial in pivots if sum(monomial) >= degree)
         powers = {monomial.index(max(monomial)) for monomial in lasting if max(monomial) == sum(monomial)}
@@ -101,29 +107,30 @@ def follow(size: int, first: Sequence[Polynomial], steps: Sequence[Sequence[Row]
     """The elements that the steps yield, beginning with the first ones, in so many unknowns."""
     elimination = Elimination(size, tuple(first))
     for number, step in enumerate(steps, 1):
-        elimination = elimination.followed(elimination.products(step, number))
+        elimination.require(step, number)
+        elimination = elimination.followed(elimination.products(step))
     return elimination
 
 
 class Steps:
-    """Steps of an elimination; the last one is not followed over Q if what it leaves is proved modulo a prime."""
+    """Steps of an elimination; the last one is not followed over Q if enough is proved modulo a prime."""
 
     def __init__(self, size: int, first: Sequence[Polynomial], steps: Sequence[Sequence[Row]]) -> None:
         self._before = follow(size, first, steps[:-1])
-        self._products = [self._before.products(step, len(steps)) for step in steps[-1:]]
+        self._last = steps[-1:]
+        for step in self._last:
+            self._before.require(step, len(steps))
 
-    def left(self, expected: int, most: int) -> int:
-        """How many monomials are left, at most if these are as many as expected; rejects if more than ``most``."""
-        if any(self._before.at_most(products, expected) == expected for products in self._products):
-            return expected
-        return len(self.elimination.standard(most))
+    def has_at_most(self, expected: int) -> bool:
+        """Whether a prime proves that there are no more poses than expected, with multiplicity."""
+        return any(self._before.at_most(step, expected) == expected for step in self._last)
 
     @cached_property
     def elimination(self) -> Elimination:
         """All elements."""
         elimination = self._before
-        for products in self._products:
-            elimination = elimination.followed(products)
+        for step in self._last:
+            elimination = elimination.followed(elimination.products(step))
         return elimination
 
 
@@ -197,13 +204,13 @@ def _is_divisible(monomial: Monomial, divisors: AbstractSet[Monomial]) -> bool:
 
 def _standard(leading: AbstractSet[Monomial], size: int, most: int) -> list[Monomial] | None:
     """The monomials that none of the leading ones divides, by degree; None if there are more than ``most``."""
-    charge(_DIVISION * (most + 1) * (size + 1) * size)
     found: list[Monomial] = []
     layer = {(0,) * size} - leading
     while layer:
         found += sorted(layer)
         if len(found) > most:
             return None
+        charge(_DIVISION * len(layer) * size * (1 + sum(found[-1])))
         larger = {shifted(monomial, axis, 1) for monomial in layer for axis in range(size)} - leading
         layer = {
             monomial
@@ -211,6 +218,14 @@ def _standard(leading: AbstractSet[Monomial], size: int, most: int) -> list[Mono
             if all(shifted(monomial, axis, -1) in layer for axis, exponent in enumerate(monomial) if exponent)
         }
     return found
+
+
+def _prime(elements: Sequence[Polynomial]) -> int:
+    """A prime of 63 bits that follows from a digest of the coefficients; their residues are charged for, too."""
+    charge(sum(500 + 100 * limbs(value.bit_length()) for element in elements for value in element.values()))
+    text = ";".join(",".join(map(hex, element.values())) for element in elements)
+    first = int.from_bytes(sha256(text.encode("ascii")).digest()[:8], "big") >> 2 | 1 << 62
+    return next(number for number in count(first) if fmpz(number).is_prime())
 
 
 def shifted(monomial: Monomial, axis: int, step: int) -> Monomial:

@@ -149,15 +149,18 @@ def _filling(document: MechanismDocument, listed: _Listed) -> tuple[int, tuple[t
     steps = document.elimination or ()
     if steps and section.is_empty:
         raise rejected("elimination: a step names an element that there is not")
-    eliminated = Steps(section.size, section.elements, steps)
-    left = eliminated.left(listed.weight, mechanism.degree_bound)
+    followed = Steps(section.size, section.elements, steps)
+    if followed.has_at_most(listed.weight):
+        left = listed.weight
+    else:
+        left = len(followed.elimination.standard(mechanism.degree_bound))
     if listed.weight == left:
         return left, tuple((factor, 2) for factor in listed.irregular)
     if listed.simple or document.representation is None:
         raise rejected(
             f"elimination: it leaves {left} monomials, the solutions listed are proved to fill {listed.weight}"
         )
-    return left, _by_algebra(eliminated.elimination, document.representation, document, section.free, listed)
+    return left, _by_algebra(followed.elimination, document.representation, document, section.free, listed)
 
 
 def _by_algebra(
