@@ -167,14 +167,14 @@ def _filling(
         raise rejected(f"elimination: it leaves {left} monomials, but the {number} solutions are proved simple")
     if left == weight and are_multiple:
         return left, tuple((factor, 2) for factor in multiple)
-    # What a prime left fills the list, or is not looked at: from here on what is left is so over Q.
     algebra = quotient_algebra(followed.elimination)
     if algebra is None or algebra.distinct_solutions() != number:
         raise rejected(f"elimination: it leaves {left} monomials, the solutions are not proved to fill them")
     found = multiplicities(algebra, representation, legs, metric)
     if found is None:
         raise rejected("elimination: no form in its unknowns tells the multiple solutions apart")
-    return left, tuple((factor, multiplicity) for factor, multiplicity in found if multiplicity > 1)
+    # Not what a prime left: that bounds the number, but may be more.
+    return len(algebra.basis), tuple((factor, multiplicity) for factor, multiplicity in found if multiplicity > 1)
 
 
 def _check_total(claimed: int, number: int, proved: int | None) -> None:
