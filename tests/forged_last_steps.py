@@ -1,4 +1,4 @@
-"""Certificates whose last steps leave less modulo the prime of the first checker than over Q; legs of other lengths.
+"""Certificates whose last steps leave less modulo one prime, or modulo 7, than over Q; legs of other lengths.
 
 Translations of a point in a plane, two unknowns of the section; what is missing has a coordinate with the prime below.
 """

@@ -81,7 +81,9 @@ def test_ordinary_models_need_no_note(capsys: Capture) -> None:
     )
 
 
-@pytest.mark.parametrize("model", [EXACT, pytest.param(TRAP, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "model", [pytest.param(EXACT, id="exact"), pytest.param(TRAP, id="trap", marks=pytest.mark.slow)]
+)
 def test_a_printed_pose_is_the_same_when_it_is_pasted_back(model: str, capsys: Capture) -> None:
     """The trap means what its file says, another robot than the one meant; each output says so."""
     assert main(["solve", model, "--format", "json"]) == 0

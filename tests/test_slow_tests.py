@@ -16,6 +16,7 @@ def test_the_list_is_in_order_and_names_no_test_twice() -> None:
     functions = {line for line in lines if "[" not in line}
     assert [line for line in lines if "[" in line and is_listed(line, functions)] == []
     assert not MEASURED & KEPT
+    assert [line for line in lines if "[/" in line] == [], "of one machine only"
 
 
 def test_every_function_in_the_list_is_there() -> None:
