@@ -128,7 +128,7 @@ figure.tight_layout()
 traces = {}
 for code in codes:
     branch = formulated[code].branches[0]
-    steps = Elimination(branch, policy).image(record=True).basis.trace.steps
+    steps = Elimination(branch, policy).image(record=True).basis.recorded().trace.steps
     degree = branch.monomials.degree
     traces[code] = [(max(map(degree, step.leading)), len(step.rows), len(step.leading)) for step in steps]
 

@@ -1,5 +1,6 @@
 """The uncertified iterations: where they end, that the numbers they start from are right, and that they say why."""
 
+import pickle
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
@@ -20,7 +21,7 @@ from pkm_exact.errors import InputError, PkmExactError, ReconstructionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.geometry.robot import Robot
-from pkm_exact.numeric.fallback import solve_within
+from pkm_exact.numeric.fallback import _packed, solve_within
 from pkm_exact.numeric.home import distance_squared, home_pose, random_states
 from pkm_exact.numeric.levenberg_marquardt import (
     DescentPolicy,
@@ -323,3 +324,13 @@ def test_errors_of_the_engine_arrive() -> None:
     with pytest.raises(PkmExactError, match="ended with code 7 at the stage: falling"):
         solve_within(falls_over, shipped("3-rrr"), 300.0)  # type: ignore[arg-type]
     assert active_children() == []
+
+
+def test_a_solution_is_sent_without_what_it_keeps_for_later() -> None:
+    """Numbers near the roots are FLINT's balls, which no process can send."""
+    found = solved("rolland-6-6")
+    assert found.representation is not None
+    assert found.representation.univariate.near
+    sent = pickle.loads(_packed(found))  # noqa: S301
+    assert sent == found
+    assert sent.representation.univariate.near == ()

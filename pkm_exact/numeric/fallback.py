@@ -101,7 +101,10 @@ class _ExactPickler(ForkingPickler):
         if arguments is not None:
             return type(value), arguments(value)
         if is_dataclass(value) and not isinstance(value, type):
-            return type(value), tuple(getattr(value, field.name) for field in fields(value))
+            # A class that says what copies have is asked.
+            own: Any = value.__getstate__() if "__getstate__" in type(value).__dict__ else {}
+            names = [field.name for field in fields(value)]
+            return type(value), tuple(own[name] if name in own else getattr(value, name) for name in names)
         return NotImplemented
 
 
