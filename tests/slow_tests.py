@@ -14,11 +14,11 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 
 LIST = Path(__file__).with_suffix(".txt")
-ALONE = 0.5
+ALONE = 0.4
 """Seconds of processor time; a function without parameters that takes more is slow."""
-ONE_OF_MANY = 0.2
+ONE_OF_MANY = 0.1
 """The same for one of several parameters."""
-QUICKEST = 1.0
+QUICKEST = 0.8
 """The same for the quickest of them."""
 KEPT = frozenset(
     {
