@@ -85,7 +85,7 @@ def check_poses(representation: Representation, legs: Sequence[Leg], metric: Met
     e, f = representation.quaternion, representation.translation
     if len(legs) == PLANAR_LEGS and any((e[1], e[2], f[0], f[3])):
         raise rejected("motion: e1, e2, f0 and f3 are not all 0, but the robot is planar")
-    forms = [leg_form(leg, metric) for leg in legs]
+    forms = [*_without_squares([leg_form(leg, metric) for leg in legs])]
     charge_products(representation, 60 + len(legs) * limbs(_bits(forms)))
     placed, turn, shift = primitive_motion(representation, metric)
     if not vanishes(placed.study, h0):
@@ -94,7 +94,7 @@ def check_poses(representation: Representation, legs: Sequence[Leg], metric: Met
         raise rejected("motion: not proved that N(e) is nowhere 0")
     yield "motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
     *coordinates, square = placed.coordinates()
-    for number, (*form, squares) in enumerate(_without_squares(forms), 1):
+    for number, (*form, squares) in enumerate(forms, 1):
         value = turn * combination(form[:10], coordinates[:10]) + shift * combination(form[10:], coordinates[10:])
         if not vanishes(turn * value + shift**2 * squares * square if squares else value, h0):
             raise rejected(f"legs: leg {number} does not have its length at every solution")
