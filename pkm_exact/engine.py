@@ -80,7 +80,8 @@ def solve_row(
 ) -> Solution:
     """The answer of ``solve`` to one of many problems that differ in lengths alone, with what others had in common.
 
-    Certificates are the same, to the byte; statistics are not.
+    Certificates are the same, to the byte, unless a prime of 62 bits that follows from a digest shows a chart or form
+    as it is not over Q: then another representation of the same poses is proved. Statistics differ.
     """
     if shared is None or shared.may_go_directly:
         found = solve_without_elimination(problem, width=width, policy=policy, shared=shared)

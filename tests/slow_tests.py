@@ -2,7 +2,8 @@
 
 A line is the name of a test as pytest shows it, or of a function with all its parameters. As a program:
 ``slow_tests.py TIMES`` writes the list anew from what a run with ``PKM_EXACT_TIMES=TIMES`` has measured. Of every
-function with parameters the quickest stays in the quick suite, unless it takes seconds.
+function with parameters the quickest stays in the quick suite, unless it takes nearly a second. What a fixture costs is
+counted to the test that asks for it first: where all tests that ask for it are to be slow, further runs name them.
 """
 
 from __future__ import annotations
