@@ -1,13 +1,12 @@
-"""Values of quadratic polynomials with large integer coefficients, at points in doubles: exactly, or with more bits.
+"""Values of quadratic polynomials with large integer coefficients: at points in doubles with more bits, or exactly.
 
 A residual is the small difference of large terms: in doubles alone it tells a solution to far fewer digits than a
-double has. Points in doubles are integers in a unit that is small enough, and so values at them are exact in integers:
-that is quick for polynomials that are met once. For those that are the same for all robots there are doubles with an
-error of about 2^-85 of the largest term: coefficients and products of coordinates are
-split into slices of ``BITS`` bits: products of slices, and sums of these, are exact in doubles, in whatever order they
-are added, and so one product of matrices has most of the work (Ozaki, Ogita, Oishi and Rump, "Error-free
-transformations of matrix multiplication by using fast routines of matrix multiplication", Numerical Algorithms 59,
-2012).
+double has. Sums of products that are known as two doubles each are off by about 2^-85 of the largest term: that is
+quick for polynomials that are met once. For those that are the same for all robots coefficients and products of
+coordinates are split into slices of ``BITS`` bits: products of slices, and sums of these, are exact in doubles, in
+whatever order they are added, and so one product of matrices has most of the work (Ozaki, Ogita, Oishi and Rump,
+"Error-free transformations of matrix multiplication by using fast routines of matrix multiplication", Numerical
+Algorithms 59, 2012). At points in integers values are exact.
 """
 
 from __future__ import annotations
@@ -18,13 +17,13 @@ from functools import cached_property, lru_cache
 from itertools import groupby
 from math import inf
 from operator import itemgetter
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 from flint import fmpz, fmpz_mat
 from numpy.typing import NDArray
 
-from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U, two_product, twofold_sums
+from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U, are_moderate, two_product, twofold_sums
 from pkm_exact.numeric.study_system import Complex, Real
 
 BITS: Final = 22
@@ -35,10 +34,9 @@ EXACT: Final = 2.0**53
 MOST_TERMS: Final = 100
 """Sums of 5 x 100 products of two slices, of 23 and 22 bits with their signs, are below 2^53 units."""
 FEW: Final = 24
-"""Values at so many real points are quicker in integers, for polynomials that are met once."""
-DIGITS: Final = 53
-GREATEST: Final = 400
-"""Doubles have so many bits; coordinates beyond such powers of 2 are refused."""
+"""Values at so many real points are quicker without slices, for polynomials that are met once."""
+BLOCK: Final = 32
+"""Points whose terms stay in the cache."""
 Integers: TypeAlias = list[list[list[int]]]
 """For each point the numerators of its real parts, and those of its imaginary parts if it is complex."""
 LACKING: Final = 2.0**-95
@@ -146,26 +144,38 @@ class DoubleForms:
     def at(self, points: Real | Complex, chosen: NDArray[np.intp] | None = None) -> tuple[Real | Complex, Real]:
         """(p, q) values at (p, n) points, rounded to double, and how far they are off at most, this rounding included.
 
-        Of complex values, how far off real and imaginary part are together. Where points, or values in their units, are
-        too large or of too different sizes, values are infinite or nan. If places are chosen, it is of points there.
+        Of complex values, how far off real and imaginary part are together. Where points are not finite, or too large,
+        values are nan. If places are chosen, it is of points there.
         """
-        count = len(points)
-        rows = np.arange(count) if chosen is None else chosen
-        here = points[rows]
-        if len(rows) > FEW and not (self.several or np.iscomplexobj(points)):
-            first, second, bound = self.in_two(here.real)
+        rows = np.arange(len(points)) if chosen is None else chosen
+        here: NDArray[Any] = points[rows]
+        if np.iscomplexobj(here) and not here.imag.any():
+            here = here.real.copy()
+        are_wrong = ~are_moderate(here)
+        here[are_wrong] = 0
+        if len(rows) > FEW and not (self.several or np.iscomplexobj(here)):
+            first, second, bound = self.in_two(here)
+            first[are_wrong] = np.nan
             return first + second, (bound + U * np.abs(first + second)) * OUTWARD
-        parts = np.stack([here.real, here.imag], axis=1) if np.iscomplexobj(points) else here[:, None].copy()
-        exponents = np.where(parts != 0, np.frexp(parts)[1], 0)
-        lowest, highest = exponents.min(axis=(1, 2), initial=0), exponents.max(axis=(1, 2), initial=0)
-        are_wrong = ~np.isfinite(parts).all(axis=(1, 2)) | (lowest < -GREATEST) | (highest > GREATEST)
-        parts[are_wrong] = 0
-        bits = DIGITS - int(lowest[~are_wrong].min(initial=0))
-        integers = [[list(map(int, part)) for part in row] for row in np.ldexp(parts, bits).tolist()]
-        found = self.at_integers(integers, bits, rows * max(1, len(self.several)) // max(1, count))
-        values: Real | Complex = found[:, 0] + 1j * found[:, 1] if np.iscomplexobj(points) else found[:, 0]
+        values: NDArray[Any] = np.empty((len(rows), self.head.shape[-2]), dtype=here.dtype)
+        bounds = np.empty(values.shape)
+        owners = rows * len(self.several) // max(1, len(points))
+        for start in range(0, len(rows), BLOCK):
+            block = slice(start, start + BLOCK)
+            tables = [table[owners[block]] if self.several else table for table in (self.head, self.tail)]
+            values[block], bounds[block] = _values(tables[0], tables[1], *self._products(here[block]))
         values[are_wrong] = np.nan
-        return values, U * np.abs(found).sum(axis=1) * OUTWARD + SMALL
+        return values, bounds
+
+    def _products(self, points: Real | Complex) -> tuple[Real, Real]:
+        """(r, p, t) twice: real and imaginary parts of products of coordinates are those, or sums of two of those."""
+        i, j, ones = self.first, self.second, np.ones((len(points), 1))
+        a = np.concatenate([points.real, ones], axis=1)
+        if not np.iscomplexobj(points):
+            return a[None, :, i], a[None, :, j]
+        b = np.concatenate([points.imag, 0 * ones], axis=1)
+        left = np.concatenate([[a[:, i], a[:, i]], [-b[:, i], b[:, i]]], axis=2)
+        return left, np.concatenate([[a[:, j], b[:, j]], [b[:, j], a[:, j]]], axis=2)
 
     def at_integers(self, points: Integers, bits: int, owners: Sequence[int] | NDArray[np.intp]) -> Real:
         """(p, r, q) values at points in units of 2^-bits, rounded once; infinite where they are too large for doubles.
@@ -249,6 +259,24 @@ class _Table:
     exponents: NDArray[np.intp]
     counts: NDArray[np.intp]
     matrix: Real
+
+
+def _values(head: Real, tail: Real, left: Real, right: Real) -> tuple[Real | Complex, Real]:
+    """(p, q) sums of coefficients, (q, t) or (p, q, t), times products of coordinates, (r, p, t) each; their bounds.
+
+    Notes
+    -----
+    With a, a' a coefficient, x y = m + e and a m = w + w' exactly, a term is w + (w' + a e + a' m): what is left out or
+    rounded is below 12 u^2 |w|, of all terms below 12 u^2 sigma, twice the bound of their sum (``twofold_sums``).
+    """
+    if len(left) > 1:
+        head, tail = (np.concatenate([table, table], axis=-1) for table in (head, tail))
+    products, lacking = (part[:, :, None] for part in two_product(left, right))
+    terms, rest = two_product(head, products)
+    first, second, bound = twofold_sums(terms, rest + head * lacking + tail * products)
+    sums = first + second
+    bounds = ((3 * bound + U * np.abs(sums)) * OUTWARD).sum(axis=0)
+    return sums[0] + 1j * sums[1] if len(sums) > 1 else sums[0], bounds * OUTWARD
 
 
 def _places_of(forms: DoubleForms) -> NDArray[np.intp]:

@@ -173,27 +173,27 @@ def _limits(
     inverses, units = inverses_at(mixed, begun, are_real), grids_of(mixed, begun, max(TRIED))[1]
     points: Integers = [[(int(a), int(b)) for a, b in row] for row in _parts(begun)]
     near = _rounded(points, BITS, begun)
-    values, off, chosen = np.zeros_like(begun), np.zeros(begun.shape), are_new
+    values, off = mixed.forms.at(near)
     for _ in range(STEPS):
+        steps = np.rint(products(inverses, values) * UNITS)
+        sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag)) / UNITS
+        moves = np.isfinite(steps).all(axis=1) & (sizes >= CLOSE * units).any(axis=1)
+        if moves.any():
+            steps = np.where(moves[:, None], steps, 0) / UNITS
+            points = [
+                [(a - int(c), b - int(d)) for (a, b), (c, d) in zip(points[k], row, strict=True)]
+                for k, row in zip(source.tolist(), _parts(steps), strict=True)
+            ]
+            values, off = mixed.values_beside(near, -steps, (values, off))
+            near = _rounded(points, BITS, begun)
+        chosen = are_new & np.isfinite(values).all(axis=1)
+        chosen &= ~(products(np.abs(inverses), off) < CLOSE * units).all(axis=1)
+        if not chosen.any():
+            break
         exact = equations.values(points, chosen)
         values[chosen] = exact if np.iscomplexobj(begun) else exact.real
         off[chosen] = (np.abs(exact.real) + np.abs(exact.imag)) * U * OUTWARD + SMALL
         values, off = values[source], off[source]
-        steps = np.rint(products(inverses, values) * UNITS)
-        sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag)) / UNITS
-        moves = np.isfinite(steps).all(axis=1) & (sizes >= CLOSE * units).any(axis=1)
-        if not moves.any():
-            break
-        steps = np.where(moves[:, None], steps, 0) / UNITS
-        points = [
-            [(a - int(c), b - int(d)) for (a, b), (c, d) in zip(points[k], row, strict=True)]
-            for k, row in zip(source.tolist(), _parts(steps), strict=True)
-        ]
-        values, off = mixed.values_beside(near, -steps, (values, off))
-        near = _rounded(points, BITS, begun)
-        chosen = are_new & moves & ~(products(np.abs(inverses), off) < CLOSE * units).all(axis=1)
-        if not chosen.any():
-            break
     return _Limits(points, near, inverses, values, off)
 
 
