@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from flint import fmpz_poly
@@ -55,6 +55,7 @@ from pkm_exact.stages import Progress, Stages
 
 if TYPE_CHECKING:
     from pkm_exact.completeness.shared_rows import SharedRows
+    from pkm_exact.numeric.study_system import Complex
 
 
 def solve(
@@ -83,13 +84,15 @@ def solve_row(
     Certificates are the same, to the byte, unless a prime of 62 bits that follows from a digest shows a chart or form
     as it is not over Q: then another representation of the same poses is proved. Statistics differ.
     """
+    policy = policy or Policy()
     if shared is None or shared.may_go_directly:
         found = solve_without_elimination(problem, width=width, policy=policy, shared=shared)
         if shared is not None:
             shared.misses += 1 if found is None else -1
         if found is not None:
             return found
-    run = _Run(problem, formulation_codes()[0], policy or Policy(), Stages(None), shared)
+        policy = replace(policy, eliminate=True)  # once is enough
+    run = _Run(problem, formulation_codes()[0], policy, Stages(None), shared)
     with attached(problem, run.stages, method="exact", formulation=run.code, width=width, policy=run.policy):
         return consistent(run.solution(width))
 
@@ -112,27 +115,40 @@ def solve_without_elimination(
         return None if found is None else consistent(found)
 
 
+def _approximate_solutions(problem: ForwardProblem) -> Complex | None:
+    """Doubles near solutions, perhaps all of them; None if they are of no use."""
+    if problem.motion != SPATIAL:
+        return None
+    # Floating point is needed for this alone.
+    from pkm_exact.numeric.proposed_representation import approximate_solutions
+
+    return approximate_solutions(problem)
+
+
 def _proposal(
     shared: SharedRows | None,
+    points: Complex | None,
     problem: ForwardProblem,
     chosen: Parameters,
     limit_bits: int,
     watch: Callable[[int], None],
 ) -> UnivariateRepresentation | None:
     """What numerical solutions propose in the chart and form that were chosen modulo a prime."""
-    if problem.motion != SPATIAL:
+    if points is None:
         return None
     # Floating point is needed for this alone.
     from pkm_exact.numeric.proposed_representation import proposed_representation
 
     denominators = None if shared is None else shared.denominators
     degree = chosen.modular.degree
-    return proposed_representation(problem, chosen.chart, chosen.form, degree, limit_bits, watch, denominators)
+    return proposed_representation(problem, chosen.chart, chosen.form, degree, limit_bits, watch, denominators, points)
 
 
-def _proposed_poses(problem: ForwardProblem, policy: Policy, shared: SharedRows | None) -> PoseRepresentation | None:
-    """The poses that are proposed in the chart and form that ``solve`` would take; None if these may be others."""
-    if problem.motion != SPATIAL:
+def _proposed_poses(
+    problem: ForwardProblem, policy: Policy, shared: SharedRows | None, points: Complex | None
+) -> PoseRepresentation | None:
+    """The poses proposed in the chart and form that the elimination would take; None if these may be others."""
+    if points is None:
         return None
     # Floating point is needed for this alone.
     from pkm_exact.numeric.proposed_representation import first_representation
@@ -143,7 +159,7 @@ def _proposed_poses(problem: ForwardProblem, policy: Policy, shared: SharedRows 
         return [form for form in common_forms(chart, policy.seed) if any(form[k] for k in free)]
 
     denominators = None if shared is None else shared.denominators
-    found = first_representation(problem, common_charts(policy.seed), forms, policy.lifting_bits, denominators)
+    found = first_representation(problem, common_charts(policy.seed), forms, policy.lifting_bits, denominators, points)
     if found is None:
         return None
     poses = pose_representation(found.chart, problem, found.univariate)
@@ -163,18 +179,37 @@ class _Run:
     @cached_property
     def search(self) -> PoseSearch:
         """The search for the poses of the problem itself."""
-        return PoseSearch(self.problem, self.code, self.policy, self.stages, proposal=partial(_proposal, self.shared))
+        return PoseSearch(self.problem, self.code, self.policy, self.stages, proposal=self._proposed)
+
+    @cached_property
+    def points(self) -> Complex | None:
+        """Solutions in doubles, as far as they are found."""
+        return _approximate_solutions(self.problem)
+
+    @cached_property
+    def motion(self) -> SelfMotion | TranslationalMotion | None:
+        """A proof of a self-motion, if one of those known here applies."""
+        return self._self_motion()
+
+    def _proposed(
+        self, problem: ForwardProblem, chosen: Parameters, limit_bits: int, watch: Callable[[int], None]
+    ) -> UnivariateRepresentation | None:
+        return _proposal(self.shared, self.points, problem, chosen, limit_bits, watch)
 
     def solution(self, width: Fraction) -> Solution:
         """The answer, by whichever way the robot goes; boxes are no wider than asked."""
         exponent = exponent_for_width(width)
         formulation_for(self.code, self.problem)  # an unknown code is refused whatever the robot
         self.stages.enter("self-motion")
-        motion = self._self_motion()
+        motion = self.motion
         if motion is not None:
             note = motion_note(motion, self.problem)
             result = self._result(Claim.POSITIVE_DIMENSIONAL_PROVED, exponent, note)
             return self._with_isolated(replace(result, self_motion=motion), width)
+        if self._may_need_no_elimination():
+            found = self._by_number(width)
+            if found is not None:
+                return found
         for _ in range(self.policy.attempts):
             start, representation = self.search.found()
             if representation is None:
@@ -191,10 +226,19 @@ class _Run:
         if self.policy.lifting != "numeric":
             return None
         self.stages.enter("self-motion")
-        if self._self_motion() is not None:
-            return None
+        return self._by_number(width) if self.motion is None else None
+
+    def _may_need_no_elimination(self) -> bool:
+        """Whether doubles seem to lead to as many poses as there can be."""
+        if self.policy.eliminate or self.policy.lifting != "numeric" or self.code != formulation_codes()[0]:
+            return False
         self.stages.enter("numeric lifting")
-        representation = _proposed_poses(self.problem, self.policy, self.shared)
+        return self.points is not None and len(self.points) == self.problem.solution_bound
+
+    def _by_number(self, width: Fraction) -> Solution | None:
+        """The answer, where the poses that doubles lead to are proved to be all by their number or a short proof."""
+        self.stages.enter("numeric lifting")
+        representation = _proposed_poses(self.problem, self.policy, self.shared, self.points)
         if representation is None:
             return None
         self.stages.enter("verification")

@@ -38,6 +38,9 @@ class Policy:
     short_proofs : bool
         Whether short ways to completeness are tried on hexapods before an elimination, and slices where the poses of
         robots with legs only seem to be infinitely many. Their certificates are of version 2.
+    eliminate : bool
+        Whether poses are counted by an elimination modulo a prime even where doubles lead to as many as there can be,
+        which is proof enough. The same is found and proved.
 
     Examples
     --------
@@ -54,6 +57,7 @@ class Policy:
     degree_limit: int = 40
     dimension_limit: int = 2000
     short_proofs: bool = True
+    eliminate: bool = False
 
     def seed_for(self, *data: Data) -> int:
         """The seed of a choice about these data: the same for the same data, and for others another.

@@ -325,7 +325,7 @@ def test_legs_too_short_to_reach_have_complex_poses_only() -> None:
 def test_stages_are_reported_in_order() -> None:
     stages: list[str] = []
     solution = solve(shipped("robocrane-r"), progress=stages.append)
-    assert stages[:2] == ["self-motion", "formulation"]
+    assert stages[:3] == ["self-motion", "numeric lifting", "formulation"]
     assert stages[-1] == "Jacobians"
     assert set(solution.statistics.seconds) == set(stages)
     assert str(solution).startswith("16 complex solutions, 4 real poses")

@@ -155,6 +155,36 @@ def test_as_many_poses_as_there_can_be_need_no_elimination() -> None:
     assert bytes_of[0] == bytes_of[1]
 
 
+def test_a_solve_has_no_elimination_then_unless_it_is_asked_for() -> None:
+    name = "carriage-hexapod"
+    other = solve(shipped(name), policy=Policy(eliminate=True))
+    assert not solved(name).statistics.primes
+    assert "formulation" not in solved(name).statistics.seconds
+    assert other.statistics.primes
+    bytes_of = [canonical_bytes(certificate(model(name), None, solution)) for solution in (solved(name), other)]
+    assert bytes_of[0] == bytes_of[1]
+
+
+def test_another_formulation_has_its_basis() -> None:
+    assert solve(shipped("carriage-hexapod"), formulation="AFP3").statistics.primes
+
+
+@pytest.mark.parametrize("wrong", ["poses", "no proof"])
+def test_what_is_not_proved_without_an_elimination_has_one(wrong: str, monkeypatch: Patch) -> None:
+    name = "carriage-hexapod"
+    right = solved(name)
+    assert right.representation is not None
+    first, *others = right.representation.univariate.eliminant
+    poses = replace(
+        right.representation, univariate=replace(right.representation.univariate, eliminant=(first + 1, *others))
+    )
+    target = "_proposed_poses" if wrong == "poses" else "prove_shortly"
+    monkeypatch.setattr(engine, target, lambda *_: poses if wrong == "poses" else None)
+    found = solve(shipped(name))
+    assert found.statistics.primes
+    assert found.representation == right.representation
+
+
 def _row(name: str, number: int) -> ForwardProblem:
     problem = shipped(name)
     constraints = (replace(leg, length_squared=leg.length_squared + number) for leg in problem.distances)

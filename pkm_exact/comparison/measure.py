@@ -61,7 +61,8 @@ def measure(
     formulated = formulation_for(code, problem).formulate(problem)
     written(system_figures(formulated.system))
     start, processor_start = perf_counter(), process_time()
-    solution = solve(problem, formulation=code, progress=progress)
+    # Formulations are compared by their bases.
+    solution = solve(problem, formulation=code, policy=Policy(eliminate=True), progress=progress)
     solved, processor_solved = perf_counter(), process_time()
     progress("solutions that are no poses")
     complex_solutions = _complex_solutions(formulated, solution)

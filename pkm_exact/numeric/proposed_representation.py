@@ -70,6 +70,7 @@ def proposed_representation(
     limit_bits: int,
     watch: Callable[[int], None] | None = None,
     shared: PoseDenominators | None = None,
+    points: Complex | None = None,
 ) -> UnivariateRepresentation | None:
     """The representation on the free coordinates of the chart, probably; None if there is nothing to propose.
 
@@ -87,8 +88,10 @@ def proposed_representation(
         Gets the bits that are reached.
     shared : PoseDenominators, optional
         Of the same robot at other lengths; it gets what is found first.
+    points : (p, 8) complex array, optional
+        ``approximate_solutions``, if they are known.
     """
-    points = _approximations(problem)
+    points = approximate_solutions(problem) if points is None else points
     if points is None or len(points) != degree:
         return None
     values = points[:, :4] @ np.array(chart, dtype=float)
@@ -107,6 +110,7 @@ def first_representation(
     forms: Callable[[Chart], Sequence[Form]],
     limit_bits: int,
     shared: PoseDenominators | None = None,
+    points: Complex | None = None,
 ) -> FirstRepresentation | None:
     """The representation of all solutions that are found, in the first chart and by the first form that seem to serve.
 
@@ -119,8 +123,10 @@ def first_representation(
         Those to be tried in a chart.
     limit_bits : int
     shared : PoseDenominators, optional
+    points : (p, 8) complex array, optional
+        ``approximate_solutions``, if they are known.
     """
-    points = _approximations(problem)
+    points = approximate_solutions(problem) if points is None else points
     if points is None or not len(points):
         return None
     sizes = np.abs(points[:, :4]).max(axis=1)
@@ -167,8 +173,8 @@ class FirstRepresentation:
     forms: Sequence[Form]
 
 
-def _approximations(problem: ForwardProblem) -> Complex | None:
-    """Solutions in doubles, if the template is one for the problem and the numbers are long enough."""
+def approximate_solutions(problem: ForwardProblem) -> Complex | None:
+    """Solutions (e, f) in doubles, (p, 8), if the template is one for the problem and the numbers are long enough."""
     if expected_bits(problem, problem.solution_bound) < WORTHWHILE or not has_seeds(problem):
         return None
     try:
