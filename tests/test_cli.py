@@ -118,6 +118,13 @@ def test_a_bad_model_gives_one_sentence_and_no_file(name: str, tmp_path: Path, c
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_linear_algebra_has_one_thread_unless_the_user_says_otherwise(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    main(["--version"])
+    assert (os.environ["OPENBLAS_NUM_THREADS"], os.environ["OMP_NUM_THREADS"]) == ("1", "3")
+
+
 def test_no_command_shows_the_help(capsys: Capture) -> None:
     assert main([]) == 2
     out, err = capsys.readouterr()

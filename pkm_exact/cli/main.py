@@ -18,6 +18,7 @@ import click
 
 from pkm_exact.cli.program import COMPLETIONS, PROBLEM, PROGRAM, ROOTS, ExitCode
 from pkm_exact.errors import InputError, InternalError, PkmExactError
+from pkm_exact.one_thread import prefer_one_thread
 from pkm_exact.wording import printable
 
 __all__ = ["COMPLETIONS", "PROBLEM", "PROGRAM", "ROOTS", "ExitCode", "main", "roots_main"]
@@ -47,6 +48,7 @@ def main(arguments: Sequence[str] | None = None, program: str = PROGRAM) -> int:
         if getattr(sys, stream) is None:  # closed by the caller: the exit code and the files still count
             setattr(sys, stream, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 - from now on
     _accept_any_character()
+    prefer_one_thread()
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
         code = _run(words, program)

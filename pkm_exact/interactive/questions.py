@@ -37,8 +37,8 @@ def solve(
     problem : ForwardProblem
         Exact constraints, the motions and the metric.
     formulation : str
-        Code of the formulation whose Groebner basis is used. By SE3 there need be none where numerical solutions lead to
-        as many poses as there can be, which are then proved (``Policy.eliminate``).
+        Code of the formulation whose Groebner basis is used. By SE3 there is none where numerical solutions lead
+        to as many poses as there can be, which are then proved (``Policy.eliminate``).
     width : Fraction
         Largest width of a box, in every coordinate (unit of length, or 1 for rotations).
     policy : Policy, optional

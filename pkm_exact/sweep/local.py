@@ -12,17 +12,15 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
-from typing import Any, Final, cast
+from typing import Any, cast
 
 from pkm_exact.batch.row_solver import TOGETHER
 from pkm_exact.errors import PkmExactError
+from pkm_exact.one_thread import prefer_one_thread
 from pkm_exact.processes import end_with_parent, process_apart
 from pkm_exact.sweep.job import Answer, SweepJob
 from pkm_exact.sweep.lengths import LengthRow
 from pkm_exact.sweep.record import error_line
-
-THREADS: Final = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
-"""Variables that libraries of linear algebra obey when they are loaded."""
 
 
 @contextmanager
@@ -155,8 +153,7 @@ class _Worker:
 @contextmanager
 def _one_thread_each() -> Iterator[None]:
     """Processes started here do linear algebra in one thread, unless the user says otherwise: the cores are taken."""
-    missing = [name for name in THREADS if name not in os.environ]
-    os.environ.update(dict.fromkeys(missing, "1"))
+    missing = prefer_one_thread()
     try:
         yield
     finally:
