@@ -5,6 +5,7 @@ import io
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -142,7 +143,14 @@ def test_table(quick: Solution, capsys: Capture) -> None:
     assert [line.split()[0] for line in lines[-5:-1]] == ["1", "2", "3", "4"]
     assert "-0.555382830" in out
     assert main(["solve", MODEL, "-v"]) == 0
-    assert "method: exact; claim: complete; route: refined-bezout" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert "method: exact; claim: complete; route: refined-bezout" in out
+    assert "Groebner basis: none, as" in out
+
+
+def test_details_tell_of_the_basis_if_there_is_one(capsys: Capture) -> None:
+    assert main(["solve", str(ROOT / "models" / "3-rpr-merlet-p.toml"), "-v"]) == 0
+    assert re.search(r"Groebner basis: \d+ elements, quotient of dimension 6; primes: 1", capsys.readouterr().out)
 
 
 def test_json(quick: Solution, capsys: Capture) -> None:

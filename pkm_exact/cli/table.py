@@ -66,6 +66,8 @@ def _details(robot: Machine, solution: Solution) -> list[str]:
             f"Groebner basis: {facts.basis_size} elements, quotient of dimension {facts.quotient_dimension}; "
             f"primes: {len(facts.primes)}, unlucky: {len(facts.unlucky_primes)}; choices made again: {facts.retries}"
         )
+    elif solution.method == "exact" and solution.representation is not None:
+        details.append("Groebner basis: none, as the number of verified solutions proves that there are no others")
     return details
 
 
