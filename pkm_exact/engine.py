@@ -230,7 +230,8 @@ class _Run:
 
     def _may_need_no_elimination(self) -> bool:
         """Whether doubles seem to lead to as many poses as there can be."""
-        if self.policy.eliminate or self.policy.lifting != "numeric" or self.code != formulation_codes()[0]:
+        is_asked_for = self.policy.eliminate or self.policy.lifting != "numeric" or self.code != formulation_codes()[0]
+        if is_asked_for or self.problem.motion != SPATIAL:
             return False
         self.stages.enter("numeric lifting")
         return self.points is not None and len(self.points) == self.problem.solution_bound
