@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -249,22 +250,33 @@ def grids_of(
 
     That of e is given, for all or for each point.
     """
-    halves = np.array(equations.support) // 4
-    largest = np.maximum(np.abs(points.real), np.abs(points.imag))
+    halves, members = _halves(tuple(equations.support))
+    largest = np.abs(points)
+    if np.iscomplexobj(points):
+        largest = np.maximum(np.abs(points.real), np.abs(points.imag))
     sizes = np.zeros((2, len(points)))
-    # Turns about a point have no f; where there are f and they are 0, they are very small.
-    smallest = np.zeros((2, 1, 1), dtype=np.intp)
-    for half in (0, 1):
-        places = np.flatnonzero(halves == half)
+    for size, places in zip(sizes, members, strict=True):
         if len(places):
-            sizes[half], smallest[half] = largest[:, places].max(axis=1), -GREATEST_SHIFT
-    limits = (1 + 2.0**-NEARLY_BITS) * np.array([1 - DOUBT, 1 + DOUBT])
-    (e, also_e), (f, also_f) = np.where(sizes[:, None] > 0, np.frexp(sizes[:, None] * limits[:, None])[1], smallest)
+            largest[:, places].max(axis=1, out=size)
+    limits = (1 + 2.0**-NEARLY_BITS) * np.array([[1 - DOUBT], [1 + DOUBT]])
+    bits = np.frexp(sizes[:, None] * limits)[1]
+    if not (sizes > 0).all():
+        # Turns about a point have no f; where there are f and they are 0, they are very small.
+        smallest = [-GREATEST_SHIFT if len(places) else 0 for places in members]
+        bits = np.where(sizes[:, None] > 0, bits, np.array(smallest)[:, None, None])
+    (e, also_e), (f, also_f) = bits
     shifts = np.maximum(f - also_e, 0)
     is_sure = (shifts == np.maximum(also_f - e, 0)) & np.isfinite(sizes).all(axis=0) & (sizes[0] > 0)
     exponents = np.empty((len(points), 2), dtype=np.intp)
     exponents[:, 0], exponents[:, 1] = exponent, np.maximum(exponent - shifts, 0)
-    return exponents, np.ldexp(1.0, -exponents[:, halves]), is_sure
+    return exponents, np.ldexp(1.0, -exponents)[:, halves], is_sure
+
+
+@lru_cache(maxsize=16)
+def _halves(support: tuple[int, ...]) -> tuple[NDArray[np.intp], tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Of each coordinate whether it is one of f, and the places of those of e and of f."""
+    halves = np.array(support) // 4
+    return halves, (np.flatnonzero(halves == 0), np.flatnonzero(halves == 1))
 
 
 def box_at(exponents: Sequence[int], grid: Sequence[Sequence[int]], support: Sequence[int]) -> Box:

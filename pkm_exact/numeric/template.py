@@ -49,6 +49,8 @@ OTHERS: Final = SECOND - INNER
 """So many of degree 2 are no multiples of x_0."""
 LED: Final = (1, 2)
 """These i, in a random basis, give relations enough, of the same quality as all: 128 of rank 80."""
+FURTHER: Final = LED[-1] + 1
+"""The first axis after these."""
 ONE, TWO, THREE = 1 + INNER, 1 + INNER + SECOND, 1 + INNER + SECOND + THIRD
 """Dimensions of the parts up to degree 1, 2 and 3."""
 A: Final = ONE + INNER
@@ -77,7 +79,7 @@ def motion_seeds(forms: Real) -> Complex:
     tables = _tables()
     basis = np.linalg.qr(_turned(forms), mode="complete")[0][..., forms.shape[1] :] @ tables.turn
     second = _with_multiples(_second(_turned(basis)[:, None] @ (tables.quadrics @ basis[:, None])))
-    matrices = _products_with_first(_third(second, tables.relations))
+    matrices = _products_with_first(_third(second))
     values, vectors = np.linalg.eig(matrices)
     # Eigenvalues of real matrices come in conjugate pairs, exactly.
     are_left_out = values.imag < 0
@@ -107,15 +109,15 @@ class _Tables:
         i <= j.
     place : (10, 10) array of int
         Where i, j or j, i is among the pairs.
-    relations : four (r,) arrays of int
-        Places of i in ``LED``, then i < j and k >= i of the relations x_i (x_j x_k) = x_j (x_i x_k).
+    led : two (17,) arrays of int
+        Places of i in ``LED``, and k >= i, of the relations x_i (x_j x_k) = x_j (x_i x_k), j > 2.
     """
 
     quadrics: Real
     turn: Real
     pairs: tuple[NDArray[np.intp], NDArray[np.intp]]
     place: NDArray[np.intp]
-    relations: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]
+    led: tuple[NDArray[np.intp], NDArray[np.intp]]
 
 
 @cache
@@ -131,10 +133,8 @@ def _tables() -> _Tables:
     first, second = np.triu_indices(INNER)
     table = np.empty((INNER, INNER), dtype=np.intp)
     table[first, second] = table[second, first] = np.arange(len(first))
-    place, i, j, k = np.array(
-        [(n, i, j, k) for n, i in enumerate(LED) for j in range(i + 1, INNER) for k in range(i, INNER)], dtype=np.intp
-    ).T
-    return _Tables(orthonormal.reshape(QUADRICS, SIZE, SIZE), turn, (first, second), table, (place, i, j, k))
+    place, k = np.array([(n, k) for n, i in enumerate(LED) for k in range(i, INNER)], dtype=np.intp).T
+    return _Tables(orthonormal.reshape(QUADRICS, SIZE, SIZE), turn, (first, second), table, (place, k))
 
 
 def _second(quadrics: Real) -> Real:
@@ -164,34 +164,39 @@ def _with_multiples(second: Real) -> Real:
     return table
 
 
-def _third(second: Real, relations: tuple[NDArray[np.intp], ...]) -> Real:
-    """(k, 10, 29, 39): x_i times each of 1, x, b and a, in 1, x, b, a and f."""
-    place, i, j, k = relations
-    several, rank = len(second), len(place)
-    # The same in 1, x, b, a, then x_0 a, x_0 b; rows of x_i a are left 0.
-    known = np.zeros((several, INNER, TWO, TWO + SECOND))
-    axes = np.arange(INNER)
-    known[:, axes, 0, 1 + axes] = 1
-    known[:, :, 1:ONE, :TWO] = second
-    known[:, :, ONE:A, 1] = second[..., 0]  # x_i b_k is x_0 times x_i x_k
-    known[:, :, ONE:A, ONE:A] = second[..., 1:ONE]
-    known[:, :, ONE:A, TWO : TWO + OTHERS] = second[..., A:]
-    known[:, :, ONE:A, TWO + OTHERS :] = second[..., ONE:A]
-    led = second[:, list(LED)]
-    left = (second.reshape(several, 1, -1, TWO) @ known[:, list(LED)]).reshape(several, len(LED), INNER, INNER, -1)
-    rows = left[:, place, j, k] - (led[:, :, None] @ known[:, None])[:, place, j, k]
-    top = np.zeros((several, rank, INNER, OTHERS))  # x_1 a, .., x_9 a, x_0 a
-    count = np.arange(rank)
-    top[:, count, i - 1] = second[:, j, k, A:]
-    top[:, count, j - 1] -= second[:, i, k, A:]
-    top[:, :, -1] = rows[..., TWO : TWO + OTHERS]
-    symbols = np.concatenate([top.reshape(several, rank, -1), rows[..., TWO + OTHERS :]], axis=2)
-    others = _solved(symbols, rows[..., :TWO], THIRD).reshape(several, INNER, OTHERS, THREE)
-    below = np.zeros((several, INNER, TWO, THREE))
-    below[..., :TWO] = known[..., :TWO]
-    below[:, :, ONE:A] += known[:, :, ONE:A, TWO : TWO + OTHERS] @ others[:, -1:]
-    below[:, :, ONE:A, TWO:] += known[:, :, ONE:A, TWO + OTHERS :]
-    below[:, 0, A:], below[:, 1:, A:] = others[:, -1], others[:, :-1]
+def _third(second: Real) -> Real:
+    """(k, 10, 29, 39): x_i times each of 1, x, b and a, in 1, x, b, a and f.
+
+    For each j, x_j a is in the relations x_i (x_j x_k) = x_j (x_i x_k) alone, with the same coefficients for all j.
+    """
+    several, (i, k) = len(second), _tables().led
+    # The same in x_0 a, then 1, x, b, a, then x_0 b; rows of x_i a are left 0.
+    known, axes = np.zeros((several, INNER, TWO, OTHERS + THREE)), np.arange(INNER)
+    known[:, axes, 0, OTHERS + 1 + axes] = 1
+    known[:, :, 1:ONE, OTHERS:-THIRD] = second
+    known[:, :, ONE:A, OTHERS + 1] = second[..., 0]  # x_i b_k is x_0 times x_i x_k
+    known[:, :, ONE:A, OTHERS + ONE : OTHERS + A] = second[..., 1:ONE]
+    known[:, :, ONE:A, :OTHERS] = second[..., A:]
+    known[:, :, ONE:A, -THIRD:] = second[..., ONE:A]
+    led = second[:, 1:FURTHER]
+    rows = (second.reshape(several, 1, -1, TWO) @ known[:, 1:FURTHER]).reshape(several, len(LED), INNER, INNER, -1)
+    rows -= led[:, :, None] @ known[:, None]
+    # With x_1 a and x_2 a before, and without x_j a.
+    blocks = np.zeros((several, INNER - FURTHER, len(i), len(LED) * OTHERS + rows.shape[-1]))
+    blocks[:, :, : INNER - 1, :OTHERS] = second[:, FURTHER:, 1:, A:]
+    blocks[:, :, INNER - 1 :, OTHERS : 2 * OTHERS] = second[:, FURTHER:, 2:, A:]
+    blocks[..., 2 * OTHERS :] = rows[:, i, FURTHER:, k].transpose(1, 2, 0, 3)
+    first = np.concatenate([second[:, 2, 1:, A:], -second[:, 1, 1:, A:], rows[:, 0, 2, 1:]], axis=2)
+    rotation, triangle = np.linalg.qr(led[:, i, k, A:], mode="complete")
+    turned = _turned(rotation)[:, None] @ blocks
+    free = np.concatenate([turned[:, :, OTHERS:].reshape(several, -1, first.shape[2]), first], axis=1)
+    few = _solved(free, 3 * OTHERS)  # x_1 a, x_2 a, x_0 a
+    further = np.linalg.solve(triangle[:, None, :OTHERS], turned[:, :, :OTHERS])
+    products = few.reshape(several, 3, OTHERS, THREE)
+    below = known[..., OTHERS:].copy()
+    below[:, :, ONE:A] += known[:, :, ONE:A, :OTHERS] @ products[:, -1:]
+    below[:, 0, A:], below[:, 1:FURTHER, A:] = products[:, -1], products[:, :-1]
+    below[:, FURTHER:, A:] = further[..., : 3 * OTHERS] @ few[:, None] + further[..., 3 * OTHERS :]
     return below
 
 
@@ -237,20 +242,23 @@ def _last(below: Real, fourth: Real) -> Real:
     return last
 
 
-def _solved(symbols: Real, low: Real, dimension: int) -> Real:
-    """(k, s - dimension, l + dimension): the first of s symbols in what is lower and the last ones, from relations.
+def _solved(relations: Real, rank: int) -> Real:
+    """(k, rank, s - rank): the first symbols in the others, from relations that are rows on s symbols.
 
-    Relations are rows on the symbols and on the l lower ones; their rank on the symbols is s - dimension.
+    Their rank is the number of the first ones: on all symbols that are of the highest degree.
     """
-    rank = symbols.shape[2] - dimension
-    triangle = np.asarray(np.linalg.qr(np.concatenate([symbols, low], axis=2), mode="r"))
-    solved = -np.linalg.solve(triangle[:, :rank, :rank], triangle[:, :rank, rank:])
-    return np.concatenate([solved[..., dimension:], solved[..., :dimension]], axis=2)
+    rotation, triangle = np.linalg.qr(relations[..., :rank])
+    found: Real = -np.linalg.solve(triangle, _turned(rotation) @ relations[..., rank:])
+    return found
 
 
 def _normal_forms(symbols: Real, low: Real, dimension: int) -> Real:
-    """(k, s, l + dimension): all symbols in what is lower and an orthonormal basis of what relations leave of them."""
-    solved, width, several = _solved(symbols, low, dimension), low.shape[2], len(low)
+    """(k, s, l + dimension): all symbols in what is lower and an orthonormal basis of what relations leave of them.
+
+    Relations are rows on the symbols and on the l lower ones; their rank on the symbols is s - dimension.
+    """
+    width, several, rank = low.shape[2], len(low), symbols.shape[2] - dimension
+    solved = _solved(np.concatenate([symbols[..., :rank], low, symbols[..., rank:]], axis=2), rank)
     units = np.broadcast_to(np.eye(dimension), (several, dimension, dimension))
     free = np.linalg.qr(np.concatenate([solved[..., width:], units], axis=1))[0]
     below = np.concatenate([solved[..., :width], np.zeros((several, dimension, width))], axis=1)
