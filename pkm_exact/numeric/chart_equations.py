@@ -94,7 +94,7 @@ class ChartSystem:
         norm = motion_quadrics(self.problem.metric)[-1]
         try:
             weights = np.array([float(norm.get((k, k), 0)) for k in self.support])
-            forms = DoubleForms.of([*self._placed, last], [*(index // 4 for index in self.support), 0])
+            forms = DoubleForms.of([*self._placed, last])
             return DoubleEquations(self.support, forms, weights)
         except OverflowError:
             return None

@@ -54,7 +54,7 @@ class MixedEquations:
         if not all(mixed):
             raise ValueError("dependent quadrics")
         last = {(place, size): weight for place, weight in enumerate(chart) if weight} | {(size, size): -1}
-        forms = DoubleForms.of([*mixed, last], [*kinds, 0])
+        forms = DoubleForms.of([*mixed, last])
         mixing = np.eye(size)
         mixing[:-1, :-1] = weights
         mixing = np.ldexp(mixing, original.forms.powers[None, :] - forms.powers[:, None])

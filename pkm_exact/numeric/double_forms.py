@@ -1,12 +1,8 @@
 """Values of quadratic polynomials with large integer coefficients: at points in doubles with more bits, or exactly.
 
 A residual is the small difference of large terms: in doubles alone it tells a solution to far fewer digits than a
-double has. Sums of products that are known as two doubles each are off by about 2^-85 of the largest term: that is
-quick for polynomials that are met once. For those that are the same for all robots coefficients and products of
-coordinates are split into slices of ``BITS`` bits: products of slices, and sums of these, are exact in doubles, in
-whatever order they are added, and so one product of matrices has most of the work (Ozaki, Ogita, Oishi and Rump,
-"Error-free transformations of matrix multiplication by using fast routines of matrix multiplication", Numerical
-Algorithms 59, 2012). At points in integers values are exact.
+double has. Sums of products that are known as two doubles each are off by about 2^-85 of the largest term, of few terms
+by less. At points in integers values are exact.
 """
 
 from __future__ import annotations
@@ -23,24 +19,15 @@ import numpy as np
 from flint import fmpz, fmpz_mat
 from numpy.typing import NDArray
 
-from pkm_exact.numeric.double_rounding import OUTWARD, SMALL, U, are_moderate, two_product, twofold_sums
+from pkm_exact.numeric.double_rounding import OUTWARD, U, are_moderate, two_product, twofold_sums
 from pkm_exact.numeric.study_system import Complex, Real
 
-BITS: Final = 22
-LEVELS: Final = 5
-"""Of a number of size 1 at most, slice k is a multiple of 2^-(22 k + 22); what five slices lack is below 2^-110."""
 EXACT: Final = 2.0**53
 """Integers below are doubles."""
-MOST_TERMS: Final = 100
-"""Sums of 5 x 100 products of two slices, of 23 and 22 bits with their signs, are below 2^53 units."""
-FEW: Final = 24
-"""Values at so many real points are quicker without slices, for polynomials that are met once."""
-BLOCK: Final = 32
+BLOCK: Final = 48
 """Points whose terms stay in the cache."""
 Integers: TypeAlias = list[list[list[int]]]
 """For each point the numerators of its real parts, and those of its imaginary parts if it is complex."""
-LACKING: Final = 2.0**-95
-"""What the slices of a product and of its coefficient miss, of size 1 and complex, together."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,8 +45,6 @@ class DoubleForms:
         Coefficients: those of the polynomials are head + tail to a part u^2.
     powers : (.., q) array of int
         Exponents of 2 of what the polynomials are divided by.
-    kinds : (n + 1,) array of int
-        Which coordinates are of about one size.
     polynomials : sequence of mappings
         Over the integers, not scaled; none if several lists are stacked.
     several : sequence of DoubleForms
@@ -71,37 +56,28 @@ class DoubleForms:
     head: Real
     tail: Real
     powers: NDArray[np.intp]
-    kinds: NDArray[np.intp]
     polynomials: Sequence[Mapping[tuple[int, int], int]] = ()
     several: Sequence[DoubleForms] = ()
 
     @classmethod
-    def of(
-        cls, polynomials: Sequence[Mapping[tuple[int, int], int]], kinds: Sequence[int] | None = None
-    ) -> DoubleForms:
+    def of(cls, polynomials: Sequence[Mapping[tuple[int, int], int]]) -> DoubleForms:
         """Polynomials with integer coefficients; each is divided by the power of 2 next to its largest.
 
         Raises
         ------
         OverflowError
-            If a coefficient is too large for a double, or there are too many monomials.
+            If a coefficient is too large for a double.
         """
-        found = {place for polynomial in polynomials for place in polynomial}
-        last = max(max(place) for place in found)
-        sorts = [0] * (last + 1) if kinds is None else kinds
-        places = sorted(found, key=lambda place: (*sorted((sorts[place[0]], sorts[place[1]])), place))
-        if len(places) > MOST_TERMS:
-            raise OverflowError("too many monomials")
-        powers = [max(abs(value).bit_length() for value in polynomial.values()) for polynomial in polynomials]
+        places, (first, second) = _in_order(frozenset(place for polynomial in polynomials for place in polynomial))
+        powers = [max(max(values), -min(values)).bit_length() for values in (each.values() for each in polynomials)]
         values = [polynomial.get(place, 0) for polynomial in polynomials for place in places]
-        heads = [float(value) for value in values]
-        tails = [
-            float(value - int(head)) if abs(head) >= EXACT else 0.0 for value, head in zip(values, heads, strict=True)
-        ]
-        first, second = np.array(places, dtype=np.intp).reshape(-1, 2).T
-        table = np.array([heads, tails]).reshape(2, len(polynomials), len(places))
+        heads = np.array(values, dtype=np.float64)
+        tails = np.zeros(len(values))
+        for place in np.flatnonzero(np.abs(heads) >= EXACT).tolist():
+            tails[place] = values[place] - int(heads[place])
+        table = np.stack([heads, tails]).reshape(2, len(polynomials), len(places))
         table = np.ldexp(table, -np.array(powers)[:, None])
-        return cls(first, second, table[0], table[1], np.array(powers), np.array(sorts, dtype=np.intp), polynomials)
+        return cls(first, second, table[0], table[1], np.array(powers), polynomials)
 
     @classmethod
     def stacked(cls, several: Sequence[DoubleForms]) -> DoubleForms | None:
@@ -112,26 +88,16 @@ class DoubleForms:
         head, tail, powers = (
             np.stack([getattr(forms, name) for forms in several]) for name in ("head", "tail", "powers")
         )
-        return cls(first.first, first.second, head, tail, powers, first.kinds, several=tuple(several))
+        return cls(first.first, first.second, head, tail, powers, several=tuple(several))
 
     @cached_property
-    def _table(self) -> _Table:
-        begins, counts, kinds = _classes(self.first.tobytes(), self.second.tobytes(), self.kinds.tobytes())
-        exponents = np.frexp(np.maximum.reduceat(np.abs(self.head), begins, axis=1))[1].astype(np.intp)
-        scaled = -exponents.repeat(counts, axis=1)
-        slices = _slices(np.ldexp(self.head, scaled), np.ldexp(self.tail, scaled)).transpose(2, 0, 1)  # (t, l, q)
-        size, count = self.head.shape
-        matrix = np.zeros((LEVELS, count, len(counts), LEVELS, size))
-        for place, (begin, number) in enumerate(zip(begins.tolist(), counts.tolist(), strict=True)):
-            rows = slice(begin, begin + number)
-            for level in range(LEVELS):
-                matrix[level, rows, place, level:] = slices[rows, : LEVELS - level]
-        return _Table(kinds, exponents.T.copy(), counts, matrix.reshape(LEVELS * count, -1))
-
-    @cached_property
-    def _members(self) -> list[NDArray[np.intp]]:
-        """The coordinates of each kind."""
-        return [np.flatnonzero(self.kinds == kind) for kind in range(self.kinds.max() + 1)]
+    def _own(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Real, Real]:
+        """(q, m) each: monomials and coefficients of each polynomial, some of the latter 0."""
+        are_absent = self.head == 0
+        count = int((~are_absent).sum(axis=1).max())
+        order = np.argsort(are_absent, axis=1, kind="stable")[:, :count]
+        head, tail = (np.take_along_axis(table, order, axis=1) for table in (self.head, self.tail))
+        return self.first[order], self.second[order], head, tail
 
     @cached_property
     def _integers(self) -> list[fmpz_mat]:
@@ -153,10 +119,6 @@ class DoubleForms:
             here = here.real.copy()
         are_wrong = ~are_moderate(here)
         here[are_wrong] = 0
-        if len(rows) > FEW and not (self.several or np.iscomplexobj(here)):
-            first, second, bound = self.in_two(here)
-            first[are_wrong] = np.nan
-            return first + second, (bound + U * np.abs(first + second)) * OUTWARD
         values: NDArray[Any] = np.empty((len(rows), self.head.shape[-2]), dtype=here.dtype)
         bounds = np.empty(values.shape)
         owners = rows * len(self.several) // max(1, len(points))
@@ -211,101 +173,49 @@ class DoubleForms:
     def in_two(self, points: Real) -> tuple[Real, Real, Real]:
         """The same at real points as sums of two doubles, the second not rounded away: heads, tails, and bounds.
 
-        Not of lists that are stacked.
+        Not of lists that are stacked. Of polynomials with few monomials each.
         """
-        x, exponents = self._scaled(np.concatenate([points, np.ones((len(points), 1))], axis=1))
-        return self._sums(_slices(*two_product(x[:, self.first], x[:, self.second])), exponents)
-
-    def _scaled(self, x: Real) -> tuple[Real, NDArray[np.intp]]:
-        """Points (p, n + 1) with coordinates below 1, by a power of 2 for each kind; its exponents, (p, kinds)."""
-        sizes = np.abs(x)
-        exponents = np.frexp(np.stack([sizes[:, members].max(axis=1) for members in self._members], axis=1))[1]
-        return np.ldexp(x, -exponents[:, self.kinds]), exponents
-
-    def _sums(self, parts: Real, exponents: NDArray[np.intp]) -> tuple[Real, Real, Real]:
-        """Values (p, q) from slices (l, p, t) of the products of coordinates.
-
-        Notes
-        -----
-        Products are exact as two doubles; adding the second after two slices is off by 2^-97 at most, likewise of the
-        coefficients. Products of slices that are left out, i + j >= 5, are below 2^-108 each.
-        """
-        points, table, size = parts.shape[1], self._table, len(self.head)
-        slices = parts.transpose(1, 0, 2).reshape(points, -1)
-        shifts = exponents[:, table.kinds].sum(axis=2)[:, :, None] + table.exponents  # (p, classes, q)
-        sums = (slices @ table.matrix).reshape(points, len(table.counts), LEVELS, -1)
-        terms = np.ldexp(sums, shifts[:, :, None]).reshape(points, -1, size).transpose(0, 2, 1)
-        lost = np.ldexp((LACKING * table.counts)[:, None], shifts).sum(axis=1)
-        first, second, bound = twofold_sums(terms, np.zeros(1))
-        return first, second, (bound + lost) * OUTWARD + SMALL
-
-
-@dataclass(frozen=True, eq=False)
-class _Table:
-    """Coefficients in slices, by classes: monomials of coordinates of the same two kinds, which are neighbours.
-
-    Attributes
-    ----------
-    kinds : (c, 2) array of int
-    exponents : (c, q) array of int
-        Of the largest coefficients.
-    counts : (c,) array of int
-        Numbers of monomials.
-    matrix : (l t, c l q) array
-        With slices of products, level after level, it gives the sums of all products of levels i + j = s, for each s.
-    """
-
-    kinds: NDArray[np.intp]
-    exponents: NDArray[np.intp]
-    counts: NDArray[np.intp]
-    matrix: Real
+        x = np.concatenate([points, np.ones((len(points), 1))], axis=1)
+        i, j, head, tail = self._own
+        return _twofold(head, tail, x[:, i], x[:, j])
 
 
 def _values(head: Real, tail: Real, left: Real, right: Real) -> tuple[Real | Complex, Real]:
-    """(p, q) sums of coefficients, (q, t) or (p, q, t), times products of coordinates, (r, p, t) each; their bounds.
+    """(p, q) sums of coefficients, (q, t) or (p, q, t), times products of coordinates, (r, p, t) each; their bounds."""
+    if len(left) > 1:
+        head, tail = (np.concatenate([table, table], axis=-1) for table in (head, tail))
+    first, second, bound = _twofold(head, tail, left[:, :, None], right[:, :, None])
+    sums = first + second
+    bounds = ((bound + U * np.abs(sums)) * OUTWARD).sum(axis=0)
+    return sums[0] + 1j * sums[1] if len(sums) > 1 else sums[0], bounds * OUTWARD
+
+
+def _twofold(head: Real, tail: Real, left: Real, right: Real) -> tuple[Real, Real, Real]:
+    """Sums, over the last axis, of coefficients times two coordinates, as two doubles, and how far they are off.
 
     Notes
     -----
     With a, a' a coefficient, x y = m + e and a m = w + w' exactly, a term is w + (w' + a e + a' m): what is left out or
     rounded is below 12 u^2 |w|, of all terms below 12 u^2 sigma, twice the bound of their sum (``twofold_sums``).
     """
-    if len(left) > 1:
-        head, tail = (np.concatenate([table, table], axis=-1) for table in (head, tail))
-    products, lacking = (part[:, :, None] for part in two_product(left, right))
+    products, lacking = two_product(left, right)
     terms, rest = two_product(head, products)
-    first, second, bound = twofold_sums(terms, rest + head * lacking + tail * products)
-    sums = first + second
-    bounds = ((3 * bound + U * np.abs(sums)) * OUTWARD).sum(axis=0)
-    return sums[0] + 1j * sums[1] if len(sums) > 1 else sums[0], bounds * OUTWARD
+    rest += head * lacking
+    if tail.any():
+        rest += tail * products
+    first, second, bound = twofold_sums(terms, rest)
+    return first, second, 3 * bound
+
+
+@lru_cache(maxsize=32)
+def _in_order(places: frozenset[tuple[int, int]]) -> tuple[tuple[tuple[int, int], ...], NDArray[np.intp]]:
+    """Monomials in order, and as an array (2, t)."""
+    listed = tuple(sorted(places))
+    return listed, np.array(listed, dtype=np.intp).reshape(-1, 2).T
 
 
 def _places_of(forms: DoubleForms) -> NDArray[np.intp]:
     return np.stack([forms.first, forms.second])
-
-
-@lru_cache(maxsize=32)
-def _classes(first: bytes, second: bytes, kinds: bytes) -> tuple[NDArray[np.intp], ...]:
-    """Where classes of monomials begin, how many there are in each, and of which kinds, (c, 2)."""
-    i, j, sorts = (np.frombuffer(part, dtype=np.intp) for part in (first, second, kinds))
-    pairs = np.sort(np.stack([sorts[i], sorts[j]], axis=1), axis=1)
-    begins = np.concatenate([[0], 1 + np.flatnonzero((pairs[1:] != pairs[:-1]).any(axis=1))])
-    return begins, np.diff([*begins, len(pairs)]), pairs[begins]
-
-
-def _slices(high: Real, low: Real) -> Real:
-    """(l, ..): numbers of size 1 at most as sums of slices; |low| <= u |high|.
-
-    Adding sigma, and taking it off again, rounds to multiples of its last bit; what is left is exact.
-    """
-    slices = np.empty((LEVELS, *high.shape))
-    rest = high
-    for level in range(LEVELS):
-        sigma = 1.5 * 2.0 ** (52 - BITS * (level + 1))
-        slices[level] = (rest + sigma) - sigma
-        rest = rest - slices[level]
-        if level == 1:
-            rest = rest + low
-    return slices
 
 
 def _double(value: fmpz) -> float:

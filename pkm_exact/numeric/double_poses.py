@@ -24,8 +24,6 @@ from pkm_exact.roots.interval import Interval
 
 _FEW: Final = 10
 """Roundings in a row in products, quotients and roots here, and in sums of up to eight terms, at most."""
-STUDY_KINDS: Final = (0, 0, 0, 0, 1, 1, 1, 1, 0)
-"""The coordinates e and f are of sizes of their own."""
 NEAR: Final = 2.0**-NEAR_EXPONENT
 """Values that are as close to a grid point, in units, get the cells on both sides."""
 DOUBT: Final = 2.0**-42
@@ -133,7 +131,7 @@ def forms_at(forms: DoubleForms, slopes: Real, place: tuple[Real, Real, Real]) -
 def _motion_forms(metric: tuple[int, int, int]) -> tuple[DoubleForms, Real]:
     """C, R and N(e) as quadratic forms, and their second derivatives, (13, 8, 8)."""
     quadrics = motion_quadrics(metric)[4:]
-    return DoubleForms.of(quadrics, STUDY_KINDS), second_derivatives(quadrics)
+    return DoubleForms.of(quadrics), second_derivatives(quadrics)
 
 
 def second_derivatives(quadrics: Sequence[Quadric]) -> Real:
@@ -163,7 +161,7 @@ def double_cells(found: DoubleCoordinates, exponent: int) -> list[list[Interval 
     low = np.where(are_near, nearest - 1, np.floor(values))
     high = np.where(are_near, nearest, low) + 1
     numbers = [np.where(decided, ends, 0).astype(np.int64).ravel().tolist() for ends in (low, high)]
-    cells: list[Interval | None] = [Interval.on_grid(a, b, exponent) for a, b in zip(*numbers, strict=True)]
+    cells: list[Interval | None] = [*Interval.cells(numbers[0], numbers[1], exponent)]
     for place in np.flatnonzero(~decided).tolist():
         cells[place] = None
     width = values.shape[1]

@@ -28,7 +28,7 @@ from pkm_exact.geometry.study import Quadric, motion_quadrics
 from pkm_exact.numeric.double_forms import DoubleForms
 from pkm_exact.numeric.double_jacobians import decided
 from pkm_exact.numeric.double_krawczyk import DoubleSolution
-from pkm_exact.numeric.double_poses import STUDY_KINDS, forms_at, second_derivatives, study_points
+from pkm_exact.numeric.double_poses import forms_at, second_derivatives, study_points
 from pkm_exact.numeric.double_rounding import LARGE, OUTWARD, SMALL, U, gamma, two_product, two_sum, twofold_sums
 from pkm_exact.numeric.quaternions import quaternion_product
 from pkm_exact.numeric.study_system import Real
@@ -91,7 +91,7 @@ def _forms() -> tuple[DoubleForms, Real]:
     motion = motion_quadrics((1, 1, 1))
     crosses = [_crossed(axis) for axis in range(3)]
     quadrics = [motion[16], *motion[4:16], *(crosses[k][i] for i in range(3) for k in range(3))]
-    return DoubleForms.of(quadrics, STUDY_KINDS), second_derivatives(quadrics)
+    return DoubleForms.of(quadrics), second_derivatives(quadrics)
 
 
 def _values(place: tuple[Real, Real, Real]) -> Twofold:

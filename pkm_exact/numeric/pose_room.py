@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from itertools import chain
 from typing import Final
 
 import numpy as np
@@ -79,7 +80,8 @@ def _ends(poses: Sequence[Pose]) -> Real:
     if None in cells:
         ends = np.array([(float(interval.lo), float(interval.hi)) for interval in intervals])
     else:
-        numbers = np.array(cells, dtype=np.float64)
+        flat = np.fromiter(chain.from_iterable(filter(None, cells)), np.float64, 3 * len(cells))
+        numbers = flat.reshape(-1, 3)
         ends = np.ldexp(numbers[:, :2], -numbers[:, 2:].astype(np.intp))
     return ends.reshape(len(poses), -1, 2)
 

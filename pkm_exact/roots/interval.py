@@ -8,7 +8,7 @@ from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, Context, Decimal
 from fractions import Fraction
 from functools import lru_cache
 from math import inf, nextafter
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Final, TypeAlias
 
 DIGITS_OF_EXACT: Final = 15
 """Decimals shown of a number that is known exactly."""
@@ -48,6 +48,7 @@ class Interval:
 
     lo: Fraction
     hi: Fraction
+    _cell: ClassVar[Cell | None] = None
 
     def __post_init__(self) -> None:
         # As fractions compare, in a third of the time: answers have hundreds of intervals.
@@ -66,7 +67,23 @@ class Interval:
         True
         """
         found = object.__new__(cls)
-        found.__dict__["_cell"] = low, high, exponent
+        object.__setattr__(found, "_cell", (low, high, exponent))
+        return found
+
+    @classmethod
+    def cells(cls, lows: Sequence[int], highs: Sequence[int], exponent: int) -> list[Interval]:
+        """Many intervals on one grid.
+
+        Examples
+        --------
+        >>> [str(cell) for cell in Interval.cells([2, 4], [3, 6], 2)]
+        ['1', '1']
+        """
+        new, put, found = object.__new__, object.__setattr__, []
+        for low, high in zip(lows, highs, strict=True):
+            interval = new(cls)
+            put(interval, "_cell", (low, high, exponent))
+            found.append(interval)
         return found
 
     if not TYPE_CHECKING:  # else any name would pass for an attribute
@@ -82,7 +99,7 @@ class Interval:
     @property
     def cell(self) -> Cell | None:
         """What it was made of, if it is one on a grid."""
-        return self.__dict__.get("_cell")
+        return self._cell
 
     @property
     def width(self) -> Fraction:
