@@ -115,17 +115,16 @@ class DoubleForms:
         """
         rows = np.arange(len(points)) if chosen is None else chosen
         here: NDArray[Any] = points[rows]
-        if np.iscomplexobj(here) and not here.imag.any():
-            here = here.real.copy()
         are_wrong = ~are_moderate(here)
         here[are_wrong] = 0
         values: NDArray[Any] = np.empty((len(rows), self.head.shape[-2]), dtype=here.dtype)
         bounds = np.empty(values.shape)
-        owners = rows * len(self.several) // max(1, len(points))
-        for start in range(0, len(rows), BLOCK):
-            block = slice(start, start + BLOCK)
-            tables = [table[owners[block]] if self.several else table for table in (self.head, self.tail)]
-            values[block], bounds[block] = _values(tables[0], tables[1], *self._products(here[block]))
+        each = self.several or [self]
+        ends = np.searchsorted(rows * len(each), np.arange(1, len(each) + 1) * len(points)).tolist()
+        for forms, begin, end in zip(each, [0, *ends], ends, strict=False):
+            for start in range(begin, end, BLOCK):
+                block = slice(start, min(end, start + BLOCK))
+                values[block], bounds[block] = _values(forms.head, forms.tail, *self._products(here[block]))
         values[are_wrong] = np.nan
         return values, bounds
 
@@ -133,7 +132,7 @@ class DoubleForms:
         """(r, p, t) twice: real and imaginary parts of products of coordinates are those, or sums of two of those."""
         i, j, ones = self.first, self.second, np.ones((len(points), 1))
         a = np.concatenate([points.real, ones], axis=1)
-        if not np.iscomplexobj(points):
+        if not points.imag.any():
             return a[None, :, i], a[None, :, j]
         b = np.concatenate([points.imag, 0 * ones], axis=1)
         left = np.concatenate([[a[:, i], a[:, i]], [-b[:, i], b[:, i]]], axis=2)
