@@ -176,7 +176,11 @@ class DoubleForms:
         """
         x = np.concatenate([points, np.ones((len(points), 1))], axis=1)
         i, j, head, tail = self._own
-        return _twofold(head, tail, x[:, i], x[:, j])
+        found = np.empty((3, len(x), len(head)))
+        for start in range(0, len(x), BLOCK):
+            part = x[start : start + BLOCK]
+            found[:, start : start + BLOCK] = _twofold(head, tail, part[:, i], part[:, j])
+        return found[0], found[1], found[2]
 
 
 def _values(head: Real, tail: Real, left: Real, right: Real) -> tuple[Real | Complex, Real]:
