@@ -11,8 +11,8 @@ from hypothesis import settings
 
 
 def budget(examples: int) -> Callable[[Any], Any]:
-    """A property test of so many examples, and of ten times as many in ``make test-slow``."""
-    times = 10 if os.environ.get("PKM_EXACT_LONGER") else 1
+    """A property test of so many examples, and of five times as many in ``make test-slow``."""
+    times = 5 if os.environ.get("PKM_EXACT_LONGER") else 1
 
     def decorated(test: Any) -> Any:
         return pytest.mark.longer(settings(max_examples=times * examples)(test))
