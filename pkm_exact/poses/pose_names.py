@@ -82,13 +82,16 @@ def _direction(vector: Sequence[Interval]) -> str:
     if len(grids) > 1 or None in grids:
         ends = [(interval.lo, interval.hi) for interval in vector]
     sizes = [_size(low, high) for low, high in ends]
-    for axis, (low, _) in enumerate(ends):
-        if all(sizes[axis][0] > most for other, (_, most) in enumerate(sizes) if other != axis):
-            return _AXES[axis][0 if low > 0 else 1]
-    return _UNDECIDED
+    # An axis that is nearer than all others has the greatest of the least values.
+    least, axis = max((size[0], axis) for axis, size in enumerate(sizes))
+    others = [most for other, (_, most) in enumerate(sizes) if other != axis]
+    if others and least <= max(others):
+        return _UNDECIDED
+    return _AXES[axis][0 if ends[axis][0] > 0 else 1]
 
 
 def _size(low: Any, high: Any) -> tuple[Any, Any]:
     """Bounds of the absolute value."""
-    least, most = sorted((abs(low), abs(high)))
-    return (0 if low <= 0 <= high else least), most
+    if low > 0:
+        return low, high
+    return (-high, -low) if high < 0 else (0, max(-low, high))

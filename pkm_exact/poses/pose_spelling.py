@@ -20,9 +20,10 @@ def ends(interval: Interval) -> list[str]:
     >>> ends(Interval(Fraction(0), Fraction(1, 2)))
     ['0', '1/2']
     """
-    if interval.cell is None:
+    cell = interval.cell
+    if cell is None:
         return [str(interval.lo), str(interval.hi)]
-    low, high, exponent = interval.cell
+    low, high, exponent = cell
     return [_dyadic(low, exponent), _dyadic(high, exponent)]
 
 
