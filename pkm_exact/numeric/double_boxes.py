@@ -220,7 +220,7 @@ def _add_exact_values(
     chosen: NDArray[np.bool_],
     found: tuple[NDArray[Any], Real],
 ) -> None:
-    """Values of F, and how far they are off, where points are chosen: exact but for one rounding."""
+    """Values of F, and how far they are off, where points are chosen: to twice as many bits, but for one rounding."""
     rows = np.flatnonzero(chosen)
     if len(rows):
         for values, better in zip(found, equations.forms.at(points, rows), strict=True):
