@@ -23,7 +23,7 @@ SECONDS ?= 600
 SMOKE ?= $(addprefix tests/test_,cli.py kinds.py reader.py planar.py new.py selftest.py certificate_check.py pure_checker.py)
 SOURCES := pkm_exact tests $(wildcard benchmarks docs/hooks.py fuzz notebooks)
 
-.PHONY: poses test test-slow check-style mutations campaign checker-mutants golden bench docs fuzz wheel test-versions notebooks clean
+.PHONY: poses test test-slow test-largest check-style mutations campaign checker-mutants golden bench docs fuzz wheel test-versions notebooks clean
 
 # A claim weaker than complete (exit code 3) is an answer, not a failure.
 poses: $(VENV)/.installed
@@ -37,14 +37,17 @@ check-style: $(VENV)/.installed-test
 	@$(BIN)/mypy
 
 # Processes of tests must not compile the package each time, whatever the user has set.
-test test-slow: export PYTHONDONTWRITEBYTECODE =
+test test-slow test-largest: export PYTHONDONTWRITEBYTECODE =
 test-slow: export PKM_EXACT_LONGER = 1
 
 test: check-style
 	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile
 
 test-slow: $(VENV)/.installed-test
-	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m "slow or longer"
+	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m "(slow or longer) and not largest"
+
+test-largest: $(VENV)/.installed-test
+	@$(BIN)/python -m pytest -n $(JOBS) -m largest
 
 # Changes every number and word of certificates of every kind; MUTATIONS=--complete takes some minutes.
 mutations: $(VENV)/.installed-test

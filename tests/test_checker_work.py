@@ -37,6 +37,7 @@ def test_honest_certificates_need_half_of_the_work_allowed_at_most(path: Path) -
 
 
 @pytest.mark.slow
+@pytest.mark.largest
 def test_an_elimination_with_long_coefficients_needs_half_of_the_work_allowed() -> None:
     """It was refused: the last step, with coefficients of 10,000 bits, was taken over Q where a prime tells as much."""
     robot = robot_from_toml(model("spatial-237"))

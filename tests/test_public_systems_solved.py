@@ -46,8 +46,12 @@ MOST_FOR_THE_PLAIN_CHECKER = 100
 LONGEST_FOR_THE_PLAIN_CHECKER = 200_000
 """Bytes: d1, kin1 and rbpl24 have more, and take it half a minute; discret3s has 12 MB, and takes it five minutes."""
 
+LARGEST = ("discret3s", "filter9", "kin1", "stewgou40")
+
 FINITE = [
-    pytest.param(name, marks=() if name in QUICK else pytest.mark.slow)
+    pytest.param(
+        name, marks=() if name in QUICK else [pytest.mark.slow, *([pytest.mark.largest] if name in LARGEST else [])]
+    )
     for name, system in SYSTEMS.items()
     if system.degree is not None and name not in LONG
 ]
