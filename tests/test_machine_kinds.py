@@ -291,9 +291,14 @@ def _is_quick(word: tuple[str, str]) -> bool:
     return word[0] == "driven"
 
 
+def _marks(name: str, word: tuple[str, str]) -> list[pytest.MarkDecorator]:
+    is_largest = name == "R-TCS" and word == ("freedoms", "5")
+    return [] if _is_quick(word) else [pytest.mark.slow, *([pytest.mark.largest] if is_largest else [])]
+
+
 @pytest.mark.parametrize(
     ("name", "word"),
-    [pytest.param(*one, marks=[] if _is_quick(one[1]) else pytest.mark.slow) for one in VARIANTS if one[1][1] != "6"],
+    [pytest.param(*one, marks=_marks(*one)) for one in VARIANTS if one[1][1] != "6"],
 )
 def test_new_writes_kinds_with_other_joints(name: str, word: tuple[str, str], tmp_path: Path) -> None:
     """Those with six freedoms are solved by others: a joint on a cylinder makes 320 poses."""

@@ -60,8 +60,16 @@ def test_modes_have_as_many_poses_as_said(kind: str, freedoms: int, count: int) 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", ["CP-VS", "R-TCS"])
-@pytest.mark.parametrize(("freedoms", "count"), [(5, 96), pytest.param(6, 320, marks=pytest.mark.largest)])
+@pytest.mark.parametrize(
+    ("kind", "freedoms", "count"),
+    [
+        ("CP-VS", 5, 96),
+        *(
+            pytest.param(*row, marks=pytest.mark.largest)
+            for row in [("R-TCS", 5, 96), ("CP-VS", 6, 320), ("R-TCS", 6, 320)]
+        ),
+    ],
+)
 def test_joints_on_cylinders_have_more_poses(kind: str, freedoms: int, count: int) -> None:
     found = solution(kind, freedoms)
     assert (found.claim, found.complex_solutions) == (Claim.COMPLETE, count)

@@ -46,7 +46,7 @@ MOST_FOR_THE_PLAIN_CHECKER = 100
 LONGEST_FOR_THE_PLAIN_CHECKER = 200_000
 """Bytes: d1, kin1 and rbpl24 have more, and take it half a minute; discret3s has 12 MB, and takes it five minutes."""
 
-LARGEST = ("discret3s", "filter9", "kin1", "stewgou40")
+LARGEST = ("cyclic-7", "discret3s", "filter9", "katsura-9", "kin1", "stewgou40", "virasoro")
 
 FINITE = [
     pytest.param(
