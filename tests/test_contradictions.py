@@ -213,6 +213,8 @@ EXACT: dict[str, Fault] = {
     "all poses but one are lost modulo a prime": (P, "pkm_exact.poses.modular_start", "modular_poses", _at_five),
 }
 """What is wrong: a robot, the module and function, and the change of its result."""
+OF_ELIMINATIONS = ("the chart goes wrong after verification", "there are too many poses modulo a prime")
+"""Where a general robot needs no elimination, these steps are not taken."""
 
 
 def _wrong(patch: Patch, module: str, name: str, change: Callable[[Any], Any]) -> list[int]:
@@ -237,7 +239,7 @@ def test_a_wrong_step_of_the_exact_engine_gives_no_answer(fault: str, monkeypatc
     problem = shipped(robot)
     calls = _wrong(monkeypatch, module, name, change)
     with pytest.raises(PkmExactError):
-        solve(problem, policy=Policy(lifting_bits=1 << 15, eliminate=True))
+        solve(problem, policy=Policy(lifting_bits=1 << 15, eliminate=fault in OF_ELIMINATIONS))
     assert calls[0], "the step was not taken"
 
 
