@@ -18,7 +18,7 @@ from typing import Any
 
 from pkm_exact import Policy, read_robot, solve
 from pkm_exact.certify import check, pure
-from pkm_exact.one_thread import prefer_one_thread
+from pkm_exact.cli.main import prefer_one_thread
 
 ROOT = Path(__file__).parent.parent
 

@@ -13,7 +13,7 @@ from processor_time import ProcessorTime
 from slow_tests import MEASURED, is_listed
 
 from pkm_exact.certify import pure
-from pkm_exact.one_thread import prefer_one_thread
+from pkm_exact.cli.main import prefer_one_thread
 
 prefer_one_thread()  # before numpy is loaded, also in processes of tests: the cores have other tests to run
 settings.register_profile("suite", deadline=None, derandomize=True)

@@ -18,10 +18,22 @@ import click
 
 from pkm_exact.cli.program import COMPLETIONS, PROBLEM, PROGRAM, ROOTS, ExitCode
 from pkm_exact.errors import InputError, InternalError, PkmExactError
-from pkm_exact.one_thread import prefer_one_thread
 from pkm_exact.wording import printable
 
-__all__ = ["COMPLETIONS", "PROBLEM", "PROGRAM", "ROOTS", "ExitCode", "main", "roots_main"]
+__all__ = ["COMPLETIONS", "PROBLEM", "PROGRAM", "ROOTS", "ExitCode", "main", "prefer_one_thread", "roots_main"]
+
+THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+"""Variables that libraries of linear algebra obey when they are loaded."""
+
+
+def prefer_one_thread() -> None:
+    """Have linear algebra that is loaded later, here or in processes to be started, done in one thread.
+
+    Matrices here are small: several threads gain nothing, and on cores with other work to do they wait for each other
+    many times as long as the work takes. What the user has set stays as it is.
+    """
+    for name in THREADS:
+        os.environ.setdefault(name, "1")
 
 
 def roots_main(arguments: Sequence[str] | None = None) -> int:

@@ -6,7 +6,6 @@ rows are finished this one is tried once more alone, and then given up.
 
 from __future__ import annotations
 
-import os
 from collections import deque
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
@@ -16,7 +15,6 @@ from typing import Any, cast
 
 from pkm_exact.batch.row_solver import TOGETHER
 from pkm_exact.errors import PkmExactError
-from pkm_exact.one_thread import prefer_one_thread
 from pkm_exact.processes import end_with_parent, process_apart
 from pkm_exact.sweep.job import Answer, SweepJob
 from pkm_exact.sweep.lengths import LengthRow
@@ -115,8 +113,7 @@ class _Worker:
         self._stack = ExitStack()
         theirs, self._sender = get_context("spawn").Pipe(duplex=False)
         self._stack.callback(self._sender.close)
-        with _one_thread_each():
-            self.receiver, self._process = self._stack.enter_context(process_apart(_serve, theirs, job))
+        self.receiver, self._process = self._stack.enter_context(process_apart(_serve, theirs, job))
         theirs.close()
         self._is_ready = False
 
@@ -148,17 +145,6 @@ class _Worker:
     def close(self) -> None:
         """End the process."""
         self._stack.close()
-
-
-@contextmanager
-def _one_thread_each() -> Iterator[None]:
-    """Processes started here do linear algebra in one thread, unless the user says otherwise: the cores are taken."""
-    missing = prefer_one_thread()
-    try:
-        yield
-    finally:
-        for name in missing:
-            del os.environ[name]
 
 
 def _given_up(row: LengthRow, worker: _Worker) -> Answer:
