@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 from flint import fmpz_poly
@@ -32,6 +32,7 @@ from pkm_exact.motions.motion_groups import SPATIAL
 from pkm_exact.notes import inconsistent_note, isolated_note, motion_note, open_question, singular_notes, turn_notes
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH, RootEnclosures, exponent_for_width, order_of, pose_boxes
+from pkm_exact.poses.expected_size import expected_bits
 from pkm_exact.poses.jacobian import pose_jacobians
 from pkm_exact.poses.modular import Form, common_charts, common_forms
 from pkm_exact.poses.modular_start import Start
@@ -85,14 +86,14 @@ def solve_row(
     as it is not over Q: then another representation of the same poses is proved. Statistics differ.
     """
     policy = policy or Policy()
-    if shared is None or shared.may_go_directly:
+    if not policy.eliminate and (shared is None or shared.may_go_directly):
         found = solve_without_elimination(problem, width=width, policy=policy, shared=shared)
         if shared is not None:
             shared.misses += 1 if found is None else -1
         if found is not None:
             return found
-        policy = replace(policy, eliminate=True)  # once is enough
-    run = _Run(problem, formulation_codes()[0], policy, Stages(None), shared)
+    # It has been tried without, or is not worth the while.
+    run = _Run(problem, formulation_codes()[0], replace(policy, eliminate=True), Stages(None), shared)
     with attached(problem, run.stages, method="exact", formulation=run.code, width=width, policy=run.policy):
         return consistent(run.solution(width))
 
@@ -145,7 +146,11 @@ def _proposal(
 
 
 def _proposed_poses(
-    problem: ForwardProblem, policy: Policy, shared: SharedRows | None, points: Complex | None
+    problem: ForwardProblem,
+    policy: Policy,
+    shared: SharedRows | None,
+    points: Complex | None,
+    watch: Callable[[int], None],
 ) -> PoseRepresentation | None:
     """The poses proposed in the chart and form that the elimination would take; None if these may be others."""
     if points is None:
@@ -159,7 +164,8 @@ def _proposed_poses(
         return [form for form in common_forms(chart, policy.seed) if any(form[k] for k in free)]
 
     denominators = None if shared is None else shared.denominators
-    found = first_representation(problem, common_charts(policy.seed), forms, policy.lifting_bits, denominators, points)
+    charts = common_charts(policy.seed)
+    found = first_representation(problem, charts, forms, policy.lifting_bits, watch, denominators, points)
     if found is None:
         return None
     poses = pose_representation(found.chart, problem, found.univariate)
@@ -230,8 +236,8 @@ class _Run:
 
     def _may_need_no_elimination(self) -> bool:
         """Whether doubles seem to lead to as many poses as there can be."""
-        is_asked_for = self.policy.eliminate or self.policy.lifting != "numeric" or self.code != formulation_codes()[0]
-        if is_asked_for or self.problem.motion != SPATIAL:
+        has_basis = self.policy.eliminate or self.policy.lifting != "numeric" or self.code != formulation_codes()[0]
+        if has_basis or self.problem.motion != SPATIAL:
             return False
         self.stages.enter("numeric lifting")
         return self.points is not None and len(self.points) == self.problem.solution_bound
@@ -239,7 +245,8 @@ class _Run:
     def _by_number(self, width: Fraction) -> Solution | None:
         """The answer, where the poses that doubles lead to are proved to be all by their number or a short proof."""
         self.stages.enter("numeric lifting")
-        representation = _proposed_poses(self.problem, self.policy, self.shared, self.points)
+        watch = partial(self.search.tell, expected_bits(self.problem, self.problem.solution_bound))
+        representation = _proposed_poses(self.problem, self.policy, self.shared, self.points, watch)
         if representation is None:
             return None
         self.stages.enter("verification")

@@ -72,9 +72,12 @@ def _grows(amounts: list[Amount]) -> bool:
 
 
 def test_the_exact_engine_tells_pairs_and_bits() -> None:
-    by_elimination = partial(solve, policy=Policy(eliminate=True))
-    found = _recorded(by_elimination, _problem("rolland-6-6")).amounts
+    problem, by_elimination = _problem("rolland-6-6"), partial(solve, policy=Policy(eliminate=True))
+    found = _recorded(by_elimination, problem).amounts
     pairs, bits = found["Groebner basis"], found["numeric lifting"]
+    without = _recorded(solve, problem).amounts
+    assert "Groebner basis" not in without
+    assert without["numeric lifting"] == bits
     assert len(pairs) > 2
     assert all(
         amount.bound == "at least" and amount.total is not None and amount.done < amount.total for amount in pairs

@@ -165,6 +165,21 @@ def test_a_solve_has_no_elimination_then_unless_it_is_asked_for() -> None:
     assert bytes_of[0] == bytes_of[1]
 
 
+def test_rows_have_an_elimination_if_it_is_asked_for() -> None:
+    problem = shipped("carriage-hexapod")
+    assert not solve_row(problem).statistics.primes
+    assert solve_row(problem, policy=Policy(eliminate=True)).statistics.primes
+
+
+def test_rows_that_need_an_elimination_are_tried_without_one_no_more(monkeypatch: Patch) -> None:
+    tried: list[object] = []
+    monkeypatch.setattr(engine, "_proposed_poses", lambda *given: tried.append(given))
+    shared = SharedRows()
+    for _ in range(3):
+        assert solve_row(shipped("carriage-hexapod"), shared=shared).statistics.primes
+    assert len(tried) == 2
+
+
 def test_another_formulation_has_its_basis() -> None:
     assert solve(shipped("carriage-hexapod"), formulation="AFP3").statistics.primes
 

@@ -109,6 +109,7 @@ def first_representation(
     charts: Sequence[Chart],
     forms: Callable[[Chart], Sequence[Form]],
     limit_bits: int,
+    watch: Callable[[int], None] | None = None,
     shared: PoseDenominators | None = None,
     points: Complex | None = None,
 ) -> FirstRepresentation | None:
@@ -122,6 +123,8 @@ def first_representation(
     forms : callable
         Those to be tried in a chart.
     limit_bits : int
+    watch : callable, optional
+        Gets the bits that are reached.
     shared : PoseDenominators, optional
     points : (p, 8) complex array, optional
         ``approximate_solutions``, if they are known.
@@ -150,7 +153,7 @@ def first_representation(
         if found is None:
             return None
         if found:
-            lifted = _represented(problem, points, form, solutions, limit_bits, None, shared)
+            lifted = _represented(problem, points, form, solutions, limit_bits, watch, shared)
             return None if lifted is None else FirstRepresentation(chart, lifted, charts[:number], tried[:place])
     return None
 

@@ -165,7 +165,7 @@ class PoseSearch:
             return None
         accept = self._acceptance(chosen, "numeric lifting")
         expected = expected_bits(self.problem, chosen.modular.degree)
-        found = self.proposal(self.problem, chosen, self.policy.lifting_bits, partial(self._tell, expected))
+        found = self.proposal(self.problem, chosen, self.policy.lifting_bits, partial(self.tell, expected))
         if found is None or not parts[1].is_image_of(found) or not accept(found):
             return None
         return pose_representation(chosen.chart, self.problem, found)
@@ -179,7 +179,7 @@ class PoseSearch:
 
         def watch(bits: int) -> None:
             nonlocal doubtful
-            self._tell(expected, bits)
+            self.tell(expected, bits)
             if bits > doubtful:
                 doubtful *= 2
                 self._require_agreement(start, chosen)
@@ -187,7 +187,8 @@ class PoseSearch:
 
         return watch
 
-    def _tell(self, expected: int, bits: int) -> None:
+    def tell(self, expected: int, bits: int) -> None:
+        """Say how many bits are reached, of about so many."""
         self.stages.amount(Amount(bits, expected if bits < expected else None, "bits", "about"))
 
     def _require_agreement(self, start: Start, chosen: Parameters) -> None:
