@@ -38,7 +38,8 @@ check-style: $(VENV)/.installed-test
 
 # Processes of tests must not compile the package each time, whatever the user has set.
 test test-slow test-largest: export PYTHONDONTWRITEBYTECODE =
-test-slow: export PKM_EXACT_LONGER = 1
+test-slow: export PKM_EXACT_LONGER = 5
+test-largest: export PKM_EXACT_LONGER = 10
 
 test: check-style
 	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile
@@ -47,7 +48,7 @@ test-slow: $(VENV)/.installed-test
 	@$(BIN)/python -m pytest -n $(JOBS) --dist loadfile -m "(slow or longer) and not largest"
 
 test-largest: $(VENV)/.installed-test
-	@$(BIN)/python -m pytest -n $(JOBS) -m largest
+	@$(BIN)/python -m pytest -n $(JOBS) -m "largest or longer"
 
 # Changes every number and word of certificates of every kind; MUTATIONS=--complete takes some minutes.
 mutations: $(VENV)/.installed-test

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import settings
 
 
-def budget(examples: int, times: int = 5) -> Callable[[Any], Any]:
-    """A property test of so many examples, and of some times as many in ``make test-slow``."""
-    times = times if os.environ.get("PKM_EXACT_LONGER") else 1
+def budget(examples: int) -> Callable[[Any], Any]:
+    """A property test of so many examples; ``make test-slow`` has five times as many, ``make test-largest`` ten."""
+    times = int(os.environ.get("PKM_EXACT_LONGER", "1"))
 
     def decorated(test: Any) -> Any:
         return pytest.mark.longer(settings(max_examples=times * examples)(test))

@@ -220,7 +220,7 @@ def test_weaker_claims_are_answers_with_exit_code_3(tmp_path: Path, collinear_mo
 
 @pytest.mark.slow
 def test_rows_together_take_much_less_time_than_solves_alone(tmp_path: Path) -> None:
-    """Half of it, measured; both are certified, and written. Processor time, in turns."""
+    """0.64 of it in one run; both are certified, and written. Processor time, in turns."""
     robot, random = read_robot(SPATIAL), Random(6)
     lines = [",".join(f"{1250 + random.randint(-40, 40) / 10}" for _ in range(6)) for _ in range(64)]
     lengths = read_lengths(written(tmp_path / "lengths.csv", lines), robot)

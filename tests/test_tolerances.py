@@ -105,7 +105,8 @@ def test_robots_within_tolerance_have_their_poses_in_the_boxes(name: str, tolera
     require_samples_inside(result, solution, 100, 3)
 
 
-@budget(5, times=2)
+@pytest.mark.largest
+@budget(5)
 @given(st.integers(0, 10**6), st.sampled_from([(1, 1, 1), (1, 3, 1)]), st.integers(3, 7))
 def test_random_robots(seed: int, metric: tuple[int, int, int], digits: int) -> None:
     random = Random(seed)
