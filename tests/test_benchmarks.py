@@ -68,6 +68,7 @@ def test_programs_side_by_side(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.largest
 def test_growth(tmp_path: Path) -> None:
     words = ["--runs", "1", "--limit", "30", "--digits", "2", "4", "--batches", "1", "3"]
     done = _run("bench.py", "--output", str(tmp_path), *words, "--parts", "digits", "batches", limit=500)

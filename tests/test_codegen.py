@@ -94,7 +94,7 @@ def test_the_code_says_what_python_says(name: str, tmp_path: Path) -> None:
     [
         ("3-rpr-merlet-p", 40),
         ("rolland-6-6", 10),
-        pytest.param("3-rpr-merlet-p", 10_000, marks=pytest.mark.slow),
+        pytest.param("3-rpr-merlet-p", 10_000, marks=[pytest.mark.slow, pytest.mark.largest]),
         pytest.param("rolland-6-6", 1_000, marks=pytest.mark.slow),
     ],
 )

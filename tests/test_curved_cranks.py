@@ -135,6 +135,7 @@ def test_forward_kinematics_contains_the_pose_in_all_modes(which: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.largest
 def test_forward_kinematics_with_six_legs_contains_the_pose() -> None:
     position = vector(0, 0, 150)
     plain = robot("R-TCS", 6)

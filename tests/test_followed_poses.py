@@ -133,7 +133,7 @@ def test_a_hexapod_is_followed_farther_than_boxes_reach() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("pose", [1, 2])
+@pytest.mark.parametrize("pose", [1, pytest.param(2, marks=pytest.mark.largest)])
 def test_what_is_followed_for_some_tolerances_is_followed_for_less(pose: int) -> None:
     """The limit is the same point of the grid, from wherever it is looked for; anything below it is followed whole."""
     solution = solved(NAME)

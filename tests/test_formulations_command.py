@@ -201,7 +201,9 @@ def test_system_figures_are_of_the_printed_polynomials() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("model", "real"), [("rolland-6-6", 16), ("dietmaier", 40)])
+@pytest.mark.parametrize(
+    ("model", "real"), [("rolland-6-6", 16), pytest.param("dietmaier", 40, marks=pytest.mark.largest)]
+)
 def test_all_formulations_on_the_published_robots(model: str, real: int, tmp_path: Path) -> None:
     rows = rows_of(["formulations", str(MODELS / f"{model}.toml")], tmp_path / "rows.json")
     assert tuple(rows) == formulation_codes()

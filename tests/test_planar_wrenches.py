@@ -103,8 +103,13 @@ def test_bounds_are_on_both_sides_and_close() -> None:
         wrench_indices(Intervals.exactly(np.zeros((2, 3, 1))))
 
 
+LARGEST = ("RRR in-branch", "RPR in-branch")
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("layout", TABLE)
+@pytest.mark.parametrize(
+    "layout", [pytest.param(name, marks=[pytest.mark.largest] if name in LARGEST else []) for name in TABLE]
+)
 def test_table_4(layout: str) -> None:
     """On the whole grid of 1 mm: 94 of 96 numbers as printed, two with another digit."""
     x, y = workspace(layout)

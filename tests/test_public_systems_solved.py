@@ -46,7 +46,20 @@ MOST_FOR_THE_PLAIN_CHECKER = 100
 LONGEST_FOR_THE_PLAIN_CHECKER = 500_000
 """Bytes: discret3s has 12 MB, and takes it five minutes."""
 
-LARGEST = ("cyclic-7", "d1", "discret3s", "filter9", "katsura-9", "kin1", "rbpl24", "stewgou40", "virasoro")
+LARGEST = (
+    "assur44",
+    "cyclic-7",
+    "d1",
+    "discret3s",
+    "dz1",
+    "filter9",
+    "katsura-9",
+    "kin1",
+    "rabmo",
+    "rbpl24",
+    "stewgou40",
+    "virasoro",
+)
 
 FINITE = [
     pytest.param(
