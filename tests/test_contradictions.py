@@ -25,6 +25,7 @@ from pkm_exact.errors import InternalContradictionError, InternalError, PkmExact
 from pkm_exact.failures.contradiction import require
 from pkm_exact.failures.failure_report import internal_error, reported
 from pkm_exact.final_checks import consistent
+from pkm_exact.numeric.double_boxes import DoubleBoxes
 from pkm_exact.numeric.fallback import solve_within
 from pkm_exact.poses.isolated_solutions import IsolatedSolutions
 from pkm_exact.poses.pose import Interval, Pose
@@ -309,7 +310,7 @@ def test_wrong_boxes_that_are_believed_give_no_answer(is_real: bool, in_doubles:
     if in_doubles:
         monkeypatch.setattr(doubles, "box_at", aside)
     else:
-        monkeypatch.setattr(certification, "_in_doubles", lambda _, points, __: ([None] * len(points), points))
+        monkeypatch.setattr(certification, "_in_doubles", lambda _, points, __: DoubleBoxes.none(points))
         monkeypatch.setattr(certification, "nearest_box", aside)
     monkeypatch.setattr(certification, "certified", lambda _, boxes: [True] * len(boxes))
     with pytest.raises(InternalContradictionError):

@@ -22,7 +22,7 @@ from test_numeric_krawczyk import random_robot
 
 from pkm_exact.numeric import certification, double_boxes
 from pkm_exact.numeric.certified_boxes import certified
-from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX
+from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX, DoubleBoxes
 from pkm_exact.numeric.double_forms import DoubleForms
 from pkm_exact.numeric.double_jacobians import _extremes
 from pkm_exact.numeric.double_krawczyk import DoubleEquations, Proofs, double_proofs
@@ -47,7 +47,7 @@ SEEDS = [2, *(pytest.param(n, marks=pytest.mark.slow) for n in (1039, *range(3, 
 
 def _no_doubles(monkeypatch: Patch) -> None:
     """All boxes by ball arithmetic, on the first grids that are tried there."""
-    monkeypatch.setattr(certification, "_in_doubles", lambda _, points, __: ([None] * len(points), points))
+    monkeypatch.setattr(certification, "_in_doubles", lambda _, points, __: DoubleBoxes.none(points))
     monkeypatch.setattr(certification, "_first_grid", lambda *_: certification.GRIDS[0])
 
 

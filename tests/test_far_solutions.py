@@ -16,6 +16,7 @@ from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.numeric import certification, far_solutions
 from pkm_exact.numeric.certified_boxes import centre, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
+from pkm_exact.numeric.double_boxes import DoubleBoxes
 from pkm_exact.numeric.far_solutions import TRIED
 from pkm_exact.numeric.grids import GRIDS, first_grid
 from pkm_exact.numeric.poses import approximations, certified_solutions, real_poses
@@ -36,7 +37,7 @@ def _problem(number: int) -> ForwardProblem:
 def _by_balls(problem: ForwardProblem, monkeypatch: Patch) -> Any:
     """Every grid is tried, from the first one on."""
     with monkeypatch.context() as changed:
-        changed.setattr(certification, "_in_doubles", lambda _, points, __: ([None] * len(points), points))
+        changed.setattr(certification, "_in_doubles", lambda _, points, __: DoubleBoxes.none(points))
         changed.setattr(certification, "_first_grid", lambda *_: GRIDS[0])
         return certified_solutions(problem, seeds(problem))[1]
 
@@ -93,7 +94,7 @@ def test_points_that_are_no_solutions_prove_nothing() -> None:
 
 
 BOUNDS = [
-    *(("CLOSE", 2.0**20), ("STEPS", 1), ("LARGEST", 1.0), ("ASTRAY", 0.0), ("NEAR", 0.0), ("SURE", 0.2)),
+    *(("CLOSE", 2.0**20), ("STEPS", 1), ("LARGEST", 1.0), ("ASTRAY", 0.0), ("NEARBY", 0.0), ("SURE", 0.2)),
     *(("TRIED", (44,)), ("SLACK", 3.0), ("BITS", 200)),
 ]
 
@@ -151,7 +152,7 @@ def test_real_solutions_close_to_each_other_are_proved_too(monkeypatch: Patch) -
     assert len(near) == 2
     poses = real_poses(system, isolated, DEFAULT_WIDTH)
     with monkeypatch.context() as changed:
-        changed.setattr(certification, "_in_doubles", lambda _, points, __: ([None] * len(points), points))
+        changed.setattr(certification, "_in_doubles", lambda _, points, __: DoubleBoxes.none(points))
         system, again = certified_solutions(problem, found)
     assert (again, real_poses(system, again, DEFAULT_WIDTH)) == (isolated, poses)
 

@@ -26,6 +26,7 @@ from pkm_exact.numeric import poses as numeric_poses
 from pkm_exact.numeric.certification import GRIDS, isolated_solutions, nearest_box, refined
 from pkm_exact.numeric.certified_boxes import centre, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
+from pkm_exact.numeric.double_boxes import DoubleBoxes
 from pkm_exact.numeric.poses import Approximations, approximations, box_enclosures, certified_solutions
 from pkm_exact.numeric_engine import solve_krawczyk
 from pkm_exact.poses.isolated_solutions import RADIUS, Box, IsolatedSolutions
@@ -243,7 +244,7 @@ def test_boxes_are_narrowed_to_the_same_poses_with_and_without_newton(
 ) -> None:
     """Not at all, around balls too small to hold the solution, and around larger ones than usual."""
     expected = solve_krawczyk(shipped("rolland-6-6")).poses
-    monkeypatch.setattr(certification, "_in_doubles", lambda _, points, _known: ([None] * len(points), points))
+    monkeypatch.setattr(certification, "_in_doubles", lambda _, points, _known: DoubleBoxes.none(points))
     near_limit, found = numeric_poses._near_limit, []
 
     def noted(*arguments: Any) -> Any:

@@ -9,7 +9,7 @@ holds no real solution, and the conjugate box holds another one. What is neither
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 
 import numpy as np
@@ -19,7 +19,7 @@ from pkm_exact.balls import Balls, unit_matrix_for
 from pkm_exact.numeric.box_order import in_order, meeting
 from pkm_exact.numeric.certified_boxes import GUARD_BITS, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
-from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX, DoubleBoxes, double_boxes
+from pkm_exact.numeric.double_boxes import CLEARLY_COMPLEX, DoubleBoxes, Limit, double_boxes
 from pkm_exact.numeric.far_solutions import far_solutions
 from pkm_exact.numeric.grids import GRIDS, dyadic, first_grid, grid_exponents, nearest_box, size_exponent
 from pkm_exact.numeric.study_system import Complex
@@ -58,10 +58,12 @@ def isolated_solutions(
     known : DoubleBoxes, optional
         Of these points, none of which is the conjugate of another one; far ones included (``add_far_solutions``).
     """
-    boxes, points = _in_doubles(system, points if known else without_conjugates(points), known)
+    known = _in_doubles(system, points if known else without_conjugates(points), known)
+    boxes, points = known.boxes, known.points
     found: dict[Box, acb_mat | Complex] = {box: point for box, point in zip(boxes, points, strict=True) if box}
-    rest = points[[box is None for box in boxes]]
-    left = [_start(system, point) for point in without_conjugates(rest)] if len(rest) else []
+    rest = [place for place, box in enumerate(boxes) if box is None]
+    rest = [rest[k] for k in _first_of_pairs(points[rest])] if rest else rest
+    left = [_start(system, points[place], known.limits[place]) for place in rest]
     for exponent in GRIDS:
         now = [start for start in left if start.exponent <= exponent]
         left = [start for start in left if start.exponent > exponent]
@@ -88,16 +90,16 @@ def isolated_solutions(
     )
 
 
-def _in_doubles(system: ChartSystem, points: Complex, known: DoubleBoxes | None) -> tuple[list[Box | None], Complex]:
-    """The box of each point that doubles suffice to prove; None where they do not; the points, more exactly."""
+def _in_doubles(system: ChartSystem, points: Complex, known: DoubleBoxes | None) -> DoubleBoxes:
+    """What doubles suffice to prove of the points, but for boxes that do not tell whether a solution is real."""
     if system.in_doubles is None:
-        return [None] * len(points), points
+        return DoubleBoxes.none(points)
     found = double_boxes(system.in_doubles, points, GRIDS[0]) if known is None else known
     if known is None:
         add_far_solutions([system], [found])
     pairs = zip(found.boxes, found.solutions, strict=True)
     system.double_solutions.update({box: solution for box, solution in pairs if box and solution})
-    return [box if box is not None and _is_decided(box) else None for box in found.boxes], found.points
+    return replace(found, boxes=[box if box is not None and _is_decided(box) else None for box in found.boxes])
 
 
 def add_far_solutions(systems: Sequence[ChartSystem], found: Sequence[DoubleBoxes]) -> None:
@@ -106,8 +108,8 @@ def add_far_solutions(systems: Sequence[ChartSystem], found: Sequence[DoubleBoxe
     if any(rest):
         points = [boxes.points[places] for boxes, places in zip(found, rest, strict=True)]
         for boxes, places, far in zip(found, rest, far_solutions(systems, points), strict=True):
-            for place, box, solution in zip(places, far.boxes, far.solutions, strict=True):
-                boxes.boxes[place], boxes.solutions[place] = box, solution
+            for place, box, solution, limit in zip(places, far.boxes, far.solutions, far.limits, strict=True):
+                boxes.boxes[place], boxes.solutions[place], boxes.limits[place] = box, solution, limit
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,9 +130,11 @@ class _Start:
     exponent: int = 0
 
 
-def _start(system: ChartSystem, point: Complex) -> _Start:
+def _start(system: ChartSystem, point: Complex, known: Limit | None = None) -> _Start:
     """An approximation, refined at once as far as is mostly needed: grids that are too coarse are not tried then."""
-    column = _column(point)
+    column = _column(point) if known is None else _exactly(known)
+    if known is not None and known.known:
+        return _Start(column, known.known, known.exponent)
     limit = refined(system, column, FIRST_REFINED)
     if limit is None or not limit[1]:
         return _Start(column)
@@ -172,6 +176,12 @@ def _limit(system: ChartSystem, start: _Start, exponent: int) -> _Start | None:
 
 def without_conjugates(points: Complex) -> Complex:
     """The points without those that are clearly complex and the conjugate of an earlier one: a box stands for both."""
+    rest: Complex = points[_first_of_pairs(points)]
+    return rest
+
+
+def _first_of_pairs(points: Complex) -> list[int]:
+    """The places of these points."""
     sizes = np.abs(points).max(axis=1, initial=0)
     complex_ones = np.flatnonzero(np.abs(points.imag).max(axis=1, initial=0) > CLEARLY_COMPLEX * sizes)
     first = points[complex_ones, 0]
@@ -179,8 +189,8 @@ def without_conjugates(points: Complex) -> Complex:
     i, j = np.nonzero(np.abs(first[:, None] - first[None].conj()) <= SAME * sizes[complex_ones])
     i, j = complex_ones[i[i < j]], complex_ones[j[i < j]]
     paired = np.abs(points[i] - points[j].conj()).max(axis=1, initial=0) <= SAME * sizes[j]
-    rest: Complex = np.delete(points, j[paired], axis=0)
-    return rest
+    second = set(j[paired].tolist())
+    return [place for place in range(len(points)) if place not in second]
 
 
 def _is_decided(box: Box) -> bool:
@@ -192,6 +202,11 @@ def _column(point: Complex | acb_mat) -> acb_mat:
     if isinstance(point, acb_mat):
         return point
     return acb_mat(len(point), 1, [acb(float(value.real), float(value.imag)) for value in point])
+
+
+def _exactly(known: Limit) -> acb_mat:
+    values = [acb(arb((real, -known.bits)), arb((imaginary, -known.bits))) for real, imaginary in known.point]
+    return acb_mat(len(values), 1, values)
 
 
 def refined(system: ChartSystem, point: Balls, exponent: int) -> tuple[Balls, bool] | None:

@@ -55,6 +55,27 @@ GREATEST: Final = 2.0**52
 
 
 @dataclass(frozen=True, eq=False)
+class Limit:
+    """Where Newton's method leads to with more bits than doubles have.
+
+    Attributes
+    ----------
+    point : sequence of n pairs of int
+        Real and imaginary parts, in units of 2^-bits.
+    bits : int
+    known : int
+        It is known far better than this grid tells; 0 if nothing is known.
+    exponent : int
+        Of the first grid on which a proof is not hopeless, if anything is known.
+    """
+
+    point: Sequence[tuple[int, int]]
+    bits: int
+    known: int
+    exponent: int
+
+
+@dataclass(frozen=True, eq=False)
 class DoubleBoxes:
     """What doubles prove of approximate solutions.
 
@@ -66,22 +87,28 @@ class DoubleBoxes:
         Where Newton's method led to from there; the point itself where that is too far off.
     solutions : list of DoubleSolution or None
         Of the real boxes.
+    limits : list of Limit or None
+        Where points led to for which there is no box.
     """
 
     boxes: list[Box | None]
     points: Complex
     solutions: list[DoubleSolution | None]
+    limits: list[Limit | None]
 
     @classmethod
     def none(cls, points: Complex) -> DoubleBoxes:
         """Nothing is proved yet."""
-        return cls([None] * len(points), points, [None] * len(points))
+        return cls([None] * len(points), points, [None] * len(points), [None] * len(points))
 
     def parts(self, counts: Sequence[int]) -> list[DoubleBoxes]:
         """Parts of one size, of each the first so many points."""
         size = len(self.boxes) // len(counts)
         places = [slice(size * k, size * k + count) for k, count in enumerate(counts)]
-        return [DoubleBoxes(self.boxes[place], self.points[place], self.solutions[place]) for place in places]
+        return [
+            DoubleBoxes(self.boxes[place], self.points[place], self.solutions[place], self.limits[place])
+            for place in places
+        ]
 
 
 def double_boxes(equations: DoubleEquations, points: Complex, exponent: int) -> DoubleBoxes:

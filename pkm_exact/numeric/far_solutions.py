@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_boxes import (
     ASTRAY,
-    NEAR,
     SURE,
     DoubleBoxes,
+    Limit,
     box_at,
     grids_of,
     inverses_at,
@@ -44,6 +44,12 @@ CLOSE: Final = 2.0**-10
 """Points of which steps are this small, in units of the finest grid, are not moved any more."""
 LARGEST: Final = 2.0**200
 """Coordinates are smaller."""
+NEARBY: Final = 2.0**-16
+"""An approximation that is farther off, relative to the sizes of e and f, is not one of the solution found."""
+MOVED: Final = 2.0**-30
+"""After steps that are this large, relative to the sizes of e and f, Jacobians are inverted again."""
+SETTLED: Final = 2.0**-30
+"""Limits are known so well, in units of a grid, where it is certain which of its points is nearest."""
 Integers: TypeAlias = list[list[tuple[int, int]]]
 """For each point its coordinates, real and imaginary parts."""
 
@@ -117,6 +123,12 @@ class _Limits:
     values: NDArray[Any]
     off: Real
 
+    @property
+    def rest(self) -> Real:
+        """(p, n): how far they are from solutions, roughly."""
+        sizes: Real = np.abs(self.values) + self.off
+        return products(np.abs(self.inverses), sizes)
+
 
 def far_solutions(systems: Sequence[ChartSystem], points: Sequence[Complex]) -> list[DoubleBoxes]:
     """The boxes of the solutions near the given points; None where it is not as usual.
@@ -147,13 +159,33 @@ def far_solutions(systems: Sequence[ChartSystem], points: Sequence[Complex]) -> 
         widths, units, usual = _widths(equations, limits, are_real)
         left &= usual & (widths.max(axis=1) > WIDEST) & are_new
         grids = np.where(left, _grids(limits.near, units, widths), 0)
+        known = _handed_on(limits, begun, np.ldexp(units, GRIDS[0] - max(TRIED)), grids, left)
+        boxes: list[Box | None] = [None] * len(begun)
+        solutions: list[DoubleSolution | None] = [None] * len(begun)
         if grids.any():
             boxes, solutions = _boxes(equations, limits, begun, grids)
-            for number, (row, at) in enumerate(zip(chosen, rows, strict=True)):
-                for place, k in zip(at, range(most * number, most * (number + 1)), strict=True):
-                    if are_new[k]:
-                        found[row].boxes[place], found[row].solutions[place] = boxes[k], solutions[k]
+    for number, (row, at) in enumerate(zip(chosen, rows, strict=True)):
+        for place, k in zip(at, range(most * number, most * (number + 1)), strict=True):
+            if are_new[k]:
+                found[row].boxes[place], found[row].solutions[place] = boxes[k], solutions[k]
+                found[row].limits[place] = known[k] if boxes[k] is None else None
     return found
+
+
+def _handed_on(
+    limits: _Limits, begun: NDArray[Any], units: Real, grids: NDArray[np.intp], left: NDArray[np.bool_]
+) -> list[Limit | None]:
+    """What is known of solutions even if no box is proved here, from the units of the finest grid; None of no use."""
+    finest = max(TRIED)
+    is_near = left & (np.abs(limits.near - begun) <= NEARBY * np.ldexp(units, finest)).all(axis=1)
+    rest = (limits.rest / units).max(axis=1)
+    known = np.zeros(len(begun), dtype=np.intp)
+    for grid in TRIED:
+        known[rest < np.ldexp(SETTLED, finest - grid)] = grid
+    beyond = next(grid for grid in GRIDS if grid > finest)
+    first = np.where(grids > 0, grids, beyond)
+    rows = zip(limits.points, known.tolist(), first.tolist(), is_near.tolist(), strict=True)
+    return [Limit(point, BITS, grid, exponent) if near else None for point, grid, exponent, near in rows]
 
 
 def _fit(points: Complex) -> NDArray[np.intp]:
@@ -186,6 +218,8 @@ def _limits(
             ]
             values, off = mixed.values_beside(near, -steps, (values, off))
             near = _rounded(points, BITS, begun)
+            if (sizes > MOVED * np.ldexp(units, max(TRIED)))[np.isfinite(sizes)].any():
+                inverses = inverses_at(mixed, near, are_real)
         chosen = are_new & np.isfinite(values).all(axis=1)
         chosen &= ~(products(np.abs(inverses), off) < CLOSE * units).all(axis=1)
         if not chosen.any():
@@ -271,7 +305,7 @@ def _boxes(
     proofs = double_proofs(mixed, inverses, middle, RADIUS * units, ROOM, place, wider)
     distance = np.maximum(np.abs(proofs.moved.real), np.abs(proofs.moved.imag)) + proofs.errors
     decided &= proofs.proved & (distance < SURE * units).all(axis=1) & (grids[rows] > 0)
-    decided &= (np.abs(begun[rows] - middle) <= NEAR * np.ldexp(units, grid[:, None])).all(axis=1)
+    decided &= (np.abs(begun[rows] - middle) <= NEARBY * np.ldexp(units, grid[:, None])).all(axis=1)
     decided &= are_real | middle.imag.any(axis=1)
     for row in np.flatnonzero(decided).tolist():
         box = boxes[rows[row]] = box_at(exponents[row].tolist(), centres[row], mixed.support)
