@@ -40,6 +40,8 @@ TRIED: Final = (44, 72)
 """Grids that are tried here."""
 STEPS: Final = 5
 """Newton steps at most."""
+SHORTER: Final = 2.0**-6
+"""Steps that are not shorter by this factor than those before are not followed: doubles do not invert the Jacobian."""
 CLOSE: Final = 2.0**-10
 """Points of which steps are this small, in units of the finest grid, are not moved any more."""
 LARGEST: Final = 2.0**200
@@ -203,13 +205,22 @@ def _limits(
     """
     source, mixed = np.maximum.accumulate(np.where(are_new, np.arange(len(begun)), 0)), equations.mixed
     inverses, units = inverses_at(mixed, begun, are_real), grids_of(mixed, begun, max(TRIED))[1]
-    points: Integers = [[(int(a), int(b)) for a, b in row] for row in _parts(begun)]
+    # What a step in doubles leaves is so little that mostly values in integers are needed once.
+    steps = products(inverses, mixed.forms.at(begun)[0])
+    steps = np.where(np.isfinite(steps).all(axis=1)[:, None], steps, 0)
+    points: Integers = [[(int(a), int(b)) for a, b in row] for row in _parts(begun - steps)]
     near = _rounded(points, BITS, begun)
+    if (np.abs(steps) > MOVED * np.ldexp(units, max(TRIED))).any():
+        inverses = inverses_at(mixed, near, are_real)
     values, off = mixed.forms.at(near)
+    before = np.full(len(begun), np.inf)
     for _ in range(STEPS):
         steps = np.rint(products(inverses, values) * UNITS)
         sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag)) / UNITS
-        moves = np.isfinite(steps).all(axis=1) & (sizes >= CLOSE * units).any(axis=1)
+        lengths = (sizes / units).max(axis=1)
+        moves = np.isfinite(steps).all(axis=1) & (lengths >= CLOSE)
+        is_slow, before = moves & (lengths > SHORTER * before), lengths
+        moves &= ~is_slow
         if moves.any():
             steps = np.where(moves[:, None], steps, 0) / UNITS
             points = [
@@ -218,10 +229,8 @@ def _limits(
             ]
             values, off = mixed.values_beside(near, -steps, (values, off))
             near = _rounded(points, BITS, begun)
-            if (sizes > MOVED * np.ldexp(units, max(TRIED)))[np.isfinite(sizes)].any():
-                inverses = inverses_at(mixed, near, are_real)
         chosen = are_new & np.isfinite(values).all(axis=1)
-        chosen &= ~(products(np.abs(inverses), off) < CLOSE * units).all(axis=1)
+        chosen &= ~is_slow & ~(products(np.abs(inverses), off) < CLOSE * units).all(axis=1)
         if not chosen.any():
             break
         exact = equations.values(points, chosen)
