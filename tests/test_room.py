@@ -14,7 +14,7 @@ from samples import boxed
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.study import pose_quadrics
 from pkm_exact.numeric import box_consistency, pose_room
-from pkm_exact.numeric.box_consistency import _combination, _have_room, _require_room
+from pkm_exact.numeric.box_consistency import _combination, _have_room, _require_room, _require_room_in_integers
 from pkm_exact.numeric.pose_room import require_poses_on_robot
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.poses.pose_consistency import require_on_robot
@@ -86,6 +86,7 @@ def test_boxes_have_room_in_doubles_and_moved_ones_have_none(name: str) -> None:
     boxes, combination = [*isolated.real, *isolated.pairs], _combination(pose_quadrics(problem))
     found = _have_room(boxes, isolated.chart, combination)
     assert [has_room for box, has_room in zip(boxes, found, strict=True) if box.exponents[0] == 28].count(False) == 0
+    _require_room_in_integers(boxes, isolated.chart, combination)
     for box in boxes:
         place = problem.motion.support[1]
         real, imaginary = box.centre[place]
@@ -95,7 +96,7 @@ def test_boxes_have_room_in_doubles_and_moved_ones_have_none(name: str) -> None:
             _require_room([replace(box, centre=centre)], isolated.chart, problem)
 
 
-def test_numbers_beyond_doubles_are_left_to_balls(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_numbers_beyond_doubles_are_left_to_integers(monkeypatch: pytest.MonkeyPatch) -> None:
     isolated = boxed("mourrain-l").isolated
     assert isolated is not None
     huge = [[10**400 if i == j else 0 for j in range(8)] for i in range(8)]

@@ -6,15 +6,13 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from flint import acb, acb_mat, arb, fmpz_mat
+from flint import fmpz_mat
 
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, pose_quadrics
-from pkm_exact.numeric.certified_boxes import GUARD_BITS
 from pkm_exact.numeric.double_rounding import gamma
 from pkm_exact.poses.isolated_solutions import RADIUS, Box
-from pkm_exact.precision import working_precision
 
 if TYPE_CHECKING:
     from pkm_exact.poses.isolated_solutions import IsolatedSolutions
@@ -61,7 +59,7 @@ def _require_room(boxes: Sequence[Box], chart: Sequence[int], problem: ForwardPr
     decided = _have_room(boxes, chart, combination)
     rest = [place for place, has_room in enumerate(decided) if not has_room]
     if rest:
-        _require_room_in_balls([boxes[place] for place in rest], chart, combination)
+        _require_room_in_integers([boxes[place] for place in rest], chart, combination)
 
 
 def _have_room(boxes: Sequence[Box], chart: Sequence[int], combination: list[list[int]]) -> list[bool]:
@@ -97,15 +95,28 @@ def _have_room(boxes: Sequence[Box], chart: Sequence[int], combination: list[lis
     return found
 
 
-def _require_room_in_balls(boxes: Sequence[Box], chart: Sequence[int], combination: list[list[int]]) -> None:
-    with working_precision(2 * max(max(box.exponents) for box in boxes) + GUARD_BITS):
-        points = [_balls(box) for box in boxes]
-        gradients = (acb_mat(points) * acb_mat(fmpz_mat(combination))).tolist()
-        for number, (x, gradient) in enumerate(zip(points, gradients, strict=True)):
-            value = sum((a * b for a, b in zip(x[1:], gradient[1:], strict=True)), x[0] * gradient[0])
-            require(value.contains(0), "a box has no room for a solution", box=number)
-            total = sum((weight * value for weight, value in zip(chart, x[:4], strict=True) if weight), acb(0))
-            require(total.contains(1), "a box is not in its chart", box=number)
+def _require_room_in_integers(boxes: Sequence[Box], chart: Sequence[int], combination: list[list[int]]) -> None:
+    """The same exactly, in units of the finer of the two grids of each box."""
+    shifts = [[max(box.exponents) - exponent for exponent in box.exponents for _ in range(4)] for box in boxes]
+    pairs = list(zip(boxes, shifts, strict=True))
+    # Real parts, imaginary parts, and radii.
+    parts = [[[c[k] << s for c, s in zip(box.centre, shift, strict=True)] for box, shift in pairs] for k in (0, 1)]
+    radii = [[RADIUS << s for s in shift] for shift in shifts]
+    gradients = (fmpz_mat([*parts[0], *parts[1]]) * fmpz_mat(combination)).tolist()
+    around = (fmpz_mat(radii) * fmpz_mat([[abs(value) for value in row] for row in combination])).tolist()
+    for number, (box, a, b, r, p, q, wide) in enumerate(
+        zip(boxes, *parts, radii, gradients[: len(boxes)], gradients[len(boxes) :], around, strict=True)
+    ):
+        times = 1 if box.is_real else 2
+        room = sum(x * (2 * (abs(y) + abs(z)) + times * w) for x, y, z, w in zip(r, p, q, wide, strict=True))
+        real = sum(w * x - y * z for w, x, y, z in zip(a, p, b, q, strict=True))
+        imaginary = 2 * sum(x * y for x, y in zip(b, p, strict=True))
+        has_room = abs(real) <= room and abs(imaginary) <= room
+        require(has_room, "a box has no room for a solution", box=number)
+        beside = sum(abs(weight) * x for weight, x in zip(chart, r[:4], strict=True))
+        off = sum(weight * x for weight, x in zip(chart, a[:4], strict=True)) - (1 << max(box.exponents))
+        turned = sum(weight * x for weight, x in zip(chart, b[:4], strict=True))
+        require(abs(off) <= beside and abs(turned) <= beside, "a box is not in its chart", box=number)
 
 
 def _combination(quadrics: Sequence[Quadric]) -> list[list[int]]:
@@ -118,14 +129,3 @@ def _combination(quadrics: Sequence[Quadric]) -> list[list[int]]:
             rows[k][m] += factor * coefficient
             rows[m][k] += factor * coefficient
     return rows
-
-
-def _balls(box: Box) -> list[acb]:
-    """The coordinates of the points of the box."""
-    units = [arb(2) ** -exponent for exponent in box.exponents]
-    if box.is_real:
-        return [acb(arb(real, RADIUS)) * units[index // 4] for index, (real, _) in enumerate(box.centre)]
-    return [
-        acb(arb(real, RADIUS), arb(imaginary, RADIUS)) * units[index // 4]
-        for index, (real, imaginary) in enumerate(box.centre)
-    ]
