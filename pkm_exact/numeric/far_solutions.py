@@ -128,8 +128,8 @@ class _Limits:
     @property
     def rest(self) -> Real:
         """(p, n): how far they are from solutions, roughly."""
-        sizes: Real = np.abs(self.values) + self.off
-        return products(np.abs(self.inverses), sizes)
+        steps: Real = np.abs(products(self.inverses, self.values))
+        return np.asarray(steps + products(np.abs(self.inverses), self.off))
 
 
 def far_solutions(systems: Sequence[ChartSystem], points: Sequence[Complex]) -> list[DoubleBoxes]:
@@ -213,13 +213,14 @@ def _limits(
     if (np.abs(steps) > MOVED * np.ldexp(units, max(TRIED))).any():
         inverses = inverses_at(mixed, near, are_real)
     values, off = mixed.forms.at(near)
-    before = np.full(len(begun), np.inf)
+    before = blurs = np.full(len(begun), np.inf)
     for _ in range(STEPS):
         steps = np.rint(products(inverses, values) * UNITS)
         sizes = np.maximum(np.abs(steps.real), np.abs(steps.imag)) / UNITS
         lengths = (sizes / units).max(axis=1)
         moves = np.isfinite(steps).all(axis=1) & (lengths >= CLOSE)
-        is_slow, before = moves & (lengths > SHORTER * before), lengths
+        is_slow = moves & (lengths > SHORTER * before) & (lengths > blurs)
+        before, blurs = lengths, (products(np.abs(inverses), off) / units).max(axis=1)
         moves &= ~is_slow
         if moves.any():
             steps = np.where(moves[:, None], steps, 0) / UNITS
