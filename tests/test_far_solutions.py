@@ -9,20 +9,23 @@ from typing import Any
 
 import numpy as np
 import pytest
+from flint import arb
 from samples import model, shipped
 
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.motions.motion_groups import PLANAR
 from pkm_exact.numeric import certification, far_solutions
+from pkm_exact.numeric.certification import refined
 from pkm_exact.numeric.certified_boxes import centre, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_boxes import DoubleBoxes
 from pkm_exact.numeric.far_solutions import TRIED
-from pkm_exact.numeric.grids import GRIDS, first_grid
+from pkm_exact.numeric.grids import GRIDS, dyadic, first_grid, grid_exponents
 from pkm_exact.numeric.poses import approximations, certified_solutions, real_poses
 from pkm_exact.numeric.seeds import seeds
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
 from pkm_exact.poses.isolated_solutions import Box
+from pkm_exact.precision import working_precision
 
 Patch = pytest.MonkeyPatch
 
@@ -91,6 +94,29 @@ def test_points_that_are_no_solutions_prove_nothing() -> None:
     useless: list[Any] = [0 * points, points * np.nan, points[:0], points * 1e300]
     for wrong in useless:
         assert far_solutions.far_solutions([system], [wrong])[0].boxes == [None] * len(wrong)
+
+
+@pytest.mark.parametrize("name", ["rolland-6-6", "6-6pp"])
+def test_what_is_not_proved_is_handed_on_as_exactly_as_it_says(name: str, monkeypatch: Patch) -> None:
+    """With no proof in doubles, all solutions are handed on; ball arithmetic finds them where they are said to be."""
+    problem = shipped(name)
+    system, isolated = certified_solutions(problem, seeds(problem))
+    boxes = [box for box in isolated.pairs if box.exponents[0] in TRIED]
+    points = np.array([[complex(entry.mid()) for entry in centre(system, box).entries()] for box in boxes])
+    monkeypatch.setattr(far_solutions, "SURE", 0.0)
+    found = far_solutions.far_solutions([system], [points * (1 + 1e-9)])[0]
+    assert found.boxes == [None] * len(boxes)
+    limits = [limit for limit in found.limits if limit is not None]
+    assert len(limits) == len(boxes) >= 5
+    assert [limit.known for limit in limits].count(0) <= len(limits) // 4
+    for limit in limits:
+        column = certification._exactly(limit)
+        true = refined(system, column, 200)
+        assert true is not None
+        exponents = grid_exponents(system, [dyadic(value) for value in true[0].entries()], limit.known)
+        with working_precision(600):
+            for index, entry in zip(system.support, (true[0] - column).entries(), strict=True):
+                assert not limit.known or abs(entry) < arb(2) ** (-28 - exponents[index // 4])
 
 
 BOUNDS = [
