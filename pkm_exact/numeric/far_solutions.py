@@ -207,7 +207,7 @@ def _limits(
     inverses, units = inverses_at(mixed, begun, are_real), grids_of(mixed, begun, max(TRIED))[1]
     # What a step in doubles leaves is so little that mostly values in integers are needed once.
     steps = products(inverses, mixed.forms.at(begun)[0])
-    steps = np.where(np.isfinite(steps).all(axis=1)[:, None], steps, 0)
+    steps = np.where((np.abs(steps) < LARGEST).all(axis=1)[:, None], steps, 0)
     points: Integers = [[(int(a), int(b)) for a, b in row] for row in _parts(begun - steps)]
     near = _rounded(points, BITS, begun)
     if (np.abs(steps) > MOVED * np.ldexp(units, max(TRIED))).any():
