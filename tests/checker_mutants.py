@@ -131,6 +131,7 @@ def _reach(checker: str, examples: list[Example], journal: Journal, left: Sequen
         if known == state and wanted <= lines:
             return reach  # type: ignore[no-any-return]
     reach = measured(checker, examples, wanted)
+    BUILD.mkdir(parents=True, exist_ok=True)
     path.write_bytes(pickle.dumps((state, wanted, reach)))
     return reach
 

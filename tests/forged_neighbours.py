@@ -88,6 +88,10 @@ ROOTS: dict[str, Case] = {
         lambda: _turned(fmpz_poly([0, 1]) * fmpz_poly([1, 3 << 32]) * fmpz_poly([-2, 0, 1])),
         ACCEPTED,
     ),
+    "roots 1 and 3, where halving meets values that fall and that rise": (
+        lambda: _turned(fmpz_poly([3, -4, 1])),
+        ACCEPTED,
+    ),
     "roots 0, 1 and -1": (lambda: _turned(fmpz_poly([0, -1, 0, 1])), ACCEPTED),
     "roots where the slope is 0 between them": (lambda: _turned(fmpz_poly([1, -3, 0, 1])), ACCEPTED),
 }
