@@ -38,7 +38,7 @@ check-style: $(VENV)/.installed-test
 
 # Processes of tests must not compile the package each time, whatever the user has set.
 test test-slow test-largest: export PYTHONDONTWRITEBYTECODE =
-test-slow: export PKM_EXACT_LONGER = 5
+test-slow: export PKM_EXACT_LONGER = 3
 test-largest: export PKM_EXACT_LONGER = 10
 
 test: check-style

@@ -11,7 +11,7 @@ from hypothesis import settings
 
 
 def budget(examples: int) -> Callable[[Any], Any]:
-    """A property test of so many examples; ``make test-slow`` has five times as many, ``make test-largest`` ten."""
+    """A property test of so many examples; ``make test-slow`` has three times as many, ``make test-largest`` ten."""
     times = int(os.environ.get("PKM_EXACT_LONGER", "1"))
 
     def decorated(test: Any) -> Any:

@@ -269,7 +269,7 @@ class Report:
         return f"{self.name:<38}{''.join(cells)}{self.seconds:>8.1f}"
 
 
-SLOW = 10
+SLOW = 20
 """A slow test makes this part of the changes of a complete run."""
 HEADING = (
     f"{'certificate':<38}{'entries':>9}{'digest':>9}{'rejected':>9}{'malformed':>9}{'free':>9}{'survive':>9}{'s':>8}"

@@ -121,7 +121,7 @@ def test_what_is_not_proved_is_handed_on_as_exactly_as_it_says(name: str, monkey
 
 BOUNDS = [
     *(("CLOSE", 2.0**20), ("STEPS", 1), ("LARGEST", 1.0), ("ASTRAY", 0.0), ("NEARBY", 0.0), ("SURE", 0.2)),
-    *(("TRIED", (44,)), ("SLACK", 3.0), ("BITS", 200)),
+    *(("TRIED", (44,)), ("SLACK", 3.0), ("BITS", 200), ("SHORTER", 0.0), ("MOVED", 0.0), ("SETTLED", 0.0)),
 ]
 
 

@@ -35,12 +35,18 @@ from pkm_exact.numeric_engine import solve_krawczyk
 SOURCE = Path(pure.__file__)
 ALL = sorted(path.stem for path in CERTS.glob("*.json"))
 SMALL = ("3-prr", "3-rpr-double-q", "3-rpr-triple", "mourrain-l", "robocrane-r", "similar-planar-s")
+LARGE = ("hexaglide", "ssm-rounded")
+"""Half a minute each."""
 
 
 # Certificates in the repository
 
 
-@pytest.mark.parametrize("name", [pytest.param(n, marks=() if n in SMALL else pytest.mark.slow) for n in ALL])
+def _marks(name: str) -> list[pytest.MarkDecorator]:
+    return [*([] if name in SMALL else [pytest.mark.slow]), *([pytest.mark.largest] if name in LARGE else [])]
+
+
+@pytest.mark.parametrize("name", [pytest.param(n, marks=_marks(n)) for n in ALL])
 def test_golden_certificates_are_accepted_with_the_same_lines(name: str) -> None:
     assert both(golden_bytes(name)).status == "accepted"
 

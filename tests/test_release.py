@@ -143,7 +143,9 @@ def test_the_sources_are_complete_and_without_clutter(built: tuple[Path, Path]) 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("number", [0, 1], ids=["wheel", "sources"])
+@pytest.mark.parametrize(
+    "number", [pytest.param(0, id="wheel"), pytest.param(1, id="sources", marks=pytest.mark.largest)]
+)
 def test_it_works_where_the_repository_is_not(number: int, built: tuple[Path, Path], tmp_path: Path) -> None:
     programs = _environment(tmp_path / "environment", built[number])
     elsewhere = tmp_path / "elsewhere"
