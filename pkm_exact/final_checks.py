@@ -8,6 +8,7 @@ representation must vanish on the robot modulo a prime, boxes must lie apart and
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 from typing import Final
@@ -47,6 +48,33 @@ def consistent(solution: Solution) -> Solution:
     InternalContradictionError
         If it does.
     """
+    _require_consistent(solution)
+    return solution
+
+
+def require_all_consistent(solutions: Sequence[Solution]) -> None:
+    """Many solutions by isolating boxes, of one robot at several lengths: what doubles tell is asked of all at once.
+
+    Raises
+    ------
+    InternalContradictionError
+        If one contradicts itself.
+    """
+    from pkm_exact.numeric.box_consistency import boxes_have_room
+    from pkm_exact.numeric.pose_room import poses_have_room
+
+    listed = [(found, found.isolated) for found in solutions if found.isolated is not None]
+    boxes = boxes_have_room([(isolated, found.problem) for found, isolated in listed])
+    poses = poses_have_room([(found.poses, found.problem, isolated.chart) for found, isolated in listed])
+    rooms = {id(found): rooms for (found, _), *rooms in zip(listed, boxes, poses, strict=True)}
+    for found in solutions:
+        _require_consistent(found, *rooms.get(id(found), ()))
+
+
+def _require_consistent(
+    solution: Solution, boxes: Sequence[bool] | None = None, poses: Sequence[bool] | None = None
+) -> None:
+    """Where doubles tell that boxes of solutions and of poses have room, it may be known already."""
     _require_proof_of_claim(solution)
     _require_counts(solution)
     for representation in _representations(solution):
@@ -57,13 +85,12 @@ def consistent(solution: Solution) -> Solution:
         counts = {"poses": len(solution.poses), "distinct": solution.distinct_solutions}
         require(solution.isolated.count == counts["distinct"], "the boxes are not as many as the solutions", **counts)
         require(len(solution.isolated.real) == counts["poses"], "real boxes are not as many as the poses", **counts)
-        require_sound_boxes(solution.isolated, solution.problem)
+        require_sound_boxes(solution.isolated, solution.problem, boxes)
     if isinstance(solution.self_motion, SelfMotion):
         _require_mobility(solution.self_motion, solution.problem)
     if isinstance(solution.self_motion, MorePoses):
         _require_slices(solution.self_motion, solution.problem)
-    _require_poses(solution)
-    return solution
+    _require_poses(solution, poses)
 
 
 def _require_proof_of_claim(solution: Solution) -> None:
@@ -176,7 +203,7 @@ def _require_slices(motion: MorePoses, problem: ForwardProblem) -> None:
         _require_representation(found.representation, motion.problem_of(problem, found))
 
 
-def _require_poses(solution: Solution) -> None:
+def _require_poses(solution: Solution, have_room: Sequence[bool] | None) -> None:
     """Boxes apart, on the robot and in the intervals of their parameters; Jacobians; signs."""
     problem, poses, representation = solution.problem, solution.poses, solution.representation
     require_apart(poses)
@@ -189,7 +216,7 @@ def _require_poses(solution: Solution) -> None:
     elif solution.isolated is not None:
         from pkm_exact.numeric.pose_room import require_poses_on_robot
 
-        require_poses_on_robot(poses, problem, solution.box_exponent, solution.isolated.chart)
+        require_poses_on_robot(poses, problem, solution.box_exponent, solution.isolated.chart, have_room)
 
 
 def _require_all_roots(solution: Solution, h: fmpz_poly) -> None:

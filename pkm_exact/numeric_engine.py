@@ -7,7 +7,8 @@ none closes, or some solutions are too close to each other, the exact engine ans
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -18,8 +19,9 @@ from pkm_exact.completeness.completeness_proof import CompletenessProof, goes_sh
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.short_proof import can_close, short_proof
 from pkm_exact.engine import solve
+from pkm_exact.errors import PkmExactError
 from pkm_exact.failures.contradiction import attached, require
-from pkm_exact.final_checks import consistent
+from pkm_exact.final_checks import consistent, require_all_consistent
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.nearby import from_home
@@ -71,6 +73,24 @@ def solve_krawczyk(
         if found is not None:
             return consistent(found)
     return solve_exactly_instead(problem, width=width, policy=policy, progress=progress)
+
+
+def with_answers(rows: Sequence[Charted | None], width: Fraction, policy: Policy) -> list[Charted | None]:
+    """Rows of ``rows_together`` with their answers, which pass the last gate together.
+
+    If one of them does not, or is not complete, no row has an answer: each is solved by itself then, and says why.
+    """
+    known = [near for near in rows if near is not None and near.poses is not None]
+    with suppress(PkmExactError):
+        answers = {id(near): _answer(near, width, policy) for near in known}
+        require_all_consistent([found for found in answers.values() if found is not None])
+        return [near and replace(near, answer=answers.get(id(near))) for near in rows]
+    return list(rows)
+
+
+def _answer(near: Charted, width: Fraction, policy: Policy) -> Solution | None:
+    """What becomes of a row, before the last gate."""
+    return _by_numbers(near.problem, width, policy, Stages(), iter([(NEIGHBOUR, lambda: near)]))
 
 
 def _by_numbers(

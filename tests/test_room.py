@@ -84,26 +84,49 @@ def test_boxes_have_room_in_doubles_and_moved_ones_have_none(name: str) -> None:
     isolated, problem = solution.isolated, solution.problem
     assert isolated is not None
     boxes, combination = [*isolated.real, *isolated.pairs], _combination(pose_quadrics(problem))
-    found = _have_room(boxes, isolated.chart, combination)
+    (found,) = _have_room([boxes], [isolated.chart], [combination])
     assert [has_room for box, has_room in zip(boxes, found, strict=True) if box.exponents[0] == 28].count(False) == 0
     _require_room_in_integers(boxes, isolated.chart, combination)
     for box in boxes:
         place = problem.motion.support[1]
         real, imaginary = box.centre[place]
         centre = (*box.centre[:place], (real + 1000, imaginary), *box.centre[place + 1 :])
-        assert _have_room([replace(box, centre=centre)], isolated.chart, combination) == [False]
+        assert _have_room([[replace(box, centre=centre)]], [isolated.chart], [combination]) == [[False]]
         with pytest.raises(InternalContradictionError):
             _require_room([replace(box, centre=centre)], isolated.chart, problem)
+
+
+def test_rooms_of_several_robots_are_those_of_each() -> None:
+    """Also where a box or a pose is moved, the joints are others, or there is no pose at all."""
+    names = ("mourrain-l", "rolland-6-6", "mourrain-l")
+    listed = [(found, found.isolated) for found in map(boxed, names) if found.isolated is not None]
+    boxes = [(isolated, found.problem) for found, isolated in listed]
+    first = listed[0][1].real[0]
+    wrong = replace(first, centre=((first.centre[0][0] + 10**6, 0), *first.centre[1:]))
+    boxes[2] = replace(listed[2][1], real=(wrong, *listed[2][1].real[1:])), listed[2][0].problem
+    together = box_consistency.boxes_have_room([*boxes, (replace(listed[0][1], real=(), pairs=()), boxes[0][1])])
+    assert together == [*(box_consistency.boxes_have_room([row])[0] for row in boxes), []]
+    assert (together[0][0], together[2][0]) == (True, False)
+    poses = [(list(found.poses), found.problem, isolated.chart) for found, isolated in listed]
+    moved = _all_moved(poses[0][0][0], 10**5, listed[0][0].box_exponent)[0]
+    same = [poses[0], ([], *poses[0][1:]), ([*poses[0][0], moved], *poses[0][1:])]
+    assert pose_room.poses_have_room([]) == box_consistency.boxes_have_room([]) == []
+    for asked in (same, [*same, *poses]):
+        found = pose_room.poses_have_room(asked)
+        assert found == [pose_room.poses_have_room([row])[0] for row in asked]
+        assert [len(row) for row in found] == [len(row[0]) for row in asked]
+        assert all(found[0])
+        assert found[2] == [*found[0], False]
 
 
 def test_numbers_beyond_doubles_are_left_to_integers(monkeypatch: pytest.MonkeyPatch) -> None:
     isolated = boxed("mourrain-l").isolated
     assert isolated is not None
     huge = [[10**400 if i == j else 0 for j in range(8)] for i in range(8)]
-    assert _have_room(isolated.real, isolated.chart, huge) == [False] * len(isolated.real)
+    assert _have_room([isolated.real], [isolated.chart], [huge]) == [[False] * len(isolated.real)]
     monkeypatch.setattr(box_consistency, "gamma", lambda _: 1.0)
     combination = _combination(pose_quadrics(boxed("mourrain-l").problem))
-    assert _have_room(isolated.real, isolated.chart, combination) == [False] * len(isolated.real)
+    assert _have_room([isolated.real], [isolated.chart], [combination]) == [[False] * len(isolated.real)]
 
 
 def test_what_rounding_may_lose_counts() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from random import Random
 from typing import Any
@@ -11,12 +12,14 @@ import pytest
 from samples import model
 
 from pkm_exact.batch.row_solver import RowSolver
+from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.chart_equations import ChartSystem
+from pkm_exact.numeric.double_jacobians import forms_of_each
 from pkm_exact.numeric.double_krawczyk import DoubleEquations
 from pkm_exact.numeric.poses import poses_in_doubles
 from pkm_exact.numeric.rows_together import rows_together
-from pkm_exact.numeric_engine import solve_krawczyk
+from pkm_exact.numeric_engine import solve_krawczyk, with_answers
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
 
@@ -39,6 +42,30 @@ def test_rows_are_answered_as_if_alone(name: str) -> None:
     for problem, near in zip(problems, found, strict=True):
         together, alone = solver.solution(problem, near), solve_krawczyk(problem)
         assert (together.isolated, together.poses) == (alone.isolated, alone.poses)
+
+
+def test_of_rows_that_contradict_themselves_none_is_answered_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each is solved by itself then, and the one that is wrong says so."""
+    problems = _problems("3-rpr-merlet-p", 4)
+    solver = RowSolver.of(problems, DEFAULT_WIDTH, Policy())
+    rows: list[Any] = solver.near(problems)
+    assert [row.answer is not None for row in rows] == [True] * 4
+    assert solver.solution(problems[1], rows[1]) is rows[1].answer
+    # Poses of another row: they are not on this robot.
+    wrong = [replace(rows[0], answer=None), replace(rows[1], poses=rows[0].poses, answer=None)]
+    left: list[Any] = with_answers(wrong, DEFAULT_WIDTH, Policy())
+    assert [row.answer for row in left] == [None, None]
+    assert solver.solution(problems[0], left[0]).poses == rows[0].answer.poses
+    with pytest.raises(InternalContradictionError):
+        solver.solution(problems[1], left[1])
+    assert with_answers([None, wrong[0]], DEFAULT_WIDTH, Policy())[0] is None
+
+
+def test_forms_of_each_are_those_of_each_alone() -> None:
+    problems = [*_problems("mourrain-l", 3), *_problems("rolland-6-6", 2)]
+    together = forms_of_each([problems[0], *problems, problems[4]], Fraction(2))
+    alone = [forms_of_each([problem], Fraction(2))[0] for problem in problems]
+    assert (together == np.stack([alone[0], *alone, alone[4]])).all()
 
 
 def test_rows_that_home_does_not_lead_to_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:

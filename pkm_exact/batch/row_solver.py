@@ -20,7 +20,7 @@ from pkm_exact.numeric.nearby import from_home, nearby_start
 from pkm_exact.numeric.poses import Charted
 from pkm_exact.numeric.rows_together import rows_together
 from pkm_exact.numeric.start import StartSection
-from pkm_exact.numeric_engine import solve_exactly_instead, solve_krawczyk
+from pkm_exact.numeric_engine import solve_exactly_instead, solve_krawczyk, with_answers
 from pkm_exact.policy import Policy
 from pkm_exact.solution import Solution
 
@@ -79,7 +79,7 @@ class RowSolver:
         """What can be found of rows at once, for ``solution``."""
         if self.start is None or not self.is_numeric or len(problems) < 2:
             return [None] * len(problems)
-        return rows_together(problems, self.start, self.width)
+        return with_answers(rows_together(problems, self.start, self.width), self.width, self.policy)
 
     def solution(self, problem: ForwardProblem, near: Charted | None = None) -> Solution:
         """The answer to one row.
@@ -89,6 +89,8 @@ class RowSolver:
         PkmExactError
             As ``engine.solve``, if that has to be called.
         """
+        if near is not None and near.answer is not None:
+            return near.answer
         if self.method == "exact":
             return solve_row(problem, width=self.width, policy=self.policy, shared=self.shared)
         if self.is_numeric:

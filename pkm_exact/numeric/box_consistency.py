@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain, islice
+from operator import mul
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +13,7 @@ from flint import fmpz_mat
 from pkm_exact.failures.contradiction import require
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.study import Quadric, pose_quadrics
+from pkm_exact.numeric.double_krawczyk import products
 from pkm_exact.numeric.double_rounding import gamma
 from pkm_exact.poses.isolated_solutions import RADIUS, Box
 
@@ -18,8 +21,17 @@ if TYPE_CHECKING:
     from pkm_exact.poses.isolated_solutions import IsolatedSolutions
 
 
-def require_sound_boxes(isolated: IsolatedSolutions, problem: ForwardProblem) -> None:
+def require_sound_boxes(
+    isolated: IsolatedSolutions, problem: ForwardProblem, decided: Sequence[bool] | None = None
+) -> None:
     """Real boxes are real, others meet no conjugate, no two meet, and in each the equations can be 0.
+
+    Parameters
+    ----------
+    isolated : IsolatedSolutions
+    problem : ForwardProblem
+    decided : sequence of bool, optional
+        What ``boxes_have_room`` says of real boxes and of the others, if it is known already.
 
     Raises
     ------
@@ -32,7 +44,14 @@ def require_sound_boxes(isolated: IsolatedSolutions, problem: ForwardProblem) ->
     boxes = (*isolated.real, *isolated.pairs)
     _require_apart(boxes)
     if boxes:
-        _require_room(boxes, isolated.chart, problem)
+        _require_room(boxes, isolated.chart, problem, decided)
+
+
+def boxes_have_room(several: Sequence[tuple[IsolatedSolutions, ForwardProblem]]) -> list[list[bool]]:
+    """In which boxes, real ones first, doubles tell that the equations can be 0: of many robots at once."""
+    boxes = [(*isolated.real, *isolated.pairs) for isolated, _ in several]
+    combinations = [_combination(pose_quadrics(problem)) for _, problem in several]
+    return _have_room(boxes, [isolated.chart for isolated, _ in several], combinations)
 
 
 def _require_apart(boxes: Sequence[Box]) -> None:
@@ -53,69 +72,83 @@ def _reach(box: Box, finest: int) -> tuple[int, int]:
     return (middle - RADIUS) << shift, (middle + RADIUS) << shift
 
 
-def _require_room(boxes: Sequence[Box], chart: Sequence[int], problem: ForwardProblem) -> None:
+def _require_room(
+    boxes: Sequence[Box], chart: Sequence[int], problem: ForwardProblem, decided: Sequence[bool] | None = None
+) -> None:
     """A combination of legs and Study's condition, and the chart, can be satisfied in every box."""
     combination = _combination(pose_quadrics(problem))
-    decided = _have_room(boxes, chart, combination)
-    rest = [place for place, has_room in enumerate(decided) if not has_room]
+    if decided is None:
+        (decided,) = _have_room([boxes], [chart], [combination])
+    rest = [box for box, has_room in zip(boxes, decided, strict=True) if not has_room]
     if rest:
-        _require_room_in_integers([boxes[place] for place in rest], chart, combination)
+        _require_room_in_integers(rest, chart, combination)
 
 
-def _have_room(boxes: Sequence[Box], chart: Sequence[int], combination: list[list[int]]) -> list[bool]:
-    """Where doubles tell that both can be satisfied, with what is lost by rounding.
+def _have_room(
+    several: Sequence[Sequence[Box]], charts: Sequence[Sequence[int]], combinations: Sequence[list[list[int]]]
+) -> list[list[bool]]:
+    """Where doubles tell that both can be satisfied, with what is lost by rounding: of each robot its boxes.
 
     A term of x^T M x has three factors, and data that are rounded: it is off by at most gamma(80) of itself in all, and
     complex numbers count by the sum of their parts.
     """
+    counts = [len(boxes) for boxes in several]
+    together = [box for boxes in several for box in boxes]
+    if not together:
+        return [[] for _ in several]
+    each = np.arange(len(several)).repeat(counts)
     try:
-        matrix = np.array(combination, dtype=np.float64)
-        numbers = np.array([box.centre for box in boxes], dtype=np.float64)
+        matrices = np.array(combinations, dtype=np.float64)[each]
+        parts = chain.from_iterable(box.centre for box in together)
+        numbers = np.fromiter(chain.from_iterable(parts), np.float64).reshape(-1, 8, 2)
     except OverflowError:
-        return [False] * len(boxes)
-    units = np.ldexp(1.0, -np.array([box.exponents for box in boxes])).repeat(4, axis=1)
-    is_real = np.array([box.is_real for box in boxes])[:, None]
+        return [[False] * count for count in counts]
+    weights = np.array(charts, dtype=np.float64)[each]
+    units = np.ldexp(1.0, -np.array([box.exponents for box in together])).repeat(4, axis=1)
+    is_real = np.array([box.is_real for box in together])[:, None]
     x, radii = (numbers[..., 0] + 1j * numbers[..., 1]) * units, RADIUS * units
-    parts = np.where(is_real, 1, 2)
+    times = np.where(is_real, 1, 2)
     with np.errstate(all="ignore"):
-        gradients, sizes = x @ matrix, np.abs(x.real) + np.abs(x.imag)
+        gradients, sizes = products(matrices, x), np.abs(x.real) + np.abs(x.imag)
         slopes = np.abs(gradients.real) + np.abs(gradients.imag)
-        around = np.abs(matrix)
+        around = np.abs(matrices)
         values = (x * gradients).sum(axis=1)
-        room = ((2 * slopes + parts * (radii @ around)) * radii).sum(axis=1)
-        lost = gamma(80) * ((sizes @ around) * (sizes + radii)).sum(axis=1)
-        at = x[:, :4] @ np.array(chart) - 1
-        beside = np.abs(np.array(chart)) @ radii[:, :4].T
+        room = ((2 * slopes + times * products(around, radii)) * radii).sum(axis=1)
+        lost = gamma(80) * (products(around, sizes) * (sizes + radii)).sum(axis=1)
+        at = (x[:, :4] * weights).sum(axis=1) - 1
+        beside = (np.abs(weights) * radii[:, :4]).sum(axis=1)
         are_small = lost < room / 4
-        also = gamma(80) * (1 + sizes[:, :4] @ np.abs(np.array(chart)))
+        also = gamma(80) * (1 + (sizes[:, :4] * np.abs(weights)).sum(axis=1))
         fits = (np.abs(values.real) + lost <= room) & (np.abs(values.imag) + lost <= room)
         fits &= (np.abs(at.real) + also <= beside) & (np.abs(at.imag) + also <= beside)
         is_exact = (np.abs(numbers) < 2.0**53).all(axis=(1, 2))
-    found: list[bool] = (fits & are_small & is_exact).tolist()
-    return found
+    found = iter((fits & are_small & is_exact).tolist())
+    return [list(islice(found, count)) for count in counts]
 
 
 def _require_room_in_integers(boxes: Sequence[Box], chart: Sequence[int], combination: list[list[int]]) -> None:
     """The same exactly, in units of the finer of the two grids of each box."""
     shifts = [[max(box.exponents) - exponent for exponent in box.exponents for _ in range(4)] for box in boxes]
     pairs = list(zip(boxes, shifts, strict=True))
-    # Real parts, imaginary parts, and radii.
-    parts = [[[c[k] << s for c, s in zip(box.centre, shift, strict=True)] for box, shift in pairs] for k in (0, 1)]
-    radii = [[RADIUS << s for s in shift] for shift in shifts]
-    gradients = (fmpz_mat([*parts[0], *parts[1]]) * fmpz_mat(combination)).tolist()
-    around = (fmpz_mat(radii) * fmpz_mat([[abs(value) for value in row] for row in combination])).tolist()
-    for number, (box, a, b, r, p, q, wide) in enumerate(
-        zip(boxes, *parts, radii, gradients[: len(boxes)], gradients[len(boxes) :], around, strict=True)
-    ):
+    # Real parts, then imaginary parts, and radii.
+    points = fmpz_mat(
+        [[c[k] << s for c, s in zip(box.centre, shift, strict=True)] for k in (0, 1) for box, shift in pairs]
+    )
+    radii = fmpz_mat([[RADIUS << s for s in shift] for shift in shifts])
+    gradients = (points * fmpz_mat(combination)).tolist()
+    around = (radii * fmpz_mat([[abs(value) for value in row] for row in combination])).tolist()
+    halves = slice(len(boxes)), slice(len(boxes), None)
+    parts = (table[half] for table in (points.tolist(), gradients) for half in halves)
+    rows = zip(boxes, *parts, radii.tolist(), around, strict=True)
+    for number, (box, a, b, p, q, r, wide) in enumerate(rows):
         times = 1 if box.is_real else 2
-        room = sum(x * (2 * (abs(y) + abs(z)) + times * w) for x, y, z, w in zip(r, p, q, wide, strict=True))
-        real = sum(w * x - y * z for w, x, y, z in zip(a, p, b, q, strict=True))
-        imaginary = 2 * sum(x * y for x, y in zip(b, p, strict=True))
+        slopes = [2 * (abs(y) + abs(z)) + times * w for y, z, w in zip(p, q, wide, strict=True)]
+        room = sum(map(mul, r, slopes))
+        real, imaginary = sum(map(mul, a, p)) - sum(map(mul, b, q)), 2 * sum(map(mul, b, p))
         has_room = abs(real) <= room and abs(imaginary) <= room
         require(has_room, "a box has no room for a solution", box=number)
-        beside = sum(abs(weight) * x for weight, x in zip(chart, r[:4], strict=True))
-        off = sum(weight * x for weight, x in zip(chart, a[:4], strict=True)) - (1 << max(box.exponents))
-        turned = sum(weight * x for weight, x in zip(chart, b[:4], strict=True))
+        beside = sum(map(mul, map(abs, chart), r[:4]))
+        off, turned = sum(map(mul, chart, a[:4])) - (1 << max(box.exponents)), sum(map(mul, chart, b[:4]))
         require(abs(off) <= beside and abs(turned) <= beside, "a box is not in its chart", box=number)
 
 

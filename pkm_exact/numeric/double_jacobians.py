@@ -80,21 +80,31 @@ def double_jacobians(
 
 
 def forms_of_each(problems: Sequence[ForwardProblem], length: Fraction) -> Real:
-    """(p, m, 17): those of each problem, of which neighbours may be the same."""
-    found = {id(problem): problem for problem in problems}
-    tables = {key: _forms(problem, length) for key, problem in found.items()}
-    return np.stack([tables[id(problem)] for problem in problems])
+    """(p, m, 17): the forms of each problem in ordinary coordinates, divided by the size of their wrenches.
+
+    Problems may be the same.
+    """
+    several = {id(problem): problem for problem in problems}
+    found, first = [], problems[0]
+    numbers, linear = _numbers(first), [form[:-1] for form in first.forms]
+    for problem in several.values():
+        table = numbers
+        if problem is not first:
+            # At other lengths of one robot it is the constants that differ.
+            are_alike = [form[:-1] for form in problem.forms] == linear
+            table = numbers.copy() if are_alike else _numbers(problem)
+            table[:, -1] = [float(form[-1]) for form in problem.forms]
+        scales = [size for constraint in problem.constraints for size in constraint.scales(problem.metric, length)]
+        found.append(table / np.array([sqrt(size) for size in scales])[:, None])
+    places = {key: place for place, key in enumerate(several)}
+    tables: Real = np.array(found)[[places[id(problem)] for problem in problems]]
+    return tables
 
 
-def _forms(problem: ForwardProblem, length: Fraction) -> Real:
-    """(m, 17): the forms in ordinary coordinates, divided by the size of their wrenches."""
+def _numbers(problem: ForwardProblem) -> Real:
+    """(m, 17): the forms in ordinary coordinates."""
     roots = [sqrt(g) for g in problem.metric]
-    scales = [scale for found in problem.constraints for scale in found.scales(problem.metric, length)]
-    rows = [
-        np.array(ordinary([float(value) for value in form], roots)) / sqrt(scale)
-        for form, scale in zip(problem.forms, scales, strict=True)
-    ]
-    return np.array(rows)
+    return np.array([ordinary([float(value) for value in form], roots) for form in problem.forms])
 
 
 def _rows(problem: ForwardProblem, forms: Real, length: float, found: DoubleCoordinates) -> tuple[Real, Real]:

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
-from itertools import chain
-from typing import Final
+from itertools import chain, islice
+from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +22,19 @@ from pkm_exact.numeric.study_system import Real
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_consistency import require_on_robot
 
+Asked: TypeAlias = tuple[Sequence[Pose], ForwardProblem, Sequence[int]]
+"""Poses, whose they are, and their chart."""
 _FEW: Final = 16
 """Roundings in a row, at most."""
 
 
-def require_poses_on_robot(poses: Sequence[Pose], problem: ForwardProblem, exponent: int, chart: Sequence[int]) -> None:
+def require_poses_on_robot(
+    poses: Sequence[Pose],
+    problem: ForwardProblem,
+    exponent: int,
+    chart: Sequence[int],
+    decided: Sequence[bool] | None = None,
+) -> None:
     """Every box has room for a pose of the robot: legs, rotation, quaternion and chart.
 
     Parameters
@@ -37,37 +45,62 @@ def require_poses_on_robot(poses: Sequence[Pose], problem: ForwardProblem, expon
         Of the grid of the boxes.
     chart : sequence of 4 int
         w: the quaternion has the sign for which w.e > 0.
+    decided : sequence of bool, optional
+        What ``poses_have_room`` says of the poses, if it is known already.
 
     Raises
     ------
     InternalContradictionError
     """
-    left = list(poses)
-    if poses and problem.has_only_distances:
-        decided = _have_room(poses, problem, chart)
-        left = [pose for pose, has_room in zip(poses, decided.tolist(), strict=True) if not has_room]
+    if decided is None:
+        (decided,) = poses_have_room([(poses, problem, chart)])
+    left = [pose for pose, has_room in zip(poses, decided, strict=True) if not has_room]
     require_on_robot(left, problem, exponent, chart)
 
 
-def _have_room(poses: Sequence[Pose], problem: ForwardProblem, chart: Sequence[int]) -> NDArray[np.bool_]:
-    """Where there is room, and rounding is far smaller than the boxes."""
+def poses_have_room(several: Sequence[Asked]) -> list[list[bool]]:
+    """For which boxes of poses doubles tell that there is room: of one robot at several lengths at once.
+
+    Parameters
+    ----------
+    several : sequence of (sequence of Pose, ForwardProblem, sequence of 4 int)
+        Poses, problem and chart.
+    """
+    if not all(problem.has_only_distances for _, problem, _ in several):
+        return [[False] * len(poses) for poses, _, _ in several]
+    joints = [_joints(problem) for _, problem, _ in several]
+    if any(of_row != joints[0] for of_row in joints):
+        return [found for asked in several for found in poses_have_room([asked])]
+    found = iter(_have_room(several).tolist() if any(poses for poses, _, _ in several) else [])
+    return [list(islice(found, len(poses))) for poses, _, _ in several]
+
+
+def _joints(problem: ForwardProblem) -> tuple[object, ...]:
+    """In what robots at several lengths agree."""
+    return problem.metric, problem.motion, [(leg.base, leg.platform) for leg in problem.distances]
+
+
+def _have_room(several: Sequence[Asked]) -> NDArray[np.bool_]:
+    """Where there is room, and rounding is far smaller than the boxes: of all poses, one problem after another."""
+    poses, problem = [pose for listed, _, _ in several for pose in listed], several[0][1]
+    each = np.arange(len(several)).repeat([len(listed) for listed, _, _ in several])
     try:
         ends = _ends(poses)
         base, platform = (
             np.array([[float(value) for value in getattr(leg, side)] for leg in problem.distances])
             for side in ("base", "platform")
         )
-        squares = np.array([float(leg.length_squared) for leg in problem.distances])
+        squares = np.array([[float(leg.length_squared) for leg in asked.distances] for _, asked, _ in several])[each]
     except OverflowError:
         return np.zeros(len(poses), dtype=bool)
-    axes = np.sqrt(np.array(problem.metric, dtype=float))
+    axes, charts = np.sqrt(np.array(problem.metric, dtype=float)), np.array([chart for _, _, chart in several])[each]
     with np.errstate(all="ignore"):
         middle, radius = (ends[..., 1] + ends[..., 0]) / 2, (ends[..., 1] - ends[..., 0]) / 2
         parts = [
             _reach(middle, radius, base * axes, platform * axes, squares),
             _moves(middle, radius, problem.motion, axes),
             _are_turns(middle, radius),
-            _have_sign(middle, radius, chart, axes),
+            _have_sign(middle, radius, charts, axes),
         ]
     found: NDArray[np.bool_] = np.logical_and.reduce(parts)
     return found
@@ -153,8 +186,11 @@ def _turn_forms() -> Real:
     return table.reshape(10, 16)
 
 
-def _have_sign(middle: Real, radius: Real, chart: Sequence[int], axes: Real) -> NDArray[np.bool_]:
+def _have_sign(middle: Real, radius: Real, charts: NDArray[np.int_], axes: Real) -> NDArray[np.bool_]:
     """Whether w.e > 0 is possible, by more than roundings."""
-    weights = np.array(chart) / np.concatenate([[np.prod(axes)], axes])
-    found: NDArray[np.bool_] = np.greater(middle[:, 12:] @ weights, -(radius[:, 12:] / 2) @ np.abs(weights))
+    weights = charts / np.concatenate([[np.prod(axes)], axes])
+    values, reach = (
+        (numbers[:, 12:] * of).sum(axis=1) for numbers, of in ((middle, weights), (radius, np.abs(weights)))
+    )
+    found: NDArray[np.bool_] = np.greater(values, -reach / 2)
     return found

@@ -36,6 +36,7 @@ from pkm_exact.poses.jacobian import LEAST_PRECISION, pose_jacobians
 from pkm_exact.poses.leg_jacobian import LegJacobian
 from pkm_exact.poses.pose import Interval, Pose
 from pkm_exact.precision import working_precision
+from pkm_exact.solution import Solution
 from pkm_exact.stages import Watch
 
 CHARTS: Final = ((3, -1, 2, 1), (1, 2, -1, 3), (2, 3, 1, -1), (-1, 1, 3, 2), (5, -3, 1, 4), (1, 4, -5, -2))
@@ -82,6 +83,8 @@ class Charted:
         What is certified of them.
     poses : PosesInDoubles, optional
         Of the real ones.
+    answer : Solution, optional
+        What becomes of them.
     """
 
     system: ChartSystem
@@ -89,6 +92,7 @@ class Charted:
     boxes: DoubleBoxes
     isolated: IsolatedSolutions | None = None
     poses: PosesInDoubles | None = None
+    answer: Solution | None = None
 
     @property
     def problem(self) -> ForwardProblem:

@@ -104,6 +104,9 @@ def pose_jacobians(
     known : sequence of LegJacobian or None, optional
         Those that need not be looked for.
     """
+    at_once = [jacobian for jacobian in known or () if jacobian is not None]
+    if len(at_once) == len(ranks) == list(ranks).count(None):
+        return at_once
     length, full = characteristic_length(problem), problem.motion.dimension
     found: list[LegJacobian | None] = [
         before if rank is None or rank == full else LegJacobian(0, rank, _ZERO, None, length)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, Context, Decimal
 from fractions import Fraction
 from functools import lru_cache
+from itertools import repeat
 from math import inf, nextafter
 from typing import TYPE_CHECKING, ClassVar, Final, TypeAlias
 
@@ -48,7 +50,8 @@ class Interval:
 
     lo: Fraction
     hi: Fraction
-    _cell: ClassVar[Cell | None] = None
+    cell: ClassVar[Cell | None] = None
+    """What it was made of, if it is one on a grid."""
 
     def __post_init__(self) -> None:
         # As fractions compare, in a third of the time: answers have hundreds of intervals.
@@ -67,7 +70,7 @@ class Interval:
         True
         """
         found = object.__new__(cls)
-        object.__setattr__(found, "_cell", (low, high, exponent))
+        object.__setattr__(found, "cell", (low, high, exponent))
         return found
 
     @classmethod
@@ -79,11 +82,9 @@ class Interval:
         >>> [str(cell) for cell in Interval.cells([2, 4], [3, 6], 2)]
         ['1', '1']
         """
-        new, put, found = object.__new__, object.__setattr__, []
-        for low, high in zip(lows, highs, strict=True):
-            interval = new(cls)
-            put(interval, "_cell", (low, high, exponent))
-            found.append(interval)
+        found = list(map(object.__new__, repeat(cls, len(lows))))
+        # Nothing else is as quick, and answers have hundreds of intervals.
+        deque(map(object.__setattr__, found, repeat("cell"), zip(lows, highs, repeat(exponent), strict=False)), 0)
         return found
 
     if not TYPE_CHECKING:  # else any name would pass for an attribute
@@ -95,11 +96,6 @@ class Interval:
             *ends, exponent = self.cell
             value = self.__dict__[name] = Fraction(ends[name == "hi"], 1 << exponent)
             return value
-
-    @property
-    def cell(self) -> Cell | None:
-        """What it was made of, if it is one on a grid."""
-        return self._cell
 
     @property
     def width(self) -> Fraction:
