@@ -121,7 +121,7 @@ def rational(mode: Mode) -> tuple[Fraction, Fraction]:
     return mode.cos.p, mode.sin.p
 
 
-@pytest.mark.parametrize("which", ["one", pytest.param("all", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("which", ["one", pytest.param("all", marks=[pytest.mark.slow, pytest.mark.largest])])
 def test_forward_kinematics_contains_the_pose_in_all_modes(which: str) -> None:
     machine, joints, position = free_leg()
     assert [len(joint.modes) for joint in joints] == [2, 2, 4, 2]

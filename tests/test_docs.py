@@ -35,6 +35,8 @@ def _has_samples(page: Path) -> bool:
 SLOW = ("docs/cli.md", "docs/pictures.md", "docs/quickstart.md", "docs/tutorial.md")
 """Pages with many samples, all of them of commands that other pages run too."""
 
+LARGEST = "docs/formulations.md"
+
 
 def _is_slow(page: Path) -> bool:
     return any(block.is_slow for block in blocks(TEXTS[page]))
@@ -68,8 +70,14 @@ def test_the_samples_of_a_page_run(page: Path, run: Callable[..., None]) -> None
     run(page)
 
 
+def _with_slow_samples() -> Iterator[Any]:
+    for page in filter(_is_slow, PAGES):
+        name = _name(page)
+        yield pytest.param(page, id=name, marks=pytest.mark.largest if name == LARGEST else ())
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("page", [*filter(_is_slow, PAGES)], ids=_name)
+@pytest.mark.parametrize("page", [*_with_slow_samples()])
 def test_the_slow_samples_of_a_page_run(page: Path, run: Callable[..., None]) -> None:
     run(page, "--slow")
 

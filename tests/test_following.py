@@ -13,6 +13,7 @@ from pkm_exact.following.following_start import joint_values
 from pkm_exact.following.leg_ends import leg_ends, way_between
 
 MODELS = Path(__file__).parent.parent / "models"
+LARGEST = [pytest.mark.slow, pytest.mark.largest]
 KINDS = ["3-rpr-merlet-p", "3-rrr", "3-prr", "rolland-6-6", "hexa", "hexaglide", "mssm"]
 
 
@@ -79,7 +80,9 @@ def test_the_pose_is_in_a_box_of_the_certified_answer_for_the_same_doubles(name:
     assert found.position_bound < 1e-6
 
 
-@pytest.mark.parametrize("count", [200, pytest.param(10_000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "count", [200, pytest.param(1_000, marks=pytest.mark.slow), pytest.param(10_000, marks=LARGEST)]
+)
 def test_no_way_across_a_singularity_is_called_one_mode(count: int) -> None:
     """Ways between poses on both sides of det J = 0, and along it."""
     robot = Robot.load(MODELS / "3-rpr-merlet-p.toml")

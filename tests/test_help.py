@@ -24,6 +24,7 @@ PATH = "l1,l2,l3,l4,l5,l6\n1250,1250,1250,1250,1250,1250\n1250.5,1250,1250,1250,
 CUBE = "[region]\nposition = [[-9, 9], [-9, 9], [760, 780]]\nrpy_degrees = [0, 0, 0]\n"
 CUBE += "[conditions]\nno_type_2 = true\n[answer]\nkind = 'all'\n"
 SLOW = ("", "check", "compare", "formulations", "plot", "sweep")
+LARGEST = "formulations"
 NOT_HERE = ("tcp://", " view ")  # need a cluster, or a reader at the browser
 POSES = """x,y,theta,l1,l2,l3
 5,5,0,7.085,5.106,5.035
@@ -47,7 +48,11 @@ def _examples(command: click.Command) -> list[str]:
     return [line.strip() for line in block[1].splitlines()] if block else []
 
 
-EXAMPLES = [pytest.param(name, marks=pytest.mark.slow if name in SLOW else [], id=name or PROGRAM) for name in HELPS]
+def _marks(name: str) -> list[pytest.MarkDecorator]:
+    return [*([pytest.mark.slow] if name in SLOW else []), *([pytest.mark.largest] if name == LARGEST else [])]
+
+
+EXAMPLES = [pytest.param(name, marks=_marks(name), id=name or PROGRAM) for name in HELPS]
 
 
 @pytest.mark.parametrize("name", HELPS)

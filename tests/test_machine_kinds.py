@@ -292,7 +292,7 @@ def _is_quick(word: tuple[str, str]) -> bool:
 
 
 def _marks(name: str, word: tuple[str, str]) -> list[pytest.MarkDecorator]:
-    is_largest = name == "R-TCS" and word == ("freedoms", "5")
+    is_largest = name in ("CP-VS", "R-TCS") and word == ("freedoms", "5")
     return [] if _is_quick(word) else [pytest.mark.slow, *([pytest.mark.largest] if is_largest else [])]
 
 

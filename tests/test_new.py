@@ -12,6 +12,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from budgets import budget
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
@@ -216,7 +217,7 @@ def test_triangles_have_the_sides_asked_for(
 
 
 @pytest.mark.slow
-@settings(max_examples=60)
+@budget(10)
 @given(SIDES, SIDES, SIDES, SIDES, st.integers(1, 20), st.sampled_from(["6-UPS", "6-RUS", "6-PUS"]), st.integers(1, 8))
 def test_what_new_accepts_is_complete_and_at_home(
     p: Fraction, q: Fraction, a: Fraction, b: Fraction, height: int, kind: str, crank: int

@@ -41,6 +41,7 @@ def test_notebook_runs(notebook: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.largest
 def test_the_comparison_runs_on_all_formulations(tmp_path: Path) -> None:
     printed = _run(ROOT / "notebooks" / "compare_formulations.py", tmp_path, PKM_EXACT_QUICK="0")
     assert "all formulations give the same 16 boxes" in printed

@@ -48,6 +48,7 @@ LONGEST_FOR_THE_PLAIN_CHECKER = 500_000
 
 LARGEST = (
     "assur44",
+    "cpdm5",
     "cyclic-7",
     "d1",
     "discret3s",
@@ -55,6 +56,7 @@ LARGEST = (
     "filter9",
     "katsura-9",
     "kin1",
+    "kotsireas",
     "rabmo",
     "rbpl24",
     "stewgou40",
@@ -190,7 +192,9 @@ def test_random_systems(seed: int) -> None:
 
 @needs_msolve
 @pytest.mark.slow
-@pytest.mark.parametrize("first", range(12, 1012, 50))
+@pytest.mark.parametrize(
+    "first", [pytest.param(first, marks=pytest.mark.largest if first > 512 else []) for first in range(12, 1012, 50)]
+)
 def test_many_random_systems(first: int) -> None:
     for seed in range(first, first + 50):
         agree(seed)

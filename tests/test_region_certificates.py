@@ -363,7 +363,7 @@ def test_limits_without_rational_cosines_have_no_certificate(tmp_path: Path, cap
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("variables", [6, 3])
+@pytest.mark.parametrize("variables", [pytest.param(6, marks=pytest.mark.largest), 3])
 def test_long_numbers_are_charged_by_their_length(variables: int) -> None:
     """Six slides whose numbers have 600 digits: a determinant that nobody could wait for is not begun."""
     random = Random(variables)
