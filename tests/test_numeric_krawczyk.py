@@ -23,6 +23,7 @@ from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.reader import read_robot
 from pkm_exact.numeric import certification
 from pkm_exact.numeric import poses as numeric_poses
+from pkm_exact.numeric.box_order import in_order
 from pkm_exact.numeric.certification import GRIDS, isolated_solutions, nearest_box, refined
 from pkm_exact.numeric.certified_boxes import centre, certified
 from pkm_exact.numeric.chart_equations import ChartSystem
@@ -166,6 +167,24 @@ def test_reality_is_proved_never_guessed() -> None:
     lifted = replace(real, centre=tuple((part, 1) for part, _ in real.centre))
     assert certified(system, [flattened]) == [False]
     assert not lifted.is_disjoint(lifted.conjugate())
+
+
+@given(
+    st.lists(
+        st.builds(
+            Box,
+            st.tuples(st.integers(2, 4), st.integers(2, 4)),
+            st.tuples(*[st.tuples(st.integers(-3, 3), st.integers(-1, 1))] * 8),
+        ),
+        max_size=6,
+    )
+)
+def test_boxes_are_listed_by_their_centres_on_any_grids(boxes: list[Box]) -> None:
+    def centre(box: Box) -> list[Fraction]:
+        return [Fraction(part, 1 << box.exponent(k)) for k, pair in enumerate(box.centre) for part in pair]
+
+    assert list(map(centre, in_order(boxes))) == sorted(map(centre, boxes))
+    assert {Box(box.exponents, box.centre) for box in boxes} == set(boxes)
 
 
 def test_repeated_and_conjugate_points_give_each_solution_once() -> None:

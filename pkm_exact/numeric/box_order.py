@@ -33,8 +33,13 @@ def in_order(boxes: Iterable[Box]) -> list[Box]:
     listed = list(boxes)
     finest = [max((box.exponents[half] for box in listed), default=0) for half in (0, 1)]
 
+    def first(box: Box) -> tuple[int, int]:
+        shift, (a, b) = finest[0] - box.exponents[0], box.centre[0]
+        return a << shift, b << shift
+
     def centre(box: Box) -> list[tuple[int, int]]:
         shifts = [finest[half] - box.exponents[half] for half in (0, 1)]
         return [(a << shifts[k // 4], b << shifts[k // 4]) for k, (a, b) in enumerate(box.centre)]
 
-    return sorted(listed, key=centre)
+    # Mostly the first coordinate tells.
+    return sorted(listed, key=first if len(set(map(first, listed))) == len(listed) else centre)

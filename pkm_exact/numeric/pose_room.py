@@ -108,9 +108,10 @@ def _have_room(several: Sequence[Asked]) -> NDArray[np.bool_]:
 
 def _ends(poses: Sequence[Pose]) -> Real:
     """(p, 16, 2): those of position, rotation and quaternion, rounded."""
-    intervals = [interval for pose in poses for interval in (*pose.box, *pose.quaternion)]
-    cells = [interval.cell for interval in intervals]
+    parts = [part for pose in poses for part in (pose.position, *pose.rotation, pose.quaternion)]
+    cells = [interval.cell for part in parts for interval in part]
     if None in cells:
+        intervals = chain.from_iterable(parts)
         ends = np.array([(float(interval.lo), float(interval.hi)) for interval in intervals])
     else:
         flat = np.fromiter(chain.from_iterable(filter(None, cells)), np.float64, 3 * len(cells))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,9 @@ from pkm_exact.numeric.seeds import has_seeds, seeds_of_each
 from pkm_exact.numeric.start import SAME, StartSection
 from pkm_exact.numeric.study_system import Complex, Section, numeric_section, rational_coordinates, section_quadrics
 from pkm_exact.numeric.tracker import polished
+
+SEEDED: Final = 8
+"""Rows that go through the template together at most: they stay in the cache."""
 
 
 def rows_together(problems: Sequence[ForwardProblem], start: StartSection, width: Fraction) -> list[Charted | None]:
@@ -64,8 +67,10 @@ def _guesses(problems: Sequence[ForwardProblem], start: StartSection) -> dict[in
         found = {row: rational_coordinates(points[row], section) for row in rows}
     rest = [row for row in range(len(problems)) if row not in found]
     if rest and start.has_long_paths and has_seeds(problems[0]):
-        for row, seeded in zip(rest, seeds_of_each(legs[rest]), strict=True):
-            found[row] = without_conjugates(rational_coordinates(seeded, section))
+        few = [rest[first : first + SEEDED] for first in range(0, len(rest), SEEDED)]
+        seeded = [points for rows in few for points in seeds_of_each(legs[rows])]
+        for row, points in zip(rest, seeded, strict=True):
+            found[row] = without_conjugates(rational_coordinates(points, section))
     return found
 
 

@@ -27,6 +27,14 @@ class Box:
     exponents: tuple[int, int]
     centre: tuple[tuple[int, int], ...]
 
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        """What is known of a box is looked up several times in a solve."""
+        return hash((self.exponents, self.centre))
+
     @cached_property
     def is_real(self) -> bool:
         """Whether the box holds real points only: its centre is real."""

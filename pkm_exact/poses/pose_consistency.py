@@ -59,7 +59,7 @@ def require_consistent_jacobians(poses: Sequence[Pose], problem: ForwardProblem)
             wrong = "the rank of a Jacobian is out of range"
         elif sign not in ((1, -1) if has_signs else (None,)) if is_regular else sign != 0:
             wrong = "sign and rank of a Jacobian disagree"
-        elif not (jacobian.sigma_min.hi > 0) == is_regular == (jacobian.condition is not None):
+        elif not jacobian.sigma_min.is_above_zero == is_regular == (jacobian.condition is not None):
             wrong = "rank and singular values of a Jacobian disagree"
         elif multiplicity is not None and not (
             multiplicity == 1 if is_regular else multiplicity >= least_multiplicity(problem, rank)

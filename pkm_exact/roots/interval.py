@@ -98,6 +98,19 @@ class Interval:
             return value
 
     @property
+    def is_above_zero(self) -> bool:
+        """Whether a number of it is positive.
+
+        Examples
+        --------
+        >>> [Interval(Fraction(-1), Fraction(high)).is_above_zero for high in (0, 1)]
+        [False, True]
+        >>> Interval.on_grid(0, 1, 3).is_above_zero
+        True
+        """
+        return (self.hi if self.cell is None else self.cell[1]) > 0
+
+    @property
     def width(self) -> Fraction:
         """Difference of the ends."""
         return self.hi - self.lo
