@@ -14,6 +14,7 @@ from pkm_exact import engine
 from pkm_exact.algebra.representation import UnivariateRepresentation
 from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.certify.build import canonical_bytes, certificate
+from pkm_exact.claim import Claim
 from pkm_exact.completeness import infinity
 from pkm_exact.completeness.conditions import Conditions
 from pkm_exact.completeness.shared_boundary import SharedBoundary
@@ -284,6 +285,26 @@ def test_rows_of_a_robot_that_needs_an_elimination_have_one() -> None:
     name = "3-rpr-merlet-p"
     rows = RowSolver.of([shipped(name)], DEFAULT_WIDTH, Policy(), "exact")
     assert rows.solution(shipped(name)).statistics.primes == solved(name).statistics.primes
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "lengths",
+    [
+        "1568750 15613111/10 15576911/10 7814976/5 7798734/5 3134373/2",
+        "1565625 1563500 15576911/10 1568631 1561617 3129357/2",
+    ],
+)
+def test_guesses_on_the_boundary_of_rigid_motions_propose_nothing(lengths: str, monkeypatch: Patch) -> None:
+    """The template finds points with N(e) = 0 beside the poses of these rows: root of a product that is 0 or nearly."""
+    base, shared = shipped("mssm"), SharedRows()
+    assert solve_row(base, shared=shared).claim is Claim.COMPLETE
+    squares = map(Fraction, lengths.split())
+    legs = [replace(leg, length_squared=square) for leg, square in zip(base.distances, squares, strict=True)]
+    row = replace(base, constraints=tuple(legs))
+    monkeypatch.setattr(module._Refinement, "has", lambda *_: pytest.fail("bits are spent on what cannot be verified"))
+    answered = solve_row(row, shared=shared)
+    assert (answered.claim, answered.poses) == (Claim.COMPLETE, solve(row).poses)
 
 
 def test_a_wrong_proposal_without_an_elimination_is_no_answer(monkeypatch: Patch) -> None:

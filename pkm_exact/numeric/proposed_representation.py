@@ -308,8 +308,8 @@ class _Refinement:
         second = (relation[-2] << place) // relation[-1]
         return _Fixed(leading_coefficients(self.solutions, self.form, wanted, second, place), place)
 
-    def root_of_norms(self) -> arb:
-        """(prod N(e))^(1/2)."""
+    def root_of_norms(self) -> arb | None:
+        """(prod N(e))^(1/2); None if some N(e) is nearly 0."""
         return root_of_norms(self.solutions, self.norm, max(self.bits + self.margin, FIRST_BITS))
 
 
@@ -340,7 +340,12 @@ class _Fixed:
 
 
 def _proposed(refinement: _Refinement, bits: int, shared: PoseDenominators | None) -> UnivariateRepresentation | None:
-    """The representation, from solutions that are refined until denominators are found."""
+    """The representation, from solutions that are refined until denominators are found.
+
+    None as well if a point on the boundary of the rigid motions is among them: poses are wanted.
+    """
+    if refinement.root_of_norms() is None:
+        return None
     relation = None if shared is None else _relation_nearby(refinement, shared)
     boundary, scale = (None, 0) if relation is None or shared is None else (shared.boundary, shared.translation)
     if relation is None:
@@ -367,12 +372,17 @@ def _relation_nearby(refinement: _Refinement, shared: PoseDenominators) -> list[
     boundary = shared.boundary
     if boundary is None:
         return None
-    size = arb(boundary.numerator) / (refinement.root_of_norms() * boundary.denominator)
+    root = refinement.root_of_norms()
+    if root is None:
+        return None
+    size = arb(boundary.numerator) / (root * boundary.denominator)
     if not refinement.has(_bits_of(size) + shared.translation.bit_length() + SURE_BITS + FEW_BITS):
         return None
-    place = refinement.bits + refinement.margin
+    place, root = refinement.bits + refinement.margin, refinement.root_of_norms()
+    if root is None:
+        return None
     with working_precision(place + SURE_BITS):
-        leading = arb((boundary.numerator, place)) / (refinement.root_of_norms() * boundary.denominator)
+        leading = arb((boundary.numerator, place)) / (root * boundary.denominator)
     relation = refinement.relation()
     found = relation.times_fixed(fixed(leading, 0)).fractions(SURE_BITS)
     return found[0] if found is not None and found[0][-1] > 0 else None
@@ -431,6 +441,8 @@ def _translation_scale(refinement: _Refinement, relation: Sequence[fmpz]) -> int
 def _boundary(refinement: _Refinement, leading: fmpz) -> Fraction | None:
     """The leading coefficient of h times (prod N(e))^(1/2), if that is a fraction with few bits below."""
     root = refinement.root_of_norms()
+    if root is None:
+        return None
     with working_precision(refinement.bits + refinement.margin):
         value = root * leading
     bits = _bits_of(value)

@@ -8,12 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from flint import arb, fmpz, fmpz_poly
 
 from pkm_exact.geometry.study import Quadric
 from pkm_exact.numeric.refined_solutions import Point, RefinedSolutions
 from pkm_exact.precision import working_precision
+
+BOUNDARY: Final = arb(2) ** -64
+"""Where N(e) is a smaller part of its terms than this, a solution is taken for one on the boundary of rigid motions."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,13 +106,18 @@ def leading_coefficients(
     return found
 
 
-def root_of_norms(solutions: RefinedSolutions, norm: Quadric, bits: int) -> arb:
-    """The square root of the product of N(e) over all solutions, with about so many bits."""
+def root_of_norms(solutions: RefinedSolutions, norm: Quadric, bits: int) -> arb | None:
+    """The square root of the product of N(e) over all solutions, with about so many bits.
+
+    None if some N(e) is 0 but for roundings: of points on the boundary of the rigid motions.
+    """
     product = arb(1)
     with working_precision(bits):
         for number, point in enumerate(solutions.points):
             x = solutions.equations.coordinates(point)
             value = sum(coefficient * (x[k] * x[m]) for (k, m), coefficient in norm.items())
+            if not abs(value) > sum(coefficient * abs(x[k] * x[m]) for (k, m), coefficient in norm.items()) * BOUNDARY:
+                return None
             product *= value if number < solutions.count else value.real * value.real + value.imag * value.imag
         return product.sqrt()
 
