@@ -78,7 +78,7 @@ def solve_krawczyk(
 def with_answers(rows: Sequence[Charted | None], width: Fraction, policy: Policy) -> list[Charted | None]:
     """Rows of ``rows_together`` with their answers, which pass the last gate together.
 
-    If one of them does not, or is not complete, no row has an answer: each is solved by itself then, and says why.
+    If one of them does not, no row has an answer: each is solved by itself then, and says why.
     """
     known = [near for near in rows if near is not None and near.poses is not None]
     with suppress(PkmExactError):

@@ -10,6 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from pkm_exact.precision import working_precision
+from pkm_exact.roots.interval import Interval
 from pkm_exact.roots.isolation import (
     RealRoot,
     enclosures_near,
@@ -159,3 +160,11 @@ def test_a_disc_around_a_real_number_may_hold_two_conjugate_roots() -> None:
         ball.contains(root)
         for ball, root in zip(enclosures_near(h, [arb(1), arb(2), acb(0, small)], 100) or (), (1, 2), strict=True)
     ] == [True, True]
+
+
+def test_intervals_on_a_grid_have_two_ends_each_and_are_true() -> None:
+    """Lists of cells with gaps are told by their truth (``poses.boxes``)."""
+    assert all([Interval(Fraction(0), Fraction(0)), *Interval.cells([0, -1], [0, 0], 3)])
+    for ends in (([1, 2], [2]), ([1], [2, 3])):
+        with pytest.raises(ValueError, match="zip"):
+            Interval.cells(*ends, 3)

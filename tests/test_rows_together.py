@@ -44,7 +44,7 @@ def test_rows_are_answered_as_if_alone(name: str) -> None:
         assert (together.isolated, together.poses) == (alone.isolated, alone.poses)
 
 
-def test_of_rows_that_contradict_themselves_none_is_answered_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_of_rows_that_contradict_themselves_none_is_answered_at_once() -> None:
     """Each is solved by itself then, and the one that is wrong says so."""
     problems = _problems("3-rpr-merlet-p", 4)
     solver = RowSolver.of(problems, DEFAULT_WIDTH, Policy())

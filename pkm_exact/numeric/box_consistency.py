@@ -76,12 +76,13 @@ def _require_room(
     boxes: Sequence[Box], chart: Sequence[int], problem: ForwardProblem, decided: Sequence[bool] | None = None
 ) -> None:
     """A combination of legs and Study's condition, and the chart, can be satisfied in every box."""
-    combination = _combination(pose_quadrics(problem))
+    combination = None
     if decided is None:
+        combination = _combination(pose_quadrics(problem))
         (decided,) = _have_room([boxes], [chart], [combination])
     rest = [box for box, has_room in zip(boxes, decided, strict=True) if not has_room]
     if rest:
-        _require_room_in_integers(rest, chart, combination)
+        _require_room_in_integers(rest, chart, combination or _combination(pose_quadrics(problem)))
 
 
 def _have_room(

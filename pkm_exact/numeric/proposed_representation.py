@@ -344,9 +344,10 @@ def _proposed(refinement: _Refinement, bits: int, shared: PoseDenominators | Non
 
     None as well if a point on the boundary of the rigid motions is among them: poses are wanted.
     """
-    if refinement.root_of_norms() is None:
+    root = refinement.root_of_norms()
+    if root is None:
         return None
-    relation = None if shared is None else _relation_nearby(refinement, shared)
+    relation = None if shared is None else _relation_nearby(refinement, shared, root)
     boundary, scale = (None, 0) if relation is None or shared is None else (shared.boundary, shared.translation)
     if relation is None:
         relation = _relation(refinement, bits)
@@ -367,22 +368,19 @@ def _proposed(refinement: _Refinement, bits: int, shared: PoseDenominators | Non
     return replace(found, near=refinement.roots())
 
 
-def _relation_nearby(refinement: _Refinement, shared: PoseDenominators) -> list[fmpz] | None:
-    """h over Z by what is known from other lengths, with the bits that f will need."""
+def _relation_nearby(refinement: _Refinement, shared: PoseDenominators, root: arb) -> list[fmpz] | None:
+    """h over Z by what is known from other lengths, with the bits that f will need; the root is (prod N(e))^(1/2)."""
     boundary = shared.boundary
     if boundary is None:
-        return None
-    root = refinement.root_of_norms()
-    if root is None:
         return None
     size = arb(boundary.numerator) / (root * boundary.denominator)
     if not refinement.has(_bits_of(size) + shared.translation.bit_length() + SURE_BITS + FEW_BITS):
         return None
-    place, root = refinement.bits + refinement.margin, refinement.root_of_norms()
-    if root is None:
+    place, finer = refinement.bits + refinement.margin, refinement.root_of_norms()
+    if finer is None:
         return None
     with working_precision(place + SURE_BITS):
-        leading = arb((boundary.numerator, place)) / (root * boundary.denominator)
+        leading = arb((boundary.numerator, place)) / (finer * boundary.denominator)
     relation = refinement.relation()
     found = relation.times_fixed(fixed(leading, 0)).fractions(SURE_BITS)
     return found[0] if found is not None and found[0][-1] > 0 else None

@@ -82,9 +82,10 @@ class Interval:
         >>> [str(cell) for cell in Interval.cells([2, 4], [3, 6], 2)]
         ['1', '1']
         """
-        found = list(map(object.__new__, repeat(cls, len(lows))))
+        cells = list(zip(lows, highs, [exponent] * len(lows), strict=True))
+        found = list(map(object.__new__, repeat(cls, len(cells))))
         # Nothing else is as quick, and answers have hundreds of intervals.
-        deque(map(object.__setattr__, found, repeat("cell"), zip(lows, highs, repeat(exponent), strict=False)), 0)
+        deque(map(object.__setattr__, found, repeat("cell"), cells), 0)
         return found
 
     if not TYPE_CHECKING:  # else any name would pass for an attribute
