@@ -6,7 +6,9 @@ time only: what is proved lies on fixed grids, so that the answer has the same b
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import gc
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Final
@@ -79,7 +81,8 @@ class RowSolver:
         """What can be found of rows at once, for ``solution``."""
         if self.start is None or not self.is_numeric or len(problems) < 2:
             return [None] * len(problems)
-        return with_answers(rows_together(problems, self.start, self.width), self.width, self.policy)
+        with _without_collector():
+            return with_answers(rows_together(problems, self.start, self.width), self.width, self.policy)
 
     def solution(self, problem: ForwardProblem, near: Charted | None = None) -> Solution:
         """The answer to one row.
@@ -96,6 +99,18 @@ class RowSolver:
         if self.is_numeric:
             return solve_krawczyk(problem, width=self.width, policy=self.policy, start=self.start, near=near)
         return solve_exactly_instead(problem, width=self.width, policy=self.policy)
+
+
+@contextmanager
+def _without_collector() -> Iterator[None]:
+    """Nothing looks for cycles: there are none, and the intervals of many rows would be looked at a dozen times."""
+    is_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if is_enabled:
+            gc.enable()
 
 
 def _leads_on(start: StartSection, problems: Sequence[ForwardProblem]) -> bool:

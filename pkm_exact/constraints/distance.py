@@ -19,9 +19,23 @@ from pkm_exact.constraints.constraint import Linear, Role
 from pkm_exact.constraints.form import Form, Vector, form, outer, scaled
 
 
+@dataclass(frozen=True)
+class _Joints:
+    """What the form of a leg follows from, but for its length."""
+
+    metric: tuple[int, int, int]
+    base: Vector
+    platform: Vector
+
+    def __hash__(self) -> int:
+        # To hash fractions takes time: where two numbers do not tell legs apart, comparing them does.
+        return hash((self.base[0], self.platform[1]))
+
+
 @lru_cache(maxsize=64)
-def _form_of_joints(metric: tuple[int, int, int], base: Vector, platform: Vector) -> Form:
+def _form_of_joints(joints: _Joints) -> Form:
     """The form without the length: many robots differ in that alone."""
+    metric, base, platform = joints.metric, joints.base, joints.platform
     values = (*base, *platform)
     if not all(type(value) is Fraction for value in values):  # knees may be sums of square roots
         squares = sum((g * (a * a + b * b) for g, a, b in zip(metric, base, platform, strict=True)), Fraction(0))
@@ -77,7 +91,7 @@ class Distance(Linear):
 
     def forms(self, metric: tuple[int, int, int]) -> tuple[Form, ...]:
         """The hyperplane of the leg."""
-        without_length = _form_of_joints(metric, self.base, self.platform)
+        without_length = _form_of_joints(_Joints(metric, self.base, self.platform))
         return ((*without_length[:-1], without_length[-1] - self.length_squared),)
 
     def scales(self, metric: tuple[int, int, int], length: Fraction) -> tuple[Fraction, ...]:  # noqa: ARG002

@@ -50,8 +50,12 @@ class ForwardProblem:
 
     @cached_property
     def _hash(self) -> int:
-        """That of all its numbers: what is remembered of a problem is looked up several times in a solve."""
-        return hash((self.constraints, self.metric, self.motion))
+        """That of its values: what is remembered of a problem is looked up several times in a solve.
+
+        Robots with the same values are told apart as equal ones are. To hash fractions takes time, and a leg has seven.
+        """
+        values = [getattr(found, found.value_field) for found in self.constraints if found.value_field is not None]
+        return hash((*values, self.metric, self.motion.name, len(self.constraints)))
 
     @property
     def distances(self) -> tuple[Distance, ...]:

@@ -148,7 +148,7 @@ def _pose_quadrics(problem: ForwardProblem) -> tuple[tuple[Quadric, ...], tuple[
     kept = set(problem.motion.support)
 
     def restricted(quadric: Quadric) -> Quadric:
-        return {key: value for key, value in quadric.items() if set(key) <= kept}
+        return quadric if len(kept) == 8 else {key: value for key, value in quadric.items() if set(key) <= kept}
 
     condition = [restricted(STUDY_CONDITION)] if problem.motion.has_study_condition else []
     linear = [restricted(form_quadric(integral(form), problem.metric)) for form in problem.forms]

@@ -83,6 +83,8 @@ class ChartSystem:
     @cached_property
     def _placed(self) -> list[Quadric]:
         """The quadrics by places in the support."""
+        if self.support == tuple(range(self.size)):
+            return self.quadrics
         place = {index: position for position, index in enumerate(self.support)}
         return [{(place[k], place[m]): value for (k, m), value in quadric.items()} for quadric in self.quadrics]
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import groupby
+from itertools import groupby, repeat
 from math import inf
 from operator import itemgetter
 from typing import Any, Final, TypeAlias
@@ -68,9 +68,9 @@ class DoubleForms:
         OverflowError
             If a coefficient is too large for a double.
         """
-        places, (first, second) = _in_order(frozenset(place for polynomial in polynomials for place in polynomial))
+        places, (first, second) = _in_order(frozenset().union(*polynomials))
         powers = [max(max(values), -min(values)).bit_length() for values in (each.values() for each in polynomials)]
-        values = [polynomial.get(place, 0) for polynomial in polynomials for place in places]
+        values = [value for polynomial in polynomials for value in map(polynomial.get, places, repeat(0))]
         heads = np.array(values, dtype=np.float64)
         tails = np.zeros(len(values))
         for place in np.flatnonzero(np.abs(heads) >= EXACT).tolist():

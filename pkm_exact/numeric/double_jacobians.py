@@ -23,7 +23,7 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.constraints.form import ordinary
+from pkm_exact.constraints.form import ordinary, rounded
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.double_poses import DoubleCoordinates
 from pkm_exact.numeric.double_rounding import LARGE, OUTWARD, SMALL, gamma
@@ -93,7 +93,7 @@ def forms_of_each(problems: Sequence[ForwardProblem], length: Fraction) -> Real:
             # At other lengths of one robot it is the constants that differ.
             are_alike = [form[:-1] for form in problem.forms] == linear
             table = numbers.copy() if are_alike else _numbers(problem)
-            table[:, -1] = [float(form[-1]) for form in problem.forms]
+            table[:, -1] = rounded(form[-1] for form in problem.forms)
         scales = [size for constraint in problem.constraints for size in constraint.scales(problem.metric, length)]
         found.append(table / np.array([sqrt(size) for size in scales])[:, None])
     places = {key: place for place, key in enumerate(several)}
@@ -104,7 +104,7 @@ def forms_of_each(problems: Sequence[ForwardProblem], length: Fraction) -> Real:
 def _numbers(problem: ForwardProblem) -> Real:
     """(m, 17): the forms in ordinary coordinates."""
     roots = [sqrt(g) for g in problem.metric]
-    return np.array([ordinary([float(value) for value in form], roots) for form in problem.forms])
+    return np.array([ordinary(rounded(form), roots) for form in problem.forms])
 
 
 def _rows(problem: ForwardProblem, forms: Real, length: float, found: DoubleCoordinates) -> tuple[Real, Real]:

@@ -103,7 +103,7 @@ class _ExactPickler(ForkingPickler):
         if is_dataclass(value) and not isinstance(value, type):
             # A class that says what copies have is asked.
             own: Any = value.__getstate__() if "__getstate__" in type(value).__dict__ else {}
-            names = [field.name for field in fields(value)]
+            names = [field.name for field in fields(value) if field.init]
             return type(value), tuple(own[name] if name in own else getattr(value, name) for name in names)
         return NotImplemented
 

@@ -13,7 +13,7 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.constraints.form import SIZE
+from pkm_exact.constraints.form import SIZE, rounded
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.motions.motion import Motion
@@ -87,10 +87,9 @@ def _have_room(several: Sequence[Asked]) -> NDArray[np.bool_]:
     try:
         ends = _ends(poses)
         base, platform = (
-            np.array([[float(value) for value in getattr(leg, side)] for leg in problem.distances])
-            for side in ("base", "platform")
+            np.array([rounded(getattr(leg, side)) for leg in problem.distances]) for side in ("base", "platform")
         )
-        squares = np.array([[float(leg.length_squared) for leg in asked.distances] for _, asked, _ in several])[each]
+        squares = np.array([rounded(leg.length_squared for leg in asked.distances) for _, asked, _ in several])[each]
     except OverflowError:
         return np.zeros(len(poses), dtype=bool)
     axes, charts = np.sqrt(np.array(problem.metric, dtype=float)), np.array([chart for _, _, chart in several])[each]

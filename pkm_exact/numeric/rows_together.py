@@ -15,6 +15,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from pkm_exact.constraints.form import rounded
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.certification import add_far_solutions, isolated_solutions, without_conjugates
 from pkm_exact.numeric.chart_equations import ChartSystem
@@ -64,14 +65,21 @@ def _guesses(problems: Sequence[ForwardProblem], start: StartSection) -> dict[in
     section, legs = _sections(problems, start)
     if start.home is not None and len(start.home):
         points, rows = _solutions(section, legs, start.home, problems[0].solution_bound)
-        found = {row: rational_coordinates(points[row], section) for row in rows}
+        found = dict(zip(rows, _rational(list(points[rows]), section), strict=True))
     rest = [row for row in range(len(problems)) if row not in found]
     if rest and start.has_long_paths and has_seeds(problems[0]):
         few = [rest[first : first + SEEDED] for first in range(0, len(rest), SEEDED)]
         seeded = [points for rows in few for points in seeds_of_each(legs[rows])]
-        for row, points in zip(rest, seeded, strict=True):
-            found[row] = without_conjugates(rational_coordinates(points, section))
+        for row, points in zip(rest, _rational(seeded, section), strict=True):
+            found[row] = without_conjugates(points)
     return found
+
+
+def _rational(rows: Sequence[Complex], section: Section) -> list[Complex]:
+    """Rational coordinates of points of each row."""
+    if not rows:
+        return []
+    return np.split(rational_coordinates(np.concatenate(rows), section), np.cumsum([len(row) for row in rows])[:-1])
 
 
 def _with_poses(rows: Sequence[Charted | None], width: Fraction) -> list[Charted | None]:
@@ -92,7 +100,7 @@ def _sections(problems: Sequence[ForwardProblem], start: StartSection) -> tuple[
     unit = first.frames.unit
     if not all(_have_same_joints(problem, problems[0]) for problem in problems):
         return first, np.stack([numeric_section(problem, start.frames).legs for problem in problems])
-    squares = np.array([[float(leg.length_squared) for leg in problem.distances] for problem in problems])
+    squares = np.array([rounded(leg.length_squared for leg in problem.distances) for problem in problems])
     legs = np.repeat(first.legs[None], len(problems), axis=0)
     legs[..., -1] += (squares[0] - squares) / unit**2
     return first, legs

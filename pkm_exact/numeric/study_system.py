@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from pkm_exact.constraints.constraint import Role
 from pkm_exact.constraints.distance import Distance
-from pkm_exact.constraints.form import SIZE, Vector, in_frames
+from pkm_exact.constraints.form import SIZE, Vector, in_frames, rounded
 from pkm_exact.constraints.point_in_plane import Carries, InPlane
 from pkm_exact.geometry.problem import ForwardProblem, points
 from pkm_exact.geometry.study import STUDY_CONDITION, Quadric, motion_quadrics
@@ -89,9 +89,9 @@ def numeric_section(problem: ForwardProblem, frames: Frames | None = None) -> Se
     if not problem.has_only_distances or problem.motion not in (SPATIAL, PLANAR):
         return _general_section(problem, frames)
     scales = np.sqrt(np.array(problem.metric, dtype=float))
-    base = np.array([[float(value) for value in leg.base] for leg in problem.distances]) * scales
-    platform = np.array([[float(value) for value in leg.platform] for leg in problem.distances]) * scales
-    squares = np.array([float(leg.length_squared) for leg in problem.distances])
+    legs = problem.distances
+    base, platform = (np.array([rounded(getattr(leg, side)) for leg in legs]) * scales for side in ("base", "platform"))
+    squares = np.array(rounded(leg.length_squared for leg in legs))
     if frames is None:
         frames = _fitting_frames(base, platform, squares, scales)
     base, platform = (base - frames.base) / frames.unit, (platform - frames.platform) / frames.unit

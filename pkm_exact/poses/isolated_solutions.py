@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
+from operator import itemgetter
 
 RADIUS = 4
 """Half the width of a box, in units of its grid."""
@@ -11,7 +11,7 @@ ROOM = 2
 """Boxes must be mapped into what is this many times smaller: checkers round otherwise, and need some room."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Box:
     """A box around a solution (e, f), in the chart of the list it belongs to.
 
@@ -22,23 +22,22 @@ class Box:
         ``RADIUS`` times that, real and imaginary parts each.
     centre : tuple of 8 pairs of int
         Real and imaginary parts.
+    is_real : bool
+        Whether the box holds real points only: its centre is real.
     """
 
     exponents: tuple[int, int]
     centre: tuple[tuple[int, int], ...]
+    is_real: bool = field(init=False, repr=False, compare=False)
+    _hash: int = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        # Both are asked for several times in a solve.
+        object.__setattr__(self, "is_real", not any(map(itemgetter(1), self.centre)))
+        object.__setattr__(self, "_hash", hash((self.exponents, self.centre)))
 
     def __hash__(self) -> int:
         return self._hash
-
-    @cached_property
-    def _hash(self) -> int:
-        """What is known of a box is looked up several times in a solve."""
-        return hash((self.exponents, self.centre))
-
-    @cached_property
-    def is_real(self) -> bool:
-        """Whether the box holds real points only: its centre is real."""
-        return all(imaginary == 0 for _, imaginary in self.centre)
 
     def exponent(self, index: int) -> int:
         """The exponent of coordinate number 0 to 7."""

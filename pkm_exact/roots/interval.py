@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_CEILING, Context, Decimal
 from fractions import Fraction
 from functools import lru_cache
 from itertools import repeat
 from math import inf, nextafter
-from typing import TYPE_CHECKING, ClassVar, Final, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 DIGITS_OF_EXACT: Final = 15
 """Decimals shown of a number that is known exactly."""
@@ -23,7 +23,7 @@ Cell: TypeAlias = tuple[int, int, int]
 Ends: TypeAlias = tuple[int, int] | tuple[Fraction, Fraction]
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, slots=True)
 class Interval:
     """A closed interval with rational ends; ``lo == hi`` means that the value is known exactly.
 
@@ -50,7 +50,7 @@ class Interval:
 
     lo: Fraction
     hi: Fraction
-    cell: ClassVar[Cell | None] = None
+    cell: Cell | None = field(default=None, init=False, compare=False)
     """What it was made of, if it is one on a grid."""
 
     def __post_init__(self) -> None:
@@ -95,7 +95,8 @@ class Interval:
             if name not in ("lo", "hi") or self.cell is None:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
             *ends, exponent = self.cell
-            value = self.__dict__[name] = Fraction(ends[name == "hi"], 1 << exponent)
+            value = Fraction(ends[name == "hi"], 1 << exponent)
+            object.__setattr__(self, name, value)
             return value
 
     @property
