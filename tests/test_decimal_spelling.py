@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+from copy import copy
 from fractions import Fraction
 
 from budgets import budget
@@ -19,3 +21,6 @@ def test_cells_are_written_as_fractions_are(low: int, width: int, exponent: int)
     plain = Interval(Fraction(low, 1 << exponent), Fraction(low + width, 1 << exponent))
     assert plain.cell is None
     assert (decimal(cell), ends(cell)) == (decimal(plain), ends(plain))
+    for interval in (cell, plain):
+        copies = copy(interval), pickle.loads(pickle.dumps(interval))  # noqa: S301
+        assert [(other.lo, other.hi, other.cell) for other in copies] == [(plain.lo, plain.hi, interval.cell)] * 2

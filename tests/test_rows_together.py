@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import pickle
 from dataclasses import replace
 from fractions import Fraction
 from random import Random
@@ -14,6 +16,7 @@ from samples import model
 from pkm_exact.batch.row_solver import RowSolver
 from pkm_exact.errors import InternalContradictionError
 from pkm_exact.geometry.problem import ForwardProblem
+from pkm_exact.geometry.study import pose_quadrics
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_jacobians import forms_of_each
 from pkm_exact.numeric.double_krawczyk import DoubleEquations
@@ -22,6 +25,7 @@ from pkm_exact.numeric.rows_together import rows_together
 from pkm_exact.numeric_engine import solve_krawczyk, with_answers
 from pkm_exact.policy import Policy
 from pkm_exact.poses.boxes import DEFAULT_WIDTH
+from pkm_exact.poses.isolated_solutions import Box
 
 ROBOTS = ["3-rpr-merlet-p", *(pytest.param(n, marks=pytest.mark.slow) for n in ("mourrain-l", "rolland-6-6", "6-6pp"))]
 
@@ -42,6 +46,47 @@ def test_rows_are_answered_as_if_alone(name: str) -> None:
     for problem, near in zip(problems, found, strict=True):
         together, alone = solver.solution(problem, near), solve_krawczyk(problem)
         assert (together.isolated, together.poses) == (alone.isolated, alone.poses)
+
+
+def test_the_collector_of_cycles_waits_for_rows_and_is_left_as_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
+    problems = _problems("3-rpr-merlet-p", 3)
+    solver = RowSolver.of(problems, DEFAULT_WIDTH, Policy())
+    seen: list[bool] = []
+
+    def looks(*_arguments: object) -> list[None]:
+        seen.append(gc.isenabled())
+        raise OverflowError
+
+    monkeypatch.setattr("pkm_exact.batch.row_solver.rows_together", looks)
+    with pytest.raises(OverflowError):
+        solver.near(problems)
+    assert seen == [False]
+    assert gc.isenabled()
+    gc.disable()
+    try:
+        with pytest.raises(OverflowError):
+            solver.near(problems)
+        assert not gc.isenabled()
+    finally:
+        gc.enable()
+
+
+def test_boxes_know_whether_they_are_real() -> None:
+    centre = ((3, 0), *[(k, 0) for k in range(7)])
+    real, other = Box((31, 31), centre), Box((31, 31), (*centre[:-1], (6, -1)))
+    assert (real.is_real, other.is_real, replace(other, centre=centre)) == (True, False, real)
+    assert {real: 1, other: 2}[pickle.loads(pickle.dumps(other))] == 2  # noqa: S301
+
+
+def test_robots_with_the_same_lengths_are_told_apart() -> None:
+    """A problem is looked up by its lengths, a leg by two numbers: others must not be taken for them."""
+    problem = _problems("3-rpr-merlet-p", 1)[0]
+    first, *legs = problem.distances
+    moved = replace(first, platform=(first.platform[0] + 1, *first.platform[1:]))
+    other = ForwardProblem((moved, *legs), problem.metric, problem.motion)
+    assert (hash(other), other == problem) == (hash(problem), False)
+    assert [pose_quadrics(entry)[0] == pose_quadrics(problem)[0] for entry in (problem, other)] == [True, False]
+    assert moved.forms(problem.metric) != first.forms(problem.metric)
 
 
 def test_of_rows_that_contradict_themselves_none_is_answered_at_once() -> None:
