@@ -93,6 +93,35 @@ def no_motion() -> Content:
     return single(_robot(subject("not proven complete"), SIX, platform, squares), e, f)
 
 
+def no_motion_far_from_integers() -> Content:
+    """The root is -10, e = (1, 0, 0, 0) and e.f = 1: less than the value of h at the integer -1, 9."""
+    f = (1, 1, 2, 20)
+    return _unturned(ROOT + 10, f, [_constant(x) for x in f], (-10, 0, 0, 0, 0, 0, 0, 0))
+
+
+def too_long_and_0_at_an_integer() -> Content:
+    """At the root, 0, f3 = t + 1 is 1. The lengths are those without it; at the integer -1 it is 0 indeed."""
+    f = (0, 1, 2, 0)
+    return _unturned(ROOT, f, [*map(_constant, f[:3]), ROOT + 1], [0] * 8)
+
+
+def _unturned(h: fmpq_poly, f: Numbers, numerators: Sequence[Any], form: Sequence[int]) -> Content:
+    """One rational pose with e = (1, 0, 0, 0): legs have the forms of their lengths at f."""
+    e = (1, 0, 0, 0)
+    content = _robot(subject("not proven complete"), SIX, SIX[::-1], squares_at(SIX, SIX[::-1], e, f))
+    content = _with(content, h, e, [*map(_constant, e), *numerators], form)
+    content["box_exponent"] = 31
+    fit_real_poses(content, 1)
+    return content
+
+
+def no_two_motions(*others: Any) -> Content:
+    """Joints of the platform in one point, e = f = (2 t, -2, ..): all legs have their lengths, but e.f = N(e)."""
+    e = [2 * ROOT, -2 * ONE, *others]
+    content = held(ROOT * ROOT + 1, (1, 0, 0, 0), e, e, (0, 1, 0, 0, 0, 0, 0, 0))
+    return {**content, "configuration": {"name": None, "lengths_squared": ["26"] * 6}}
+
+
 def single(content: Content, e: Numbers, f: Numbers) -> Content:
     """One rational pose, the root of t, in the chart of its first coordinate that is not 0; called simple."""
     place = next(k for k, x in enumerate(e) if x)
@@ -138,9 +167,26 @@ POSES: dict[str, Case] = {
         )
         for name, less in (("e0", 1), ("e3", 0), ("f0", 0), ("f1", 0), ("f2", 0), ("f3", 0))
     },
+    "f3 has the degree of h, and 0 at an integer": (
+        too_long_and_0_at_an_integer,
+        "rejected",
+        "representation",
+    ),
     "no first prime tells the roots apart": (lambda: with_roots_alike(FIRST_PRIMES), "accepted", ""),
     "only the last prime tells the roots apart": (lambda: with_roots_alike(LAST_PRIMES), "accepted", ""),
     "e.f is not 0": (no_motion, "rejected", "motion: e.f"),
+    "e.f is not 0, and smaller than h at an integer": (no_motion_far_from_integers, "rejected", "motion: e.f"),
+    # At -2, -1 and 0, e.f is 69, 29, 29 and 5, 5, 13 times t^2 + 1.
+    "e.f is not 0, the same multiple of h at all integers but the first": (
+        lambda: no_two_motions(10 * ROOT + 5, 5 * ROOT),
+        "rejected",
+        "motion: e.f",
+    ),
+    "e.f is not 0, the same multiple of h at all integers but the last": (
+        lambda: no_two_motions(-2 * ROOT - 3, ROOT),
+        "rejected",
+        "motion: e.f",
+    ),
     **{
         f"a planar robot with {name}": (
             lambda e=e, f=f: out_of_plane(e, f),  # type: ignore[misc]

@@ -10,15 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from hashlib import sha256
-from math import gcd
-from typing import Final
+from math import gcd, prod
+from typing import Any, Final
 
 from flint import fmpz, fmpz_poly, nmod_poly
 from flint.utils.flint_exceptions import DomainError
 
 from pkm_exact.certify.checker.budget import charge, limbs, polynomials_cost
 from pkm_exact.certify.checker.document import Representation
-from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, Motion, combination, leg_form, motion
+from pkm_exact.certify.checker.quadrics_at_roots import are_multiples, integers_beside, quadrics_cost, values_at
+from pkm_exact.certify.checker.study_motion import PLANAR_LEGS, Leg, Metric, combination, leg_form, motion
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
 
 PRIMES: Final = tuple((1 << 63) - offset for offset in (25, 165, 259, 301, 375, 387))
@@ -80,41 +81,38 @@ def check_distinct(representation: Representation) -> Iterator[str]:
 
 
 def check_poses(representation: Representation, legs: Sequence[Leg], metric: Metric) -> Iterator[str]:
-    """At every root of h: e.f = 0, N(e) is not 0, and the six legs have their lengths."""
+    """At every root of h: e.f = 0, N(e) is not 0, and the six legs have their lengths. Degrees were checked before.
+
+    The entries of E have most of the denominator in common: without it numbers are shorter by a third.
+    """
     h0 = primitive_part(representation.eliminant)
     e, f = representation.quaternion, representation.translation
     if len(legs) == PLANAR_LEGS and any((e[1], e[2], f[0], f[3])):
         raise rejected("motion: e1, e2, f0 and f3 are not all 0, but the robot is planar")
     forms = [*_without_squares([leg_form(leg, metric) for leg in legs])]
-    charge_products(representation, 60 + len(legs) * limbs(_bits(forms)))
-    placed, turn, shift = primitive_motion(representation, metric)
-    if not vanishes(placed.study, h0):
+    places, divisors = integers_beside(h0)
+    charge(sum(map(_content_cost, e)))
+    common = gcd(*(int(value.content()) for value in e))
+    primitive = [value / common for value in e]
+    turn, shift = ([values_at(places, value) for value in part] for part in (primitive, f))
+    charge(quadrics_cost([*turn, *shift], [*forms, [prod(metric)]], common))
+    placed = motion(turn, shift, metric)
+    if not are_multiples(placed.study, divisors):
         raise rejected("motion: e.f is not 0 at every root of the eliminant")
-    if not proved_coprime(h0, lambda p: modulo(placed.norm, p)):
+    if not proved_coprime(h0, lambda p: _norm([modulo(value, p) for value in primitive], metric)):
         raise rejected("motion: not proved that N(e) is nowhere 0")
     yield "motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
     *coordinates, square = placed.coordinates()
     for number, (*form, squares) in enumerate(forms, 1):
-        value = turn * combination(form[:10], coordinates[:10]) + shift * combination(form[10:], coordinates[10:])
-        if not vanishes(turn * value + shift**2 * squares * square if squares else value, h0):
+        value = common * combination(form[:10], coordinates[:10]) + combination(form[10:], coordinates[10:])
+        if not are_multiples(common * value + squares * square if squares else value, divisors):
             raise rejected(f"legs: leg {number} does not have its length at every solution")
     yield f"legs: all {len(legs)} have their lengths at every solution"
 
 
-def primitive_motion(representation: Representation, metric: Metric) -> tuple[Motion, int, int]:
-    """The quantities of (E, F), with E and F each divided by a number, and the two numbers.
-
-    The entries of E have most of the denominator in common: without it numbers are shorter by a third.
-    """
-    e, f = (
-        gcd(*(int(value.content()) for value in part))
-        for part in (representation.quaternion, representation.translation)
-    )
-    quaternion, translation = (
-        [fmpz_poly([coefficient // size for coefficient in value.coeffs()]) for value in part]
-        for size, part in ((e, representation.quaternion), (f, representation.translation))
-    )
-    return motion(quaternion, translation, metric), e, f
+def _norm(e: Sequence[nmod_poly], metric: Metric) -> Any:
+    """N(e) modulo a prime."""
+    return combination((prod(metric), *metric), [value * value for value in e])
 
 
 def _without_squares(forms: Sequence[Sequence[int]]) -> Iterator[Sequence[int]]:
@@ -143,10 +141,6 @@ def algebraic_cost(factor: fmpz_poly, representation: Representation, degree: in
     return 4 * polynomials_cost(2 * int(factor.length()), degree * words)
 
 
-def _bits(forms: Sequence[Sequence[int]]) -> int:
-    return max(abs(value).bit_length() for form in forms for value in form)
-
-
 def proved_coprime(h0: fmpz_poly, image: Callable[[int], nmod_poly]) -> bool:
     """Whether h0 is coprime, modulo one of the primes, to a polynomial over Z that is given by its images."""
     usable = (p for p in primes_for(h0) if int(h0.leading_coefficient()) % p)
@@ -171,7 +165,7 @@ def primes_for(h: fmpz_poly) -> Iterator[int]:
 def modulo(polynomial: fmpz_poly, p: int) -> nmod_poly:
     """The image of a polynomial modulo a prime."""
     charge(int(polynomial.length()) * (500 + 20 * limbs(int(polynomial.height_bits()))))
-    return nmod_poly([int(coefficient) % p for coefficient in polynomial.coeffs()], p)
+    return nmod_poly(polynomial, p)
 
 
 def vanishes(value: fmpz_poly, h0: fmpz_poly) -> bool:
