@@ -73,12 +73,24 @@ def _turned(h: fmpz_poly) -> Content:
     return content
 
 
+def _crowded() -> fmpz_poly:
+    """Six roots around 4/3, 2^-11 / 3 away and more: the values between them are less than what they are rounded by."""
+    x = fmpz_poly([-4, 3])
+    u = x * (1 << 11)
+    return x * (u**2 - 1) * (u**2 + 1) * (u**2 + 2)
+
+
 def _steep() -> fmpz_poly:
     """T^6 less all that keeps a bound of its roots, by powers of 2, at 32; the largest is 18."""
     return fmpz_poly([*(-(isqrt(2 ** (7 * i)) - 1) for i in range(6, 1, -1)), 0, 1])
 
 
 ROOTS: dict[str, Case] = {
+    "a root amid six others, where values are rounded by more than they are": (lambda: _turned(_crowded()), ACCEPTED),
+    "roots on both sides of 1, where the slope is 0 and an interval ends": (
+        lambda: _turned((1 << 40) * fmpz_poly([-1, 1]) ** 2 - 1),
+        ACCEPTED,
+    ),
     "a root above half of its bound": (lambda: _turned(_steep()), ACCEPTED),
     "a root 2^-40 beside 2^-40 + 2^-50": (
         lambda: _turned(fmpz_poly([-1, 1 << 40]) * fmpz_poly([-1025, 1 << 50]) * fmpz_poly([-2, 0, 1])),

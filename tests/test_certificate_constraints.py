@@ -19,6 +19,7 @@ from pkm_exact.certify.build import canonical_bytes, certificate
 from pkm_exact.certify.certified_machine import certified_machine, certified_problem, certified_squares
 from pkm_exact.certify.check import check_bytes
 from pkm_exact.certify.legs_view import legs_view
+from pkm_exact.constraints.point_in_plane import InPlane
 from pkm_exact.engine import solve
 from pkm_exact.geometry.mechanism import Mechanism
 from pkm_exact.geometry.problem import ForwardProblem
@@ -99,6 +100,16 @@ def test_contradictory_constraints_are_certified() -> None:
     redundant = solve(machine.problem(machine.configuration()))
     content = certificate(machine, "home", redundant)
     assert (content["claim"], content["complex_solutions"]) == ("complete", 8)
+    _accepted(content)
+
+
+def test_a_point_in_two_parallel_planes_is_nowhere() -> None:
+    # 1 is among the linear forms, and without it the others have poses.
+    zero, one = Fraction(0), Fraction(1)
+    planes = tuple(InPlane((zero, zero, one), offset, (zero, zero, zero), name=str(offset)) for offset in (zero, one))
+    machine = Mechanism("parallel planes", "1", "made up", planes, motion=three_rps().motion)
+    content = certificate(machine, "home", solve(machine.problem(machine.configuration())))
+    assert (content["claim"], content["completeness_route"]) == ("inconsistent", "modular-rank")
     _accepted(content)
 
 

@@ -9,10 +9,14 @@ from random import Random
 import pytest
 from campaign import model
 from certificate_tools import canonical_bytes, golden, sealed
+from flint import fmpz_poly
 
 from pkm_exact import solve
 from pkm_exact.certify import check, pure
 from pkm_exact.certify.build import certificate_bytes
+from pkm_exact.certify.checker.budget import Budget, spending
+from pkm_exact.certify.checker.descartes import real_roots
+from pkm_exact.certify.checker.realposes import parameter_cells
 from pkm_exact.geometry.reader import robot_from_toml
 from pkm_exact.geometry.robot import Robot
 
@@ -49,6 +53,18 @@ def test_an_elimination_with_long_coefficients_needs_half_of_the_work_allowed() 
     answer, work = pure.check_counted(data)
     assert (answer.status, answer.lines) == (verdict.status, verdict.lines)
     assert 2 * work.spent <= work.allowed
+
+
+def test_a_close_pair_of_roots_is_told_apart_bit_by_bit_with_little_work() -> None:
+    """Each root was narrowed anew from its middle for every second bit of the grid that tells two of them apart."""
+    h = fmpz_poly([0, 1]) * fmpz_poly([-1, 1 << 400])
+    for k in range(10):
+        h *= fmpz_poly([-3 - k, 3])
+    budget = Budget(10**6)
+    with spending(budget):
+        _, exponent = parameter_cells(h, real_roots(h))
+    assert exponent == 400
+    assert budget.spent < 15 * 10**7
 
 
 def test_a_step_that_would_take_minutes_is_not_begun() -> None:

@@ -3,7 +3,8 @@
 The number of roots of a polynomial q of degree D between 0 and 1 is at most the number of changes of sign in the
 coefficients of (1 + x)^D q(1 / (1 + x)), and differs from it by an even number. So 0 and 1 are certain; intervals with
 more are halved (Collins and Akritas 1976). Halving ends if no root is multiple. An interval with one root is narrowed
-by Newton's operator in ball arithmetic, X -> c - h(c) / h'(X), which loses no root, and by exact signs otherwise.
+by exact signs beside where Newton's method leads to from its middle; where that leads nowhere, by Newton's operator in
+ball arithmetic, X -> c - h(c) / h'(X), which loses no root, and by further signs.
 
 The roots of a polynomial in T^m are the m-th roots of those of a polynomial whose degree is m times smaller.
 """
@@ -31,6 +32,10 @@ GUARD: Final = 64
 FIRST_STEP: Final = 3
 LAST_STEP: Final = 48
 """Exponents of how much narrower an interval is tried to be made at once."""
+NEARLY: Final = 256
+"""Times by which an interval is too wide from which on Newton's method is followed from its middle."""
+MOST_STEPS: Final = 16
+"""Steps of Newton's method that are tried before anything else."""
 
 
 class RealRoot:
@@ -52,9 +57,34 @@ class RealRoot:
         """Make the interval no wider than 2^-bits."""
         width = fmpq(1, fmpz(1) << bits)
         self._bits = max(self._bits, bits + GUARD)
+        if self.high - self.low > NEARLY * width:  # a few bits are found sooner from an end
+            self._follow(bits)
         while self.high - self.low > width:
             if not self._newton():
                 self._approach()
+
+    def _follow(self, bits: int) -> None:
+        """Cut where Newton's method leads from the middle, or in halves where it leads out, and at last closely."""
+        terms, words = self._size
+        small = arb(fmpq(1, fmpz(1) << bits // 2 + 2))
+        place = (self.low + self.high) / 2
+        for _ in range(MOST_STEPS):
+            charge(20000 + 3 * terms * (ball_cost(limbs(self._bits)) + 3 * words))
+            with ctx.workprec(self._bits):
+                there = arb(place)
+                value = self._h(there)
+                step = value / self._slope(there)
+                image = (there - step).mid()
+            if not value.contains(0):
+                self._cut(place, value)
+            place = fmpq(*dyadic(image)) if image.is_finite() else self.low
+            if not self.low < place < self.high:
+                place = (self.low + self.high) / 2
+            elif abs(step) < small:
+                break
+        self._guess = place
+        self._step = int(((self.high - self.low) * (fmpz(1) << bits + 2)).floor()).bit_length()
+        self._approach()
 
     def _approach(self) -> None:
         """Cut closely around where Newton's method points to, more closely each time it is right; or else in halves."""
@@ -109,7 +139,10 @@ class RealRoot:
 
     def _split(self, place: fmpq) -> None:
         """Cut the interval at a place within it."""
-        value = self._value(place)
+        self._cut(place, self._value(place))
+
+    def _cut(self, place: fmpq, value: arb | fmpq) -> None:
+        """Cut the interval at a place within it, with the value there or an enclosure of it without 0."""
         if value == 0:
             self.low = self.high = place
         elif (value < 0) == self._rises:
@@ -134,10 +167,10 @@ def _words(value: fmpq) -> int:
     return limbs(int(value.height_bits()))
 
 
-def dyadic(value: arb) -> tuple[fmpz, fmpz]:
-    """Numerator and denominator of an exact dyadic number."""
+def dyadic(value: arb, shift: int = 0) -> tuple[fmpz, fmpz]:
+    """Numerator and denominator of an exact dyadic number times a power of 2."""
     mantissa, exponent = value.man_exp()
-    power = int(exponent)
+    power = int(exponent) + shift
     return (mantissa << power, fmpz(1)) if power >= 0 else (mantissa, fmpz(1) << -power)
 
 

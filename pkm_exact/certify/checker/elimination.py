@@ -13,26 +13,24 @@ among those that are as high over Q.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
 from itertools import count, product
-from math import lcm, prod
+from math import prod
 from operator import add, le
 from typing import TypeAlias
 
-from flint import fmpq, fmpz, nmod_mat
+from flint import fmpz, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import pivots_of, reduced_rows
-from pkm_exact.certify.checker.section import section
+from pkm_exact.certify.checker.section import Monomial, Polynomial, section
 from pkm_exact.certify.checker.study_motion import Leg, Metric
 from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_ENTRIES, MAX_ELIMINATION_TERMS, rejected, too_large
 
-Monomial: TypeAlias = tuple[int, ...]
-Polynomial: TypeAlias = dict[Monomial, int]
 Row: TypeAlias = tuple[int, tuple[int, ...]]
 """A product: index of an element, from 0, and the indices of the unknowns that multiply it."""
 
@@ -137,7 +135,7 @@ class Steps:
 def eliminate(legs: Sequence[Leg], metric: Metric, steps: Sequence[Sequence[Row]]) -> Steps:
     """The steps, for a robot with legs."""
     size, quadrics = section(legs, metric)
-    return Steps(size, echelon([integers(quadric) for quadric in quadrics]), steps)
+    return Steps(size, echelon(quadrics), steps)
 
 
 def _limit_terms(number: int) -> None:
@@ -145,14 +143,6 @@ def _limit_terms(number: int) -> None:
     if number > MAX_ELIMINATION_TERMS:
         raise too_large(f"elimination: more than {MAX_ELIMINATION_TERMS} terms")
     charge(_TERM * number)
-
-
-def integers(terms: Mapping[Monomial, fmpq]) -> Polynomial:
-    """A multiple with integer coefficients."""
-    words = limbs(max(int(value.height_bits()) for value in terms.values()))
-    charge(len(terms) * (2000 + 4 * words * words))
-    denominator = lcm(*(int(value.q) for value in terms.values()))
-    return {monomial: int(value * denominator) for monomial, value in terms.items()}
 
 
 def _order(monomial: Monomial) -> tuple[int, ...]:

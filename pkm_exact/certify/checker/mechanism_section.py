@@ -13,16 +13,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from itertools import chain, combinations
+from math import lcm
 from random import Random
 from typing import Final, NamedTuple, TypeAlias
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz_mat, fmpz_poly, nmod, nmod_mat
+from flint import fmpz_mat, fmpz_mpoly, fmpz_poly, nmod, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge
-from pkm_exact.certify.checker.elimination import Polynomial, echelon
-from pkm_exact.certify.checker.elimination import integers as over_integers
-from pkm_exact.certify.checker.mechanism_forms import SIZE, Form, Mechanism, Row, cleared, matrix
-from pkm_exact.certify.checker.section import ORDER, Terms, motion_quadrics
+from pkm_exact.certify.checker.elimination import echelon
+from pkm_exact.certify.checker.mechanism_forms import SIZE, Mechanism, Row, cleared, matrix
+from pkm_exact.certify.checker.section import RING, Polynomial, motion_quadrics, substituted, terms_of, unknown_powers
 from pkm_exact.certify.checker.solutions import primes_for
 from pkm_exact.certify.checker.study_motion import Metric
 
@@ -67,7 +67,7 @@ class Section:
         forms = [*mechanism.integral, *mechanism.vanishing]
         while True:
             self.free, polynomials = _substituted(mechanism, forms)
-            self.elements = echelon([over_integers(terms) for terms in polynomials])
+            self.elements = echelon(polynomials)
             if self.is_empty or not (found := [e for e in self.elements if _degree(e) == 1]):
                 return
             forms += [self._as_form(element) for element in found]
@@ -95,7 +95,7 @@ def _degree(element: Polynomial) -> int:
     return sum(next(iter(element)))
 
 
-def _substituted(mechanism: Mechanism, forms: Sequence[Row]) -> tuple[list[int], list[Terms]]:
+def _substituted(mechanism: Mechanism, forms: Sequence[Row]) -> tuple[list[int], list[Polynomial]]:
     """The unknowns that some forms leave, and the quadrics in them."""
     size = SIZE - 1
     charge(10**7 + 10**5 * len(forms))
@@ -103,30 +103,23 @@ def _substituted(mechanism: Mechanism, forms: Sequence[Row]) -> tuple[list[int],
     solved, lead, rank = matrix(ordered).rref() if ordered else (fmpz_mat(1, SIZE), 1, 0)
     pivots = [next(j for j in range(SIZE) if solved[row, j] != 0) for row in range(rank)]
     free = [j for j in range(size) if j not in pivots]
-    ring = fmpq_mpoly_ctx.get(tuple(ORDER[j] for j in free), Ordering.degrevlex)
     if size in pivots:
-        return free, [{(0,) * len(free): fmpq(1)}]
-    values: list[fmpq_mpoly] = [ring.constant(1)] * size
-    for j, unknown in zip(free, ring.gens(), strict=True):
-        values[j] = unknown
-    units = [(j, tuple(int(j == other) for other in free)) for j in (*free, size)]
-    for row, pivot in enumerate(pivots):
-        values[pivot] = ring.from_dict({unit: fmpq(-solved[row, j], lead) for j, unit in units})
+        return free, [{(0,) * len(free): 1}]
+    values = substituted(solved, lead, pivots, free)
     quadrics = motion_quadrics(values, mechanism.metric)
-    everything = [*values, ring.constant(1)]
 
-    def at(form: Form) -> fmpq_mpoly:
-        total = ring.constant(0)
-        for place, value in zip(_TO_ORDER, everything, strict=True):
-            total += fmpq(form[place].numerator, form[place].denominator) * value
+    def at(form: Sequence[int]) -> fmpz_mpoly:
+        total = RING.constant(0)
+        for place, value in zip(_TO_ORDER, values, strict=True):
+            total += form[place] * value
         return total
 
     for quadric in mechanism.quadrics:
-        factor = fmpq(quadric.factor.numerator, quadric.factor.denominator)
-        root = at(quadric.root)
-        quadrics.append(factor * at(quadric.whole) - root * root)
-    terms = [{tuple(map(int, key)): value for key, value in quadric.to_dict().items()} for quadric in quadrics]
-    return free, [polynomial for polynomial in terms if polynomial]
+        scale = lcm(*(value.denominator for form in (quadric.whole, quadric.root) for value in form))
+        whole, root = (at([int(value * scale) for value in form]) for form in (quadric.whole, quadric.root))
+        factor = quadric.factor
+        quadrics.append(factor.numerator * scale * (whole * values[size]) - factor.denominator * (root * root))
+    return free, terms_of(quadrics, len(free))
 
 
 def solutions_at_most(mechanism: Mechanism) -> int | None:
@@ -201,12 +194,12 @@ def _homogeneous(metric: Metric) -> tuple[fmpz_mat, ...]:
 
     Products with 1 are products with the last.
     """
-    ring = fmpq_mpoly_ctx.get(ORDER, Ordering.degrevlex)
+    number = SIZE - 1
+    values = [RING.from_dict({(power,): 1}) for power in unknown_powers(number)]
     found = []
-    for quadric in motion_quadrics(list(ring.gens()), metric):
-        terms = {tuple(map(int, exponents)): value for exponents, value in quadric.to_dict().items()}
+    for quadric in terms_of(motion_quadrics(values, metric), number):
         bilinear = fmpz_mat(SIZE, SIZE)
-        for monomial, value in over_integers(terms).items():
+        for monomial, value in quadric.items():
             places = [_TO_ORDER[k] for k, exponent in enumerate(monomial) for _ in range(exponent)]
             i, j = [*places, SIZE - 1, SIZE - 1][:2]
             bilinear[i, j] = value

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations
 from typing import Final, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpz, fmpz_poly
+from flint import arb, arb_poly, ctx, fmpq, fmpz, fmpz_poly
 
 from pkm_exact.certify.checker.budget import ball_cost, charge, limbs, value_cost
 from pkm_exact.certify.checker.descartes import MAX_ISOLATION, RealRoot, dyadic, real_roots
@@ -58,7 +58,8 @@ def root_boxes(
     """The boxes of the real solutions, in the order of the roots."""
 
     def enclose(precision: int) -> list[list[arb]]:
-        return [_at_root(representation, metric, root.ball(precision), precision) for root in roots]
+        polynomials = _enclosed(representation, precision)
+        return [_at_root(polynomials, metric, root.ball(precision), precision) for root in roots]
 
     return box_cells(enclose, exponent)
 
@@ -112,12 +113,6 @@ def cell_ends(low: fmpz, high: fmpz, exponent: int) -> Ends:
     return str(fmpq(low, scale)), str(fmpq(high, scale))
 
 
-def _scaled(ball: arb, exponent: int) -> tuple[fmpq, fmpq]:
-    """Midpoint and radius of an enclosure, times 2^exponent, exactly."""
-    scale = fmpz(1) << exponent
-    return fmpq(*dyadic(ball.mid())) * scale, fmpq(*dyadic(ball.rad())) * scale
-
-
 def parameter_cells(h: fmpz_poly, roots: Sequence[RealRoot]) -> tuple[list[Cell], int]:
     """The isolating intervals on the coarsest grid from 2^-32 on where each holds one root only, and its exponent."""
     for exponent in range(PARAMETER_EXPONENT, MAX_ISOLATION + 1):
@@ -153,16 +148,22 @@ def box_cells(enclose: Callable[[int], list[list[arb]] | None], exponent: int, s
     raise too_large(f"boxes: a coordinate is not decided by {MAX_PRECISION} bits")
 
 
-def _at_root(representation: Representation, metric: Metric, root: arb, precision: int) -> list[arb]:
-    """The ordinary coordinates at an enclosed root."""
+def _enclosed(representation: Representation, precision: int) -> list[arb_poly]:
+    """h', E and F, their coefficients enclosed."""
     numerators = (*representation.quaternion, *representation.translation)
     words = max(limbs(int(value.height_bits())) for value in (representation.eliminant, *numerators))
-    charge(9 * int(representation.eliminant.length()) * (ball_cost(limbs(precision)) + 3 * words))
+    charge(9 * int(representation.eliminant.length()) * (100 + 3 * words))
     with ctx.workprec(precision):
-        slope = representation.eliminant.derivative()(root)
-        e = [numerator(root) / slope for numerator in representation.quaternion]
-        f = [numerator(root) / slope for numerator in representation.translation]
-    return ordinary_coordinates(e, f, metric, precision)
+        return [arb_poly(value) for value in (representation.eliminant.derivative(), *numerators)]
+
+
+def _at_root(polynomials: Sequence[arb_poly], metric: Metric, root: arb, precision: int) -> list[arb]:
+    """The ordinary coordinates at an enclosed root, by h', E and F."""
+    charge(9 * len(polynomials[0]) * ball_cost(limbs(precision)))
+    with ctx.workprec(precision):
+        slope, *values = (polynomial(root) for polynomial in polynomials)
+        x = [value / slope for value in values]
+    return ordinary_coordinates(x[:4], x[4:], metric, precision)
 
 
 def ordinary_coordinates(e: Sequence[arb], f: Sequence[arb], metric: Metric, precision: int) -> list[arb]:
@@ -180,12 +181,12 @@ def ordinary_coordinates(e: Sequence[arb], f: Sequence[arb], metric: Metric, pre
 
 def _is_fine(value: arb, exponent: int) -> bool:
     """Whether a value is enclosed to 2^-40 cells of the grid 2^-exponent."""
-    return bool(value.is_finite() and _scaled(value, exponent + ENCLOSED)[1] < 1)
+    return bool(value.is_finite() and fmpq(*dyadic(value.rad(), exponent + ENCLOSED)) < 1)
 
 
 def _coordinate_cell(value: arb, exponent: int, late: bool) -> Cell | None:
     """The cell around a finely enclosed value, two cells if it is near a grid point; None if not decided yet."""
-    middle, radius = _scaled(value, exponent)
+    middle, radius = (fmpq(*dyadic(part, exponent)) for part in (value.mid(), value.rad()))
     nearest = (middle + fmpq(1, 2)).floor()
     distance, limit = abs(middle - nearest), fmpq(1, fmpz(1) << NEAR)
     if distance + radius < limit or (late and distance - radius <= limit):

@@ -8,12 +8,13 @@ determine, and the solution is substituted into the quadrics; the rest are the u
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Final
+from itertools import combinations_with_replacement
+from typing import Any, Final, TypeAlias
 
-from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpz, fmpz_mat
+from flint import Ordering, fmpz, fmpz_mat, fmpz_mpoly, fmpz_mpoly_ctx
 
 from pkm_exact.certify.checker.budget import charge, limbs
-from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Metric, leg_form
+from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Metric, combination, leg_form
 
 ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
 """Coordinates; the legs are solved for those on the left first, and unknowns decrease in the monomial order."""
@@ -21,8 +22,12 @@ ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (
 _PLANE: Final = (("u3", 0), ("c3", 0), ("r13", 0), ("r23", 0), ("r31", 0), ("r32", 0), ("r33", -1))
 """What keeps a planar robot in the plane of the first two axes: these coordinates, minus 1 for r33, are 0."""
 
-Terms = dict[tuple[int, ...], fmpq]
-"""A polynomial: coefficients by exponents."""
+Monomial: TypeAlias = tuple[int, ...]
+Polynomial: TypeAlias = dict[Monomial, int]
+"""Coefficients by exponents."""
+
+RING: Final = fmpz_mpoly_ctx.get(("x",), Ordering.lex)
+"""Quadrics in unknowns are polynomials in x^1, x^3, x^9, ..: the exponents of a monomial are digits to base 3."""
 
 
 def unknowns(legs: Sequence[Leg], metric: Metric) -> list[int]:
@@ -46,51 +51,77 @@ def _solved(legs: Sequence[Leg], metric: Metric) -> tuple[fmpz_mat, fmpz, list[i
     return echelon, lead, pivots, [j for j in range(size) if j not in pivots]
 
 
-def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Terms]]:
+def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Polynomial]]:
     """Number of unknowns, and the quadrics that vanish at the poses (with 1, if no finite pose can exist)."""
     echelon, lead, pivots, free = _solved(legs, metric)
+    quadrics = [RING.constant(1)] if len(ORDER) in pivots else []
+    quadrics += motion_quadrics(substituted(echelon, lead, pivots, free), metric)
+    return len(free), terms_of(quadrics, len(free))
+
+
+def substituted(echelon: fmpz_mat, lead: fmpz | int, pivots: Sequence[int], free: Sequence[int]) -> list[fmpz_mpoly]:
+    """``lead`` times the coordinates and 1, as the forms leave them, in the free ones."""
     size = len(ORDER)
-    ring = fmpq_mpoly_ctx.get(tuple(ORDER[j] for j in free), Ordering.degrevlex)
-    values: list[fmpq_mpoly] = [ring.constant(1)] * size
-    for j, unknown in zip(free, ring.gens(), strict=True):
-        values[j] = unknown
-    units = [(j, tuple(int(j == other) for other in free)) for j in (*free, size)]
+    powers = dict(zip((*free, size), unknown_powers(len(free)), strict=True))
+    values = [RING.from_dict({(powers.get(j, 0),): lead}) for j in range(size + 1)]
     for row, pivot in enumerate(pivots):
         if pivot < size:
-            values[pivot] = ring.from_dict({unit: fmpq(-echelon[row, j], lead) for j, unit in units})
-    quadrics = [ring.constant(1)] if size in pivots else []
-    quadrics += motion_quadrics(values, metric)
-    terms = [{tuple(map(int, key)): value for key, value in quadric.to_dict().items()} for quadric in quadrics]
-    return len(free), [polynomial for polynomial in terms if polynomial]
+            values[pivot] = RING.from_dict({(power,): -echelon[row, j] for j, power in powers.items()})
+    return values
+
+
+def unknown_powers(number: int) -> list[int]:
+    """The powers of x that stand for so many unknowns and for 1."""
+    return [3**place for place in range(number)] + [0]
+
+
+def terms_of(quadrics: Sequence[fmpz_mpoly], number: int) -> list[Polynomial]:
+    """Quadrics in so many unknowns but for those that are 0, each divided by what its coefficients have in common."""
+    powers = unknown_powers(number)
+    monomials: dict[Monomial, Monomial] = {
+        (powers[i] + powers[j],): tuple((i == place) + (j == place) for place in range(number))
+        for i, j in combinations_with_replacement(range(number + 1), 2)
+    }
+    found = []
+    for quadric in quadrics:
+        if quadric:
+            words = limbs(max(int(value.height_bits()) for value in quadric.coeffs()))
+            charge(len(quadric) * (2000 + 4 * words * words))
+            terms = quadric.primitive()[1].to_dict()
+            found.append({monomials[power]: int(value) for power, value in terms.items()})
+    return found
 
 
 def motion_quadrics(values: Sequence[Any], metric: Metric) -> list[Any]:
     """R^T G R = G, R G^-1 R^T = G^-1, cof R = G R G^-1, R u = C, R^T G C = G u, C.C = u.u = s,
     C x (R v) = G R G^-1 (u x v) for the unit vectors v: they hold for rigid motions, and with R = (r_ij) for no others.
+
+    Each is multiplied by numbers of the metric where it would have others in denominators, and homogeneous in the
+    coordinates and the last value, which stands for 1.
     """
     sizes = (int(x.height_bits()) for value in values for x in value.coeffs())
     words = limbs(max(sizes, default=0)) + limbs(max(metric).bit_length())
     charge(2 * 10**7 + words * (10**6 + 2000 * words))
-    g = [fmpq(value) for value in metric]
-    u, c, s = values[0:3], values[3:6], values[6]
+    g, volume = metric, metric[0] * metric[1] * metric[2]
+    u, c, s, one = values[0:3], values[3:6], values[6], values[16]
     r = [values[7 + 3 * i : 10 + 3 * i] for i in range(3)]
+    unit = one * one
     found = []
     for i in range(3):
         for j in range(3):
-            unit = int(i == j)
             if i <= j:  # both are symmetric
-                found.append(sum((g[k] * r[k][i] * r[k][j] for k in range(3)), -unit * g[i]))
-                found.append(sum((1 / g[k] * r[i][k] * r[j][k] for k in range(3)), -unit / g[i]))
+                columns = combination(g, [r[k][i] * r[k][j] for k in range(3)])
+                rows = combination([volume // value for value in g], [r[i][k] * r[j][k] for k in range(3)])
+                found += [columns - g[i] * unit, rows - volume // g[i] * unit] if i == j else [columns, rows]
             (i1, i2), (j1, j2) = CYCLIC[i][1:], CYCLIC[j][1:]
-            found.append(r[i1][j1] * r[i2][j2] - r[i1][j2] * r[i2][j1] - g[i] / g[j] * r[i][j])
-        found.append(sum((r[i][k] * u[k] for k in range(3)), -c[i]))
-        found.append(sum((g[k] * r[k][i] * c[k] for k in range(3)), -g[i] * u[i]))
-    found.append(sum((g[k] * c[k] * c[k] for k in range(3)), -s))
-    found.append(sum((g[k] * u[k] * u[k] for k in range(3)), -s))
+            found.append(g[j] * (r[i1][j1] * r[i2][j2] - r[i1][j2] * r[i2][j1]) - g[i] * (r[i][j] * one))
+        found.append(r[i][0] * u[0] + r[i][1] * u[1] + r[i][2] * u[2] - c[i] * one)
+        found.append(combination(g, [r[k][i] * c[k] for k in range(3)]) - g[i] * (u[i] * one))
+    found.append(combination(g, [value * value for value in c]) - s * one)
+    found.append(combination(g, [value * value for value in u]) - s * one)
     for axis, up, down in CYCLIC:
-        # u x v for the unit vector v along ``axis``
-        turned = {up: u[down], down: -u[up]}
         for i, j, k in CYCLIC:
-            image = sum((g[i] / g[m] * r[i][m] * value for m, value in turned.items()), 0)
-            found.append(c[j] * r[k][axis] - c[k] * r[j][axis] - image)
+            # The coordinate i of G R G^-1 (u x v) for the unit vector v along ``axis``, times g_up g_down.
+            image = g[down] * (r[i][up] * u[down]) - g[up] * (r[i][down] * u[up])
+            found.append(g[up] * g[down] * (c[j] * r[k][axis] - c[k] * r[j][axis]) - g[i] * image)
     return found

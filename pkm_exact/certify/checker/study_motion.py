@@ -143,8 +143,9 @@ def leg_lines(legs: Sequence[Leg], placed: Motion) -> list[list[Any]]:
     scale = lcm(*(value.denominator for value in joints))
     rows = []
     for leg in legs:
-        base = [int(value * scale) for value in leg.base]
-        platform = [int(value * scale) for value in leg.platform]
+        base, platform = (
+            [value.numerator * (scale // value.denominator) for value in joint] for joint in (leg.base, leg.platform)
+        )
         arm = [combination(platform, row) for row in placed.rotation]
         line = [scale * placed.position[i] + arm[i] - base[i] * placed.norm for i in range(3)]
         moment = [arm[j] * line[k] - arm[k] * line[j] for _, j, k in CYCLIC]
