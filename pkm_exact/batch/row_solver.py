@@ -103,7 +103,7 @@ class RowSolver:
 
 @contextmanager
 def _without_collector() -> Iterator[None]:
-    """Nothing looks for cycles: there are none, and the intervals of many rows would be looked at a dozen times."""
+    """Nothing looks for cycles meanwhile: it would look at each interval of many rows a dozen times, and find none."""
     is_enabled = gc.isenabled()
     gc.disable()
     try:
