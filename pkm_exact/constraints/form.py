@@ -52,22 +52,6 @@ def outer(
     return [factor * metric[i] * left[i] * right[j] for i in range(3) for j in range(3)]
 
 
-def rounded(values: Iterable[Fraction]) -> list[float]:
-    """The doubles next to numbers; to those of fractions in a third of the time that ``float`` takes.
-
-    Examples
-    --------
-    >>> rounded([Fraction(1, 3), Fraction(-2)])
-    [0.3333333333333333, -2.0]
-
-    Raises
-    ------
-    OverflowError
-        If a number is too large for a double.
-    """
-    return [value.numerator / value.denominator if type(value) is Fraction else float(value) for value in values]
-
-
 def integral(values: Form) -> tuple[int, ...]:
     """The least multiple with integer coefficients.
 

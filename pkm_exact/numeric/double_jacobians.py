@@ -23,10 +23,10 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.constraints.form import ordinary, rounded
+from pkm_exact.constraints.form import ordinary
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.double_poses import DoubleCoordinates
-from pkm_exact.numeric.double_rounding import LARGE, OUTWARD, SMALL, gamma
+from pkm_exact.numeric.double_rounding import LARGE, OUTWARD, SMALL, gamma, rounded
 from pkm_exact.numeric.study_system import Real
 from pkm_exact.poses.jacobian import FINEST_EXPONENT, OUTPUT_BITS
 from pkm_exact.poses.leg_jacobian import LegJacobian

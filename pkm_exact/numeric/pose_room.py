@@ -13,11 +13,11 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.constraints.form import SIZE, rounded
+from pkm_exact.constraints.form import SIZE
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.geometry.rotation import CYCLIC
 from pkm_exact.motions.motion import Motion
-from pkm_exact.numeric.double_rounding import gamma
+from pkm_exact.numeric.double_rounding import gamma, rounded
 from pkm_exact.numeric.study_system import Real
 from pkm_exact.poses.pose import Pose
 from pkm_exact.poses.pose_consistency import require_on_robot

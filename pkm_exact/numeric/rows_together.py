@@ -15,12 +15,12 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from pkm_exact.constraints.form import rounded
 from pkm_exact.geometry.problem import ForwardProblem
 from pkm_exact.numeric.certification import add_far_solutions, isolated_solutions, without_conjugates
 from pkm_exact.numeric.chart_equations import ChartSystem
 from pkm_exact.numeric.double_boxes import DoubleBoxes, double_boxes
 from pkm_exact.numeric.double_krawczyk import DoubleEquations
+from pkm_exact.numeric.double_rounding import rounded
 from pkm_exact.numeric.grids import GRIDS
 from pkm_exact.numeric.nearby import ENOUGH, GREATEST_CHANGE, HOME_STEPS
 from pkm_exact.numeric.poses import Charted, in_chart, is_tracked, poses_in_doubles

@@ -23,12 +23,13 @@ from numpy.typing import NDArray
 
 from pkm_exact.constraints.constraint import Role
 from pkm_exact.constraints.distance import Distance
-from pkm_exact.constraints.form import SIZE, Vector, in_frames, rounded
+from pkm_exact.constraints.form import SIZE, Vector, in_frames
 from pkm_exact.constraints.point_in_plane import Carries, InPlane
 from pkm_exact.geometry.problem import ForwardProblem, points
 from pkm_exact.geometry.study import STUDY_CONDITION, Quadric, motion_quadrics
 from pkm_exact.motions.motion import Motion
 from pkm_exact.motions.motion_groups import PLANAR, SPATIAL
+from pkm_exact.numeric.double_rounding import rounded
 from pkm_exact.numeric.quaternions import quaternion_product
 
 Complex: TypeAlias = NDArray[np.complex128]
