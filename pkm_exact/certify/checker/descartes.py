@@ -16,7 +16,7 @@ from itertools import pairwise
 from math import gcd
 from typing import Final
 
-from flint import arb, ctx, fmpq, fmpz, fmpz_poly
+from flint import arb, arb_poly, ctx, fmpq, fmpz, fmpz_poly
 
 from pkm_exact.certify.checker.budget import ball_cost, charge, limbs, value_cost
 from pkm_exact.certify.checker.verdict import too_large
@@ -39,16 +39,18 @@ MOST_STEPS: Final = 16
 
 
 class RealRoot:
-    """A root of a squarefree h: ``low`` itself if that is ``high``, otherwise the only one strictly between them."""
+    """A root of a squarefree h: ``low`` itself if that is ``high``, otherwise the only one strictly between them.
 
-    def __init__(self, h: fmpz_poly, low: fmpq, high: fmpq) -> None:
+    ``sign`` is that of h at ``low``, where it is known and not 0.
+    """
+
+    def __init__(self, h: fmpz_poly, low: fmpq, high: fmpq, sign: int = 0) -> None:
         self.low = low
         self.high = high
         self._h = h
         self._size = int(h.length()), limbs(int(h.height_bits()))
         self._slope = h.derivative()
-        charge(2 * value_cost(*self._size, _words(low)))
-        self._rises = bool((h(low) or self._slope(low)) < 0)
+        self._rises = (sign or signs_at(h, [low])[0] or signs_at(self._slope, [low])[0]) < 0
         self._bits = GUARD
         self._guess = (low + high) / 2
         self._step = FIRST_STEP
@@ -66,23 +68,27 @@ class RealRoot:
     def _follow(self, bits: int) -> None:
         """Cut where Newton's method leads from the middle, or in halves where it leads out, and at last closely."""
         terms, words = self._size
-        small = arb(fmpq(1, fmpz(1) << bits // 2 + 2))
-        place = (self.low + self.high) / 2
-        for _ in range(MOST_STEPS):
-            charge(20000 + 3 * terms * (ball_cost(limbs(self._bits)) + 3 * words))
-            with ctx.workprec(self._bits):
-                there = arb(place)
+        cost = 20000 + 3 * terms * (ball_cost(limbs(self._bits)) + 3 * words)
+        with ctx.workprec(self._bits):
+            there = arb((self.low + self.high) / 2).mid()
+            near = arb((self.high - self.low) / NEARLY)
+            small = arb(fmpq(1, fmpz(1) << bits // 2 + 2))
+            for _ in range(MOST_STEPS):
+                charge(cost)
                 value = self._h(there)
                 step = value / self._slope(there)
                 image = (there - step).mid()
-            if not value.contains(0):
-                self._cut(place, value)
-            place = fmpq(*dyadic(image)) if image.is_finite() else self.low
-            if not self.low < place < self.high:
-                place = (self.low + self.high) / 2
-            elif abs(step) < small:
-                break
-        self._guess = place
+                if abs(step) < small:
+                    there = image
+                    break
+                if not abs(step) < near:  # otherwise it is cut closely at last
+                    place = fmpq(*dyadic(there))
+                    if self.low < place < self.high and not value.contains(0):
+                        self._cut(place, value)
+                    if not (image.is_finite() and self.low < fmpq(*dyadic(image)) < self.high):
+                        image = arb((self.low + self.high) / 2).mid()
+                there = image
+        self._guess = fmpq(*dyadic(there))
         self._step = int(((self.high - self.low) * (fmpz(1) << bits + 2)).floor()).bit_length()
         self._approach()
 
@@ -108,8 +114,11 @@ class RealRoot:
     def cell(self, exponent: int) -> tuple[fmpz, fmpz]:
         """(m, m) if the root is m / 2^exponent, else (m, m + 1) where it lies between m and m + 1, over 2^exponent."""
         charge(10000 + 50 * limbs(exponent))
-        self.narrow(exponent + 1)
         scale = fmpz(1) << exponent
+        first = (self.low * scale).floor()
+        if self.low < self.high <= fmpq(first + 1, scale):
+            return first, first + 1
+        self.narrow(exponent + 1)
         point = (self.high * scale).floor()
         if self.low * scale < point < self.high * scale:
             self._split(fmpq(point, scale))
@@ -139,7 +148,7 @@ class RealRoot:
 
     def _split(self, place: fmpq) -> None:
         """Cut the interval at a place within it."""
-        self._cut(place, self._value(place))
+        self._cut(place, value_at(self._h, place, (self._bits, 2 * self._bits, 4 * self._bits)))
 
     def _cut(self, place: fmpq, value: arb | fmpq) -> None:
         """Cut the interval at a place within it, with the value there or an enclosure of it without 0."""
@@ -150,17 +159,32 @@ class RealRoot:
         else:
             self.high = place
 
-    def _value(self, place: fmpq) -> arb | fmpq:
-        """The value at a place, or an enclosure of it without 0."""
-        terms, words = self._size
-        for bits in (self._bits, 2 * self._bits, 4 * self._bits):
-            charge(20000 + terms * (ball_cost(limbs(bits)) + 3 * words))
-            with ctx.workprec(bits):
-                value = self._h(arb(place))
-            if not value.contains(0):
-                return value
-        charge(value_cost(*self._size, _words(place)))
-        return self._h(place)
+
+def value_at(h: fmpz_poly, place: fmpq, precisions: Sequence[int]) -> arb | fmpq:
+    """An enclosure, without 0, of the value of a polynomial at a place, by one of the precisions; or the value."""
+    terms, words = int(h.length()), limbs(int(h.height_bits()))
+    for bits in precisions:
+        charge(20000 + terms * (ball_cost(limbs(bits)) + 3 * words))
+        with ctx.workprec(bits):
+            value = h(arb(place))
+        if not value.contains(0):
+            return value
+    charge(value_cost(terms, words, _words(place)))
+    return h(place)
+
+
+def signs_at(h: fmpz_poly, places: Sequence[fmpq]) -> list[int]:
+    """The signs of the values of a polynomial at some places, each -1, 0, or 1."""
+    terms, words = int(h.length()), limbs(int(h.height_bits()))
+    charge(20000 + 3 * terms * words + len(places) * (5000 + terms * ball_cost(limbs(GUARD))))
+    with ctx.workprec(GUARD):
+        enclosed = arb_poly(h)
+        values = [enclosed(arb(place)) for place in places]
+    known = (
+        value_at(h, place, [4 * GUARD]) if value.contains(0) else value
+        for place, value in zip(places, values, strict=True)
+    )
+    return [int(value > 0) - int(value < 0) for value in known]
 
 
 def _words(value: fmpq) -> int:
@@ -174,10 +198,15 @@ def dyadic(value: arb, shift: int = 0) -> tuple[fmpz, fmpz]:
     return (mantissa << power, fmpz(1)) if power >= 0 else (mantissa, fmpz(1) << -power)
 
 
+def in_powers(h: fmpz_poly) -> tuple[int, fmpz_poly]:
+    """The largest m so that a polynomial of positive degree is one in T^m, and that polynomial."""
+    m = gcd(*(power for power, value in enumerate(h.coeffs()) if value))
+    return m, fmpz_poly(h.coeffs()[::m])
+
+
 def real_roots(h: fmpz_poly) -> list[RealRoot]:
     """All real roots of a squarefree polynomial of positive degree, increasing."""
-    m = gcd(*(power for power, value in enumerate(h.coeffs()) if value))
-    powers = fmpz_poly(h.coeffs()[::m])
+    m, powers = in_powers(h)
     isolated = (RealRoot(powers, *ends) for ends in _isolated(powers, m * MAX_ISOLATION))
     known = sorted(isolated, key=lambda root: (root.low, root.high))
     if m == 1:
@@ -213,9 +242,7 @@ def _rounded_root(value: fmpq, m: int, bits: int) -> fmpq:
 
 def _isolated(h: fmpz_poly, finest: int) -> Iterator[tuple[fmpq, fmpq]]:
     """The ends of an interval around each root, in any order; both are the root if it was met at an end."""
-    bound = _bound(h)
-    if bound > finest:
-        raise too_large(f"real poses: a root of the eliminant is above 2^{MAX_ISOLATION}")
+    bound = root_bound(h, finest)
     if h[0] == 0:
         yield fmpq(0), fmpq(0)
     # (m, k, q) stands for the interval (m, m + 1) / 2^k, and h on it for q on (0, 1), up to a factor.
@@ -241,11 +268,14 @@ def _isolated(h: fmpz_poly, finest: int) -> Iterator[tuple[fmpq, fmpq]]:
             pending += [(2 * m, k + 1, left), (2 * m + 1, k + 1, right)]
 
 
-def _bound(h: fmpz_poly) -> int:
-    """An exponent of 2 above all roots (Fujiwara 1916)."""
+def root_bound(h: fmpz_poly, most: int) -> int:
+    """An exponent of 2 above all roots (Fujiwara 1916); refuses if it is more than so much."""
     *lower, lead = (int(abs(value)).bit_length() for value in h.coeffs())
     degree = len(lower)
-    return max([0, *(2 + (size - (lead - 1)) // (degree - power) for power, size in enumerate(lower))])
+    bound = max([0, *(2 + (size - (lead - 1)) // (degree - power) for power, size in enumerate(lower))])
+    if bound > most:
+        raise too_large(f"real poses: a root of the eliminant is above 2^{MAX_ISOLATION}")
+    return bound
 
 
 def _changes(q: fmpz_poly) -> int:

@@ -113,7 +113,7 @@ def reduced_rows(rows: Iterable[Row], known: AbstractSet[int] = frozenset()) -> 
     # What is left has no entries in the columns of steps; where some are known, these are known.
     for pivot, row in reversed([] if known else steps):
         for column in [column for column in row if column in found]:
-            row = _without(column, row, found[column])
+            row, _, _ = _without(column, row, found[column])
         found[pivot] = _primitive(row, row[pivot])
     return found
 
@@ -157,14 +157,14 @@ class _Sparse:
         del self._leads[chosen]
         for other in first:
             self._places[other].discard(chosen)
-        for place in self._places.pop(column):
-            filled = first.keys() - self._rows[place].keys()
-            row = self._rows[place] = _without(column, self._rows[place], first)
-            for other in first.keys() - {column}:
-                if other in filled:
-                    self._places[other].add(place)
-                elif other not in row:
-                    self._places[other].discard(place)
+        places = self._places
+        for place in places.pop(column):
+            row, new, gone = _without(column, self._rows[place], first)
+            self._rows[place] = row
+            for other in new:
+                places[other].add(place)
+            for other in gone:
+                places[other].discard(place)
             self._begin(place, row)
 
     def _begin(self, place: int, row: Row) -> None:
@@ -176,27 +176,34 @@ class _Sparse:
                 heappush(self._waiting, (len(self._places[lead]), lead))
 
 
-def _without(column: int, row: Row, other: Row) -> Row:
+def _without(column: int, row: Row, other: Row) -> tuple[Row, list[int], list[int]]:
     """A multiple of a row minus one of another row, which both have an entry in a column: the least that has none.
 
-    The row itself is used up.
+    With the columns in which it has an entry and the row had none, and those that lost theirs, but for the column. The
+    row itself is used up.
     """
-    lead, factor = other[column], row[column]
-    charge(lead.bit_length() * factor.bit_length() // 750)
+    lead, factor = other[column], row.pop(column)
+    charge(500 * (len(row) + len(other)) + lead.bit_length() * factor.bit_length() // 750)
     common = gcd(lead, factor) if lead > 0 else -gcd(lead, factor)
     scale, factor = lead // common, factor // common
-    length = len(row) + len(other)
     if scale != 1:
         row = {place: scale * value for place, value in row.items()}
+    new, gone = [], []
     for place, value in other.items():
-        entry = row.get(place, 0) - factor * value
-        if entry:
+        if place == column:
+            continue
+        entry = row.get(place)
+        if entry is None:
+            row[place] = -factor * value
+            new.append(place)
+        elif entry := entry - factor * value:
             row[place] = entry
         else:
             del row[place]
+            gone.append(place)
     bits = sum(map(int.bit_length, row.values()))
-    charge(500 * length + bits * bits // (600 * (len(row) + 1)))
-    return row if scale == 1 else _primitive(row, 1)
+    charge(bits * bits // (600 * (len(row) + 1)))
+    return row if scale == 1 else _primitive(row, 1), new, gone
 
 
 def _primitive(row: Row, sign: int) -> Row:

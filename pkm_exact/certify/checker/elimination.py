@@ -156,6 +156,8 @@ def _leading(polynomial: Polynomial) -> Monomial:
 
 def _multiple(polynomial: Polynomial, factors: Sequence[int]) -> Polynomial:
     """The polynomial times unknowns, given by their indices."""
+    if not factors:
+        return polynomial
     shift = [0] * len(_leading(polynomial))
     for factor in factors:
         shift[factor] += 1
@@ -171,7 +173,7 @@ def echelon(polynomials: Sequence[Polynomial], leading: AbstractSet[Monomial] = 
     columns = _columns(polynomials)
     charge((100 + _DIVISION * len(leading)) * len(columns))
     place = {monomial: column for column, monomial in enumerate(columns)}
-    known = {column for monomial, column in place.items() if _is_divisible(monomial, leading)}
+    known = {column for monomial, column in place.items() if _is_divisible(monomial, leading)} if leading else set()
     found = reduced_rows([{place[monomial]: value for monomial, value in row.items()} for row in polynomials], known)
     rows = [found[pivot] for pivot in sorted(found) if pivot not in known]
     return [{columns[column]: row[column] for column in sorted(row)} for row in rows]

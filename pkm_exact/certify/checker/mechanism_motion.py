@@ -7,8 +7,8 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Final
 
-from pkm_exact.certify.checker.descartes import real_roots
 from pkm_exact.certify.checker.document import Representation
+from pkm_exact.certify.checker.listed_roots import number_of_real_roots
 from pkm_exact.certify.checker.mechanism_document import MechanismDocument, SelfMotion
 from pkm_exact.certify.checker.mechanism_forms import (
     SIZE,
@@ -72,7 +72,7 @@ def independent(mechanism: Mechanism) -> list[Form]:
 
 def has_real_root(representation: Representation) -> bool:
     """Whether the eliminant has a real root: then one of its poses is real."""
-    return bool(real_roots(primitive_part(representation.eliminant)))
+    return number_of_real_roots(primitive_part(representation.eliminant)) > 0
 
 
 def _symmetric(mechanism: Mechanism, representation: Representation) -> bool:
@@ -167,7 +167,7 @@ def _by_slices(claimed: SelfMotion, mechanism: Mechanism) -> Generator[str, None
         poses += int(cut.representation.eliminant.degree())
         h0 = primitive_part(cut.representation.eliminant)
         if are_regular(h0, cut.representation, sliced):
-            real += len(real_roots(h0))
+            real += number_of_real_roots(h0)
     if poses <= bound:
         raise rejected(f"self-motion: {poses} poses, but {bound} can be isolated")
     yield f"self-motion: {poses} poses, more than the {bound} that can be isolated"

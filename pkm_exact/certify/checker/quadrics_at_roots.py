@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from operator import mul
 
-from flint import fmpz, fmpz_poly
+from flint import fmpz, fmpz_mat, fmpz_poly
 
-from pkm_exact.certify.checker.budget import charge, limbs, polynomials_cost
+from pkm_exact.certify.checker.budget import charge, limbs
+from pkm_exact.certify.checker.verdict import GREATEST_NUMBER
 
 
 @dataclass(frozen=True)
@@ -71,19 +72,22 @@ def integers_beside(h0: fmpz_poly) -> tuple[range, Values]:
         places = range(places.stop, places.stop + len(places))
 
 
-def are_multiples(values: Values, divisors: Values) -> bool:
-    """Whether h0 divides the polynomial of degree 2 D - 2 at most with these values, its own being the divisors.
+def are_multiples(values: Sequence[Values], divisors: Values) -> list[bool]:
+    """Which polynomials of degree 2 D - 2 at most, with these values, h0 divides, whose own are the divisors."""
+    charge(sum(_division_cost(row, divisors) for row in values))
+    divided = [[*map(divmod, row.listed, divisors.listed)] for row in values]
+    zeros = [0] * len(divisors.listed)
+    quotients = fmpz_mat([([quotient for quotient, _ in row] + zeros)[: len(zeros)] for row in divided])
+    differences = (quotients * _differences(len(zeros) // 2)).tolist()
+    return [not any(rest for _, rest in row) and not any(left) for row, left in zip(divided, differences, strict=True)]
 
-    The generating function of values of a polynomial, times (1 - T)^k, has that of differences of order k.
-    """
-    order = len(divisors.listed) // 2  # D - 1
-    charge(_division_cost(values, divisors))
-    divided = [*map(divmod, values.listed, divisors.listed)]
-    if any(rest for _, rest in divided):
-        return False
-    quotients = fmpz_poly([quotient for quotient, _ in divided])
-    differences = quotients * fmpz_poly([1, -1]) ** order
-    return not any(differences[place] for place in range(order, 2 * order + 1))
+
+@lru_cache(maxsize=GREATEST_NUMBER)
+def _differences(order: int) -> fmpz_mat:
+    """What the values at 2 k + 1 integers in a row are multiplied by to become their differences of order k."""
+    signed = [int(value) for value in (fmpz_poly([1, -1]) ** order).coeffs()]
+    columns = [[0] * place + signed + [0] * (order - place) for place in range(order + 1)]
+    return fmpz_mat([*map(list, zip(*columns, strict=True))])
 
 
 def _value_cost(places: range, polynomial: fmpz_poly) -> int:
@@ -97,7 +101,7 @@ def _division_cost(values: Values, divisors: Values) -> int:
     """Operations for the quotients of all values and their differences."""
     words = _words([values, divisors])
     number = len(divisors.packed)
-    return 10**5 + number * 2 * _product_cost(words) + polynomials_cost(number, words + limbs(number))
+    return 10**5 + number * (2 * _product_cost(words) + number * (100 + 2 * words))
 
 
 def quadrics_cost(numerators: Sequence[Values], forms: Sequence[Sequence[int]], common: int) -> int:

@@ -9,15 +9,16 @@ from a grid point is 2^-32 cells up to thousands of bits, it depends on what the
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import combinations
+from functools import lru_cache
 from typing import Final, TypeAlias
 
 from flint import arb, arb_poly, ctx, fmpq, fmpz, fmpz_poly
 
-from pkm_exact.certify.checker.budget import ball_cost, charge, limbs, value_cost
-from pkm_exact.certify.checker.descartes import MAX_ISOLATION, RealRoot, dyadic, real_roots
+from pkm_exact.certify.checker.budget import ball_cost, charge, limbs
+from pkm_exact.certify.checker.descartes import MAX_ISOLATION, RealRoot, dyadic, signs_at, value_at
 from pkm_exact.certify.checker.document import Ends, ListedPose, Representation
 from pkm_exact.certify.checker.krawczyk import Equations, Isolated, narrowed
+from pkm_exact.certify.checker.listed_roots import roots_by_intervals
 from pkm_exact.certify.checker.solutions import primitive_part
 from pkm_exact.certify.checker.study_motion import Metric, motion
 from pkm_exact.certify.checker.verdict import MAX_PRECISION, rejected, too_large
@@ -31,8 +32,14 @@ NEAR: Final = 32
 """A coordinate closer than 2^-32 cells to a grid point gets the two cells around it."""
 ENCLOSED: Final = 40
 """Coordinates are enclosed to 2^-40 cells before their cell is decided."""
+FIRST_BITS: Final = 128
+"""Bits beyond those of the grid by which coordinates are enclosed at first, and twice as many then."""
 DOUBLINGS: Final = 4
 """Doublings of the precision after which a coordinate not decided to be far from a grid point counts as near."""
+_ONE: Final = 1 << 2 * NEAR
+_FAR: Final = 1 << NEAR + 1
+_CLOSE: Final = 1 << NEAR - 1
+"""A cell, twice and half of what counts as near, in units of 2^-64 cells."""
 
 
 def check_real_poses(
@@ -40,7 +47,7 @@ def check_real_poses(
 ) -> Iterator[str]:
     """The poses listed are all the real ones, each with the intervals that it must have, no two in the same box."""
     h = primitive_part(representation.eliminant)
-    roots = real_roots(h)
+    roots = roots_by_intervals(h, [pose.parameter for pose in poses if pose.parameter is not None])
     cells, fineness = parameter_cells(h, roots)
     if len(poses) != len(cells):
         raise rejected(f"real poses: {len(poses)} listed, the eliminant has {len(cells)} real roots")
@@ -95,23 +102,37 @@ def check_isolated_poses(
 
 
 def _check_boxes(boxes: Sequence[Sequence[Cell]], exponent: int, poses: Sequence[ListedPose]) -> Iterator[str]:
-    """The boxes listed are these, and disjoint."""
+    """The boxes listed are these, which are in order, and disjoint."""
     words = limbs(max((int(abs(end).bit_length()) for box in boxes for cell in box for end in cell), default=0))
     charge(len(poses) * (32 * (10000 + words * (2000 + 10 * words)) + 10000 * len(poses)))
     for number, (pose, box) in enumerate(zip(poses, boxes, strict=True), 1):
         if pose.box != tuple(cell_ends(low, high, exponent) for low, high in box):
             raise rejected(f"boxes: the box of pose {number} is not that of its solution")
     yield f"boxes: all {16 * len(poses)} intervals are those of the solutions, on the grid 2^-{exponent}"
-    for (i, one), (j, other) in combinations(enumerate(boxes, 1), 2):
-        if not any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one[:12], other[:12], strict=True)):
-            raise rejected(f"boxes: those of poses {i} and {j} are not disjoint in position or rotation")
+    for i, one in enumerate(boxes):
+        for j in range(i + 1, len(boxes)):
+            if boxes[j][0][0] > one[0][1]:  # and so of those that come after it
+                break
+            if not any(a[1] < b[0] or b[1] < a[0] for a, b in zip(one[:12], boxes[j][:12], strict=True)):
+                raise rejected(f"boxes: those of poses {i + 1} and {j + 1} are not disjoint in position or rotation")
     yield "boxes: pairwise disjoint in position or rotation"
 
 
 def cell_ends(low: fmpz, high: fmpz, exponent: int) -> Ends:
     """The ends of a cell, as texts."""
-    scale = fmpz(1) << exponent
-    return str(fmpq(low, scale)), str(fmpq(high, scale))
+    return _spelled(low, exponent), _spelled(high, exponent)
+
+
+def _spelled(number: fmpz, exponent: int) -> str:
+    """The rational number number / 2^exponent in lowest terms."""
+    value = int(number)
+    twos = min((value & -value).bit_length() - 1, exponent) if value else exponent
+    return str(fmpz(value >> twos)) + _denominator(exponent - twos)
+
+
+@lru_cache(maxsize=MAX_ISOLATION)
+def _denominator(exponent: int) -> str:
+    return f"/{fmpz(1) << exponent}" if exponent else ""
 
 
 def parameter_cells(h: fmpz_poly, roots: Sequence[RealRoot]) -> tuple[list[Cell], int]:
@@ -125,9 +146,11 @@ def parameter_cells(h: fmpz_poly, roots: Sequence[RealRoot]) -> tuple[list[Cell]
 
 def _holds_one_root(h: fmpz_poly, cell: Cell, exponent: int) -> bool:
     """Whether h is 0 at the cell's only point, or changes its sign between its ends."""
-    charge(2 * value_cost(int(h.length()), limbs(int(h.height_bits())), limbs(exponent)))
-    low, high = (h(fmpq(end, fmpz(1) << exponent)) for end in cell)
-    return bool(low == 0) if cell[0] == cell[1] else bool(low * high < 0)
+    low, high = (fmpq(end, fmpz(1) << exponent) for end in cell)
+    if low == high:
+        return value_at(h, low, ()) == 0
+    first, last = signs_at(h, [low, high])
+    return first * last < 0
 
 
 def box_cells(enclose: Callable[[int], list[list[arb]] | None], exponent: int, size: int = 16) -> list[list[Cell]]:
@@ -135,17 +158,19 @@ def box_cells(enclose: Callable[[int], list[list[arb]] | None], exponent: int, s
 
     ``enclose`` gives enclosures at a precision, or None if it does not suffice.
     """
-    precision, doublings = exponent + 256, 0
+    precision = first = exponent + FIRST_BITS
+    doublings = 0
+    fine = arb(fmpq(1, fmpz(1) << exponent + ENCLOSED))
     while precision <= MAX_PRECISION:
         values = enclose(precision)
         charge(size * len(values or ()) * (20000 + 200 * limbs(precision)))
-        if values is not None and all(_is_fine(value, exponent) for row in values for value in row):
+        if values is not None and all(value.is_finite() and value.rad() < fine for row in values for value in row):
             boxes = [[_coordinate_cell(value, exponent, doublings >= DOUBLINGS) for value in row] for row in values]
             decided = [[cell for cell in box if cell is not None] for box in boxes]
             if decided == boxes:
                 return decided
-            doublings += 1
-        precision *= 2
+            doublings += precision > first
+        precision = 2 * precision if precision > first else exponent + 2 * FIRST_BITS
     raise too_large(f"boxes: a coordinate is not decided by {MAX_PRECISION} bits")
 
 
@@ -180,13 +205,18 @@ def ordinary_coordinates(e: Sequence[arb], f: Sequence[arb], metric: Metric, pre
         return [*position, *rotation, scalar, *(axis * value / length for axis, value in zip(axes, e[1:], strict=True))]
 
 
-def _is_fine(value: arb, exponent: int) -> bool:
-    """Whether a value is enclosed to 2^-40 cells of the grid 2^-exponent."""
-    return bool(value.is_finite() and fmpq(*dyadic(value.rad(), exponent + ENCLOSED)) < 1)
-
-
 def _coordinate_cell(value: arb, exponent: int, late: bool) -> Cell | None:
     """The cell around a finely enclosed value, two cells if it is near a grid point; None if not decided yet."""
+    mantissa, power = value.mid().man_exp()
+    shift = int(power) + exponent + 2 * NEAR
+    units = mantissa << shift if shift >= 0 else mantissa >> -shift  # of 2^-64 cells, as many as are whole
+    cell, part = units >> 2 * NEAR, int(units & _ONE - 1)
+    if _FAR <= part < _ONE - _FAR:  # the radius is less than 2^-40 cells
+        return cell, cell + 1
+    if part < _CLOSE:
+        return cell - 1, cell + 1
+    if part >= _ONE - _CLOSE:
+        return cell, cell + 2
     middle, radius = (fmpq(*dyadic(part, exponent)) for part in (value.mid(), value.rad()))
     nearest = (middle + fmpq(1, 2)).floor()
     distance, limit = abs(middle - nearest), fmpq(1, fmpz(1) << NEAR)

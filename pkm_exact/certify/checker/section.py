@@ -8,7 +8,9 @@ determine, and the solution is substituted into the quadrics; the rest are the u
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import combinations_with_replacement
+from math import gcd
 from typing import Any, Final, TypeAlias
 
 from flint import Ordering, fmpz, fmpz_mat, fmpz_mpoly, fmpz_mpoly_ctx
@@ -77,19 +79,25 @@ def unknown_powers(number: int) -> list[int]:
 
 def terms_of(quadrics: Sequence[fmpz_mpoly], number: int) -> list[Polynomial]:
     """Quadrics in so many unknowns but for those that are 0, each divided by what its coefficients have in common."""
+    monomials = _monomials(number)
+    found = []
+    for terms in (quadric.to_dict() for quadric in quadrics if quadric):
+        values = [int(value) for value in terms.values()]
+        words = limbs(max(map(int.bit_length, values)))
+        charge(len(values) * (2000 + 4 * words * words))
+        content = gcd(*values)
+        found.append({monomials[power]: value // content for power, value in zip(terms, values, strict=True)})
+    return found
+
+
+@lru_cache(maxsize=len(ORDER))
+def _monomials(number: int) -> dict[tuple[int, ...], Monomial]:
+    """The monomials of degree 2 at most in so many unknowns, by the powers of x that stand for them."""
     powers = unknown_powers(number)
-    monomials: dict[Monomial, Monomial] = {
+    return {
         (powers[i] + powers[j],): tuple((i == place) + (j == place) for place in range(number))
         for i, j in combinations_with_replacement(range(number + 1), 2)
     }
-    found = []
-    for quadric in quadrics:
-        if quadric:
-            words = limbs(max(int(value.height_bits()) for value in quadric.coeffs()))
-            charge(len(quadric) * (2000 + 4 * words * words))
-            terms = quadric.primitive()[1].to_dict()
-            found.append({monomials[power]: int(value) for power, value in terms.items()})
-    return found
 
 
 def motion_quadrics(values: Sequence[Any], metric: Metric) -> list[Any]:

@@ -28,7 +28,6 @@ READING: Final = 1000
 _Value = TypeVar("_Value")
 
 _RATIONAL: Final = re.compile(r"(0|-?[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
-_HEXADECIMAL: Final = re.compile(r"0x0|-?0x[1-9a-f][0-9a-f]*", re.ASCII)
 _MAX_DEPTH: Final = 16
 _INTEGER_DIGITS: Final = 12
 _RATIONAL_DIGITS: Final = 600
@@ -43,8 +42,10 @@ def read_sealed(data: bytes) -> dict[str, Any]:
     if _depth(content) > _MAX_DEPTH:
         raise malformed("file: brackets are nested too deeply")
     digest = content.pop("digest")
+    # Without these bytes no text was written with an escape, and none has to be.
+    quote = encode_basestring_ascii if b"\\" in data or b"\x7f" in data else _in_quotes
     try:
-        body = _canonical_bytes(content)
+        body = _canonical_bytes(content, quote)
         whole = body.removesuffix(b"\n}\n") + f',\n "digest": {json.dumps(digest)}\n}}\n'.encode("ascii")
     except RecursionError:
         raise malformed("file: brackets are nested too deeply") from None
@@ -67,19 +68,25 @@ def _depth(content: object) -> int:
     return depth
 
 
-def _canonical_bytes(content: object) -> bytes:
-    return (_spelled(content, "\n") + "\n").encode("ascii")
+def _canonical_bytes(content: object, quote: Callable[[str], str] = encode_basestring_ascii) -> bytes:
+    return (_spelled(content, "\n", quote) + "\n").encode("ascii")
 
 
-def _spelled(value: object, line: str) -> str:
+def _in_quotes(value: str) -> str:
+    return f'"{value}"'
+
+
+def _spelled(value: object, line: str, quote: Callable[[str], str]) -> str:
     """The canonical form of a value after this beginning of its line: an entry has a line, one space further in."""
     if isinstance(value, str):
-        return encode_basestring_ascii(value)
+        return quote(value)
     inner = f"{line} "
     if isinstance(value, list) and value:
-        return f"[{inner}{f',{inner}'.join([_spelled(entry, inner) for entry in value])}{line}]"
+        are_texts = {*map(type, value)} == {str}  # most lists
+        entries = map(quote, value) if are_texts else [_spelled(entry, inner, quote) for entry in value]
+        return f"[{inner}{f',{inner}'.join(entries)}{line}]"
     if isinstance(value, dict) and value:
-        entries = [f"{encode_basestring_ascii(key)}: {_spelled(entry, inner)}" for key, entry in value.items()]
+        entries = [f"{quote(key)}: {_spelled(entry, inner, quote)}" for key, entry in value.items()]
         return f"{{{inner}{f',{inner}'.join(entries)}{line}}}"
     return json.dumps(value)
 
@@ -202,6 +209,10 @@ def hexadecimal(value: object, where: str) -> int:
         raise malformed(f"{where}: not an integer in hexadecimal digits")
     if 4 * len(value) > MAX_COEFFICIENT_BITS:
         raise too_large(f"{where}: more than {MAX_COEFFICIENT_BITS} bits")
-    if not _HEXADECIMAL.fullmatch(value):
+    try:
+        number = int(value, 16)
+    except ValueError:
+        number = None
+    if number is None or hex(number) != value:  # what int() reads has other spellings too
         raise malformed(f"{where}: not an integer in hexadecimal digits")
-    return int(value, 16)
+    return number

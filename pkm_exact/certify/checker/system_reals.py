@@ -8,8 +8,9 @@ from itertools import combinations
 from flint import arb, ctx
 
 from pkm_exact.certify.checker.budget import ball_cost, charge, limbs
-from pkm_exact.certify.checker.descartes import RealRoot, real_roots
+from pkm_exact.certify.checker.descartes import RealRoot
 from pkm_exact.certify.checker.document import ListedPose
+from pkm_exact.certify.checker.listed_roots import roots_by_intervals
 from pkm_exact.certify.checker.realposes import Cell, box_cells, cell_ends, parameter_cells
 from pkm_exact.certify.checker.solutions import primitive_part
 from pkm_exact.certify.checker.system_document import Points
@@ -19,7 +20,7 @@ from pkm_exact.certify.checker.verdict import rejected
 def check_real_solutions(points: Points, exponent: int, solutions: Sequence[ListedPose]) -> Iterator[str]:
     """The solutions listed are all the real ones, each with the intervals that it must have, no two in the same box."""
     h = primitive_part(points.eliminant)
-    roots = real_roots(h)
+    roots = roots_by_intervals(h, [solution.parameter for solution in solutions if solution.parameter is not None])
     cells, fineness = parameter_cells(h, roots)
     if len(solutions) != len(cells):
         raise rejected(f"real solutions: {len(solutions)} listed, the eliminant has {len(cells)} real roots")
