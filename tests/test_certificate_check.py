@@ -7,7 +7,7 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from fractions import Fraction
-from math import prod
+from math import floor, prod
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -363,6 +363,35 @@ def test_cells_of_coordinates(value: Fraction, cell: tuple[int, int] | None) -> 
     assert realposes._coordinate_cell(ball, 0, late=True) == (cell or (6, 8))
 
 
+@given(
+    st.integers(-(10**6), 10**6),
+    st.builds(lambda sign, power: Fraction(sign, 2**power), st.sampled_from((-1, 0, 1)), st.integers(1, 70))
+    | st.fractions(-1, 1),
+    st.integers(0, 70),
+)
+def test_cells_of_coordinates_are_as_they_are_defined(near: int, distance: Fraction, exponent: int) -> None:
+    value = near + distance
+    ball = (arb(fmpq(value.numerator, value.denominator)) + arb(0, arb(2) ** -80)) / 2**exponent
+    found = realposes._coordinate_cell(ball, exponent, late=False)
+    nearest = round(value)
+    apart = abs(value - nearest) - Fraction(1, 2**32)
+    if abs(apart) > Fraction(1, 2**70):
+        assert found == ((nearest - 1, nearest + 1) if apart < 0 else (floor(value), floor(value) + 1))
+    else:
+        assert found in (None, (nearest - 1, nearest + 1), (floor(value), floor(value) + 1))
+
+
+@given(st.integers(-(2**80), 2**80) | st.integers(-9, 9), st.integers(0, 2), st.integers(0, 90))
+def test_ends_are_spelled_in_lowest_terms(low: int, width: int, exponent: int) -> None:
+    ends = realposes.cell_ends(fmpz(low), fmpz(low + width), exponent)
+    assert ends == (str(Fraction(low, 2**exponent)), str(Fraction(low + width, 2**exponent)))
+
+
+def test_ends_of_many_digits() -> None:
+    (end, _) = realposes.cell_ends(fmpz(3) ** 20000, fmpz(3) ** 20000, 9000)
+    assert end == str(fmpq(fmpz(3) ** 20000, fmpz(1) << 9000))
+
+
 # What is not a certificate
 
 
@@ -459,6 +488,8 @@ def test_malformed(data: bytes) -> None:
         (("representation", "eliminant", 0), "-0x0"),
         (("representation", "eliminant", 0), "0xA"),
         (("representation", "eliminant", 0), "0x1_0"),
+        *((("representation", "eliminant", 0), text) for text in ("0x", "", "x", "10", "0x_1", "0o1", "0b1", "0x1.0")),
+        *((("representation", "eliminant", 0), text) for text in (" 0x1", "0x1 ", "0x1\n", "+0x1", "--0x1", "0x１")),
         (("representation", "eliminant", 0), 1),
         (("representation", "quaternion", 0), ["0x1", "0x0"]),
         (("poses", 0, "position"), []),

@@ -55,6 +55,18 @@ def test_characters_beyond_the_printable_ascii_ones(name: str, text: str) -> Non
     assert both(data).status == "malformed"
 
 
+@pytest.mark.parametrize("text", ["é", '"', "\\", "\x7f", "/", "\n", "\\u0041", "\ud800", "a b", "<&>", "\U0001f600"])
+def test_characters_that_are_escaped_and_others_that_are_not(text: str) -> None:
+    content = golden("3-rpr-triple")
+    content["notes"] = [text, f"{text} a {text}"]
+    data = canonical_bytes(sealed(content))
+    assert both(data).status == "accepted"
+    spelled = json.dumps(text).encode()[1:-1]
+    for other in (text.encode("utf-8", "surrogatepass"), "".join(f"\\u{ord(c):04x}" for c in text).encode()):
+        if other != spelled:
+            assert both(data.replace(spelled, other)).status != "accepted"
+
+
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize(
     "tail", [b"x", b"\n", b" ", b"\x00", b"{}", b"\n{}\n", b",", b"]", b"}", b"\xff", b"\r\n", b"//", b"#", b"\x1a"]
