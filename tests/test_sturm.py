@@ -7,7 +7,9 @@ from fractions import Fraction
 from math import prod
 
 import pytest
+from certificate_tools import both_resealed, last_line
 from flint import fmpq, fmpz_poly
+from forged_listings import LISTINGS, POLYNOMIALS, listing
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -186,3 +188,19 @@ def test_whatever_is_listed_all_roots_are_found(roots: list[Fraction], data: st.
         root.narrow(300)
         assert root.low <= exact <= root.high
         assert root.high - root.low <= fmpq(1, 1 << 300)
+
+
+# Certificates
+
+
+@pytest.mark.parametrize("name", LISTINGS)
+def test_lists_that_are_wrong(name: str) -> None:
+    answer = both_resealed(LISTINGS[name]())
+    assert answer.status == "rejected"
+    assert last_line(answer).startswith("real poses: ")
+
+
+@pytest.mark.parametrize("name", POLYNOMIALS)
+def test_lists_that_are_right(name: str) -> None:
+    answer = both_resealed(listing(POLYNOMIALS[name]))
+    assert answer.status == "accepted", last_line(answer)
