@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from math import prod
+from math import isqrt, prod
 
 from certificate_subjects import Content
 from flint import fmpz_poly
@@ -21,9 +21,11 @@ POLYNOMIALS: dict[str, fmpz_poly] = {
     "T^2 - T - 1": T**2 - T - 1,
     "T^3 - 2": T**3 - 2,
     "T^3 - 3 T + 1": T**3 - 3 * T + 1,
+    "T^3 - 3 T - 1": T**3 - 3 * T - 1,
     "T^4 - 5 T^2 + 5": T**4 - 5 * T**2 + 5,
     "T^4 - T^2 - 1": T**4 - T**2 - 1,
     "T^6 - 6 T^4 + 3 T^2 - 2, where a value of the chain at 0 is 0": T**6 - 6 * T**4 + 3 * T**2 - 2,
+    "T^6 - 6 T^4 + 9 T^2 - 1": T**6 - 6 * T**4 + 9 * T**2 - 1,
     "T^5 + T + 1, where degrees fall by more than 1": T**5 + T + 1,
     "T^6 - 6 T^3 + 7": T**6 - 6 * T**3 + 7,
     "two real roots of five": (T**3 - T - 7) * (T**2 + T + 5) * (T - 4),
@@ -69,6 +71,10 @@ def _places() -> dict[str, int]:
     return {name: min(range(len(ends)), key=lambda k: abs(float(ends[k]) - value)) for name, value in values.items()}
 
 
+def _cell(place: int, grid: int = 32) -> tuple[str, str]:
+    return str(Fraction(place, 1 << grid)), str(Fraction(place + 1, 1 << grid))
+
+
 AT = _places()
 OTHERS = [place for place in range(5) if place != AT["root"]]
 
@@ -86,12 +92,29 @@ INTERVALS: dict[str, Callable[[], Content]] = {
         "the ends of an interval the wrong way": (range(5), {AT["root"]: ("3/2", "1")}),
         "an interval that ends at its root": (range(5), {AT["5"]: ("9/2", "5")}),
         "an interval that begins at its root": (range(5), {AT["5"]: ("5", "11/2")}),
+        "two intervals that end at a root, another one left out": (
+            [AT["5"], *OTHERS],
+            {0: ("4", "5"), 1 + OTHERS.index(AT["5"]): ("5", "6")},
+        ),
         "an interval that is too wide": (range(5), {AT["root"]: ("1", "3/2")}),
         "an interval around a point": (range(5), {AT["5"]: ("9/2", "11/2")}),
         "intervals of two roots in each other's place": (
             range(5),
             {AT["5"]: ("-1/4", "-1/4"), AT["-1/4"]: ("5", "5")},
         ),
+        "a cell without a root": (range(5), {AT["root"]: _cell(6 << 32)}),
+        "a cell beside the root": (range(5), {AT["root"]: _cell(isqrt(2 << 64) + 1)}),
+        "a point of the grid that is no root": (range(5), {AT["5"]: (_cell((5 << 32) + 1)[0],) * 2}),
+        "a cell that ends at its root": (range(5), {AT["5"]: _cell((5 << 32) - 1)}),
+        "a cell that begins at its root": (range(5), {AT["5"]: _cell(5 << 32)}),
+        "two cells that end at a root, another one left out": (
+            [AT["5"], *OTHERS],
+            {0: _cell((5 << 32) - 1), 1 + OTHERS.index(AT["5"]): _cell(5 << 32)},
+        ),
+        "a cell of a finer grid": (range(5), {AT["root"]: _cell(isqrt(2 << 66), 33)}),
+        "a cell of a coarser grid": (range(5), {AT["root"]: _cell(isqrt(2 << 62), 31)}),
+        "a point, and a cell at it, a root left out": ([AT["5"], *OTHERS], {0: _cell(5 << 32)}),
+        "an interval far too wide": (range(5), {AT["5"]: ("9/2", "9" * 3000)}),
         "an interval with many digits": (range(5), {AT["root"]: ("1", "9" * 5000)}),
         "an interval on a grid that is too fine": (range(5), {AT["root"]: ("1", f"{(3 << 4999) + 1}/{1 << 5000}")}),
         "an interval over 3": (range(5), {AT["root"]: ("4/3", "5/3")}),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import prod
+from math import floor, isqrt, prod
 
 import pytest
 from certificate_tools import both_resealed, last_line
@@ -129,36 +129,72 @@ def test_what_takes_long_is_charged() -> None:
 # Looking up
 
 H = (T - 5) * (4 * T + 1) * (T**2 - 2) * (T**2 + 7)
-RIGHT: list[Ends] = [("-3/2", "-1"), ("-1/4", "-1/4"), ("1", "3/2"), ("9/2", "11/2")]
+GRID = 33
+
+
+def _cells(*places: int, grid: int = GRID) -> list[Ends]:
+    """From a place of the grid to the next one."""
+    return [(str(fmpq(place, 1 << grid)), str(fmpq(place + 1, 1 << grid))) for place in places]
+
+
+def _point(value: Fraction) -> Ends:
+    return str(value), str(value)
+
+
+ROOT = isqrt(2 << 2 * GRID)
+UNIT = Fraction(1, 1 << GRID)
+RIGHT = [*_cells(-ROOT - 1), _point(Fraction(-1, 4)), *_cells(ROOT), _point(Fraction(5))]
 
 
 def _ends(roots: Sequence[RealRoot]) -> list[Ends]:
     return [(str(root.low), str(root.high)) for root in roots]
 
 
-def test_intervals_that_hold_the_roots_are_taken() -> None:
-    assert _ends(roots_by_intervals(H, RIGHT)) == RIGHT
-    assert _ends(roots_by_intervals(H, RIGHT[::-1])) == RIGHT
-    assert _ends(roots_by_intervals(H, [*RIGHT[:3], ("3/2", "11/2")])) == [*RIGHT[:3], ("3/2", "11/2")]  # a common end
+@pytest.mark.parametrize("grid", [32, 33, 400, 4096])
+def test_intervals_that_hold_the_roots_are_taken(grid: int) -> None:
+    root = isqrt(2 << 2 * grid)
+    listed = [*_cells(-root - 1, grid=grid), RIGHT[1], *_cells(root, grid=grid), RIGHT[3]]
+    for order in (listed, listed[::-1]):
+        assert _ends(roots_by_intervals(H, order)) == listed
+
+
+def test_cells_may_have_an_end_in_common_and_points_be_on_any_grid() -> None:
+    place = 3 << 30
+    h = _of([Fraction(2 * place - 1, 1 << 34), Fraction(2 * place + 1, 1 << 34), Fraction(1, 2)])
+    listed = [*_cells(place - 1, place), _point(Fraction(1, 2))]
+    assert _ends(roots_by_intervals(h, listed)) == listed
+    assert _ends(roots_by_intervals(T * (T - 3), [("3", "3"), ("0", "0")])) == [("0", "0"), ("3", "3")]
     assert _ends(roots_by_intervals(T**2 + 1, [])) == []
 
 
 WRONG: dict[str, list[Ends]] = {
     "none": [],
     "one is missing": RIGHT[:3],
-    "one has no root": [*RIGHT[:3], ("6", "7")],
-    "one more has no root": [*RIGHT, ("6", "7")],
-    "one more is a point that is no root": [*RIGHT, ("6", "6")],
+    "one has no root": [*RIGHT[:3], *_cells(6 << GRID)],
+    "one more has no root": [*RIGHT, *_cells(6 << GRID)],
+    "one more is a point that is no root": [*RIGHT, _point(Fraction(6))],
     "the same twice": [*RIGHT[:3], RIGHT[2]],
     "the same point twice, and one is missing": [RIGHT[0], RIGHT[1], RIGHT[1], RIGHT[2]],
-    "one in another": [*RIGHT[:3], ("5/4", "3/2")],
-    "two overlap": [*RIGHT[:2], ("1", "3/2"), ("5/4", "11/2")],
-    "one is the wrong way": [*RIGHT[:3], ("11/2", "9/2")],
-    "an end is a root": [*RIGHT[:3], ("9/2", "5")],
-    "an end is the root that the one before holds": [RIGHT[0], RIGHT[1], ("-1/4", "3/2"), RIGHT[3]],
-    "three roots in one": [("-3/2", "3/2"), ("2", "3"), ("3", "4"), RIGHT[3]],
-    "a point beside the root": [RIGHT[0], ("-1/5", "-1/5"), *RIGHT[2:]],
-    "ends on no grid that is fine enough": [*RIGHT[:3], ("9/2", f"{(5 << 4097) + 1}/{1 << 4097}")],
+    "a point in another one": [*RIGHT[:3], (RIGHT[2][0], RIGHT[2][0])],
+    "a cell that ends at its root": [*RIGHT[:3], *_cells((5 << GRID) - 1)],
+    "a cell that begins at its root": [*RIGHT[:3], *_cells(5 << GRID)],
+    "two cells that end at a root, and one is missing": [*RIGHT[1:3], *_cells((5 << GRID) - 1, 5 << GRID)],
+    "a cell beside the root": [*_cells(-ROOT), *RIGHT[1:]],
+    "a point beside the root": [RIGHT[0], _point(Fraction(-1, 4) + UNIT), *RIGHT[2:]],
+    "the wrong way": [RIGHT[0][::-1], *RIGHT[1:]],
+    "two places wide": [RIGHT[0], RIGHT[1], (RIGHT[2][0], str(fmpq(ROOT + 2, 1 << GRID))), RIGHT[3]],
+    "a coarser grid": [*RIGHT[:2], *_cells(isqrt(2 << 62), grid=31), RIGHT[3]],
+    "a finer grid than the other": [*_cells(-isqrt(2 << 68) - 1, grid=34), *RIGHT[1:]],
+    "far too wide": [("-" + "9" * 3000, "-1"), RIGHT[1], ("1", "3/2"), ("9/2", "9" * 3000)],
+    "over another number than a power of 2": [("-3/2", "-4/3"), RIGHT[1], ("4/3", "5/3"), RIGHT[3]],
+    "a cell between two such": [(str(fmpq(-3, 2)), str(fmpq(-3, 2) + fmpq(1, 3 << 32))), *RIGHT[1:]],
+    "a point over another number": [*RIGHT[:3], _point(Fraction(14, 3))],
+    "a grid that is too fine": [
+        *_cells(-isqrt(2 << 8194) - 1, grid=4097),
+        RIGHT[1],
+        *_cells(isqrt(2 << 8194), grid=4097),
+        RIGHT[3],
+    ],
     "an end of many digits": [*RIGHT[:3], ("9/2", "9" * 5000)],
 }
 
@@ -173,14 +209,19 @@ def test_they_are_taken_only_if_all_roots_are_counted(monkeypatch: pytest.Monkey
     assert _ends(roots_by_intervals(H, RIGHT)) == _ends(real_roots(H))
 
 
-@given(st.lists(rationals, min_size=1, max_size=5, unique=True), st.data())
-@settings(max_examples=40)
-def test_whatever_is_listed_all_roots_are_found(roots: list[Fraction], data: st.DataObject) -> None:
-    h = _of(roots) * (T**2 + T + 1)
-    near = st.sampled_from(roots).flatmap(lambda root: st.sampled_from([root, root - Fraction(1, 64), root + 1]))
-    ends = st.lists(st.tuples(near, near), min_size=len(roots), max_size=len(roots))
-    listed = data.draw(ends | st.just([(root, root) for root in roots]))
-    found = roots_by_intervals(h, [(str(low), str(high)) for low, high in listed])
+@given(st.lists(rationals, min_size=1, max_size=5, unique=True), st.integers(32, 60), st.data())
+@settings(max_examples=60)
+def test_whatever_is_listed_all_roots_are_found(roots: list[Fraction], grid: int, data: st.DataObject) -> None:
+    h = _of(roots) * (T**2 + T + 3)
+
+    def near(root: Fraction) -> st.SearchStrategy[Ends]:
+        place = floor(root * (1 << grid))
+        cell = _point(root) if root * (1 << grid) == place else _cells(place, grid=grid)[0]
+        others = st.sampled_from([*_cells(place - 1, place, place + 1, grid=grid), _point(root)])
+        return others if data.draw(st.integers(0, 5)) == 0 else st.just(cell)
+
+    listed = [data.draw(near(root)) for root in roots]
+    found = roots_by_intervals(h, listed)
     assert len(found) == len(roots)
     for root, value in zip(found, sorted(roots), strict=True):
         exact = fmpq(value.numerator, value.denominator)

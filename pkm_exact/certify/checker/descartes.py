@@ -113,7 +113,7 @@ class RealRoot:
 
     def cell(self, exponent: int) -> tuple[fmpz, fmpz]:
         """(m, m) if the root is m / 2^exponent, else (m, m + 1) where it lies between m and m + 1, over 2^exponent."""
-        charge(10000 + 50 * limbs(exponent))
+        charge(15000 + 100 * limbs(exponent))
         scale = fmpz(1) << exponent
         first = (self.low * scale).floor()
         if self.low < self.high <= fmpq(first + 1, scale):

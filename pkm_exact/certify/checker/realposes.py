@@ -18,7 +18,7 @@ from pkm_exact.certify.checker.budget import ball_cost, charge, limbs
 from pkm_exact.certify.checker.descartes import MAX_ISOLATION, RealRoot, dyadic, signs_at, value_at
 from pkm_exact.certify.checker.document import Ends, ListedPose, Representation
 from pkm_exact.certify.checker.krawczyk import Equations, Isolated, narrowed
-from pkm_exact.certify.checker.listed_roots import roots_by_intervals
+from pkm_exact.certify.checker.listed_roots import PARAMETER_EXPONENT, roots_by_intervals
 from pkm_exact.certify.checker.solutions import primitive_part
 from pkm_exact.certify.checker.study_motion import Metric, motion
 from pkm_exact.certify.checker.verdict import MAX_PRECISION, rejected, too_large
@@ -26,8 +26,6 @@ from pkm_exact.certify.checker.verdict import MAX_PRECISION, rejected, too_large
 Cell: TypeAlias = tuple[fmpz, fmpz]
 """The ends of an interval, times the power of 2 of its grid."""
 
-PARAMETER_EXPONENT: Final = 32
-"""The parameter's grid is at least this fine: 2^-32."""
 NEAR: Final = 32
 """A coordinate closer than 2^-32 cells to a grid point gets the two cells around it."""
 ENCLOSED: Final = 40

@@ -9,7 +9,7 @@ roots, if no value is 0. Degrees and signs are proved by balls without 0.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Final
 
@@ -40,11 +40,11 @@ def sturm_count(h: fmpz_poly) -> int | None:
     chain = chain or _chain(powers, FINER * (FIRST_BITS + BITS_PER_DEGREE * size))
     if chain is None:
         return None
-    at_infinity = _changes(polynomial[size - place] for place, polynomial in enumerate(chain))
+    at_infinity = _changes([polynomial[size - place] for place, polynomial in enumerate(chain)])
     if m % 2:
-        return None if at_infinity is None else size - 2 * at_infinity
-    at_zero = _changes(polynomial[0] for polynomial in chain)
-    return None if at_zero is None or at_infinity is None else 2 * (at_zero - at_infinity)
+        return size - 2 * at_infinity
+    values = [polynomial[0] for polynomial in chain]
+    return None if any(value.contains(0) for value in values) else 2 * (_changes(values) - at_infinity)
 
 
 def _chain(h: fmpz_poly, bits: int) -> list[arb_poly] | None:
@@ -62,9 +62,6 @@ def _chain(h: fmpz_poly, bits: int) -> list[arb_poly] | None:
     return chain
 
 
-def _changes(values: Iterable[arb]) -> int | None:
-    """The changes of sign, or None if a value may be 0."""
-    known = list(values)
-    if any(value.contains(0) for value in known):
-        return None
-    return sum(bool(one > 0) != bool(other > 0) for one, other in pairwise(known))
+def _changes(values: Sequence[arb]) -> int:
+    """The changes of sign of values that are not 0."""
+    return sum(bool(one > 0) != bool(other > 0) for one, other in pairwise(values))
