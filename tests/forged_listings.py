@@ -103,6 +103,7 @@ INTERVALS: dict[str, Callable[[], Content]] = {
             {AT["5"]: ("-1/4", "-1/4"), AT["-1/4"]: ("5", "5")},
         ),
         "a cell without a root": (range(5), {AT["root"]: _cell(6 << 32)}),
+        "a cell without a root, below all roots": (range(5), {AT["-10/3"]: _cell(-6 << 32)}),
         "a cell beside the root": (range(5), {AT["root"]: _cell(isqrt(2 << 64) + 1)}),
         "a point of the grid that is no root": (range(5), {AT["5"]: (_cell((5 << 32) + 1)[0],) * 2}),
         "a cell that ends at its root": (range(5), {AT["5"]: _cell((5 << 32) - 1)}),
@@ -122,3 +123,11 @@ INTERVALS: dict[str, Callable[[], Content]] = {
 }
 
 LISTINGS = FEWER | INTERVALS
+
+
+def far_out() -> Content:
+    """A root of 2^5000, which is listed."""
+    content, root = listing(T - 5), str(1 << 5000)
+    far = turning(T - (1 << 5000), 60)
+    content["poses"][0] = content["poses"][0] | {"parameter": [root, root]}
+    return content | {"representation": far["representation"]}

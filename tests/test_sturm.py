@@ -9,7 +9,7 @@ from math import floor, isqrt, prod
 import pytest
 from certificate_tools import both_resealed, last_line
 from flint import fmpq, fmpz_poly
-from forged_listings import LISTINGS, POLYNOMIALS, listing
+from forged_listings import LISTINGS, POLYNOMIALS, far_out, listing
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -245,3 +245,9 @@ def test_lists_that_are_wrong(name: str) -> None:
 def test_lists_that_are_right(name: str) -> None:
     answer = both_resealed(listing(POLYNOMIALS[name]))
     assert answer.status == "accepted", last_line(answer)
+
+
+def test_a_root_that_is_too_large() -> None:
+    answer = both_resealed(far_out())
+    assert answer.status == "too-large"
+    assert last_line(answer).endswith("above 2^4096")
