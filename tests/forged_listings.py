@@ -13,7 +13,6 @@ from forged_representations import fit_real_poses, turning
 from pkm_exact.certify.checker.descartes import real_roots
 
 T = fmpz_poly([0, 1])
-REJECTED = "rejected"
 
 POLYNOMIALS: dict[str, fmpz_poly] = {
     "T - 3": T - 3,
