@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from functools import partial
+from hashlib import sha256
 from itertools import product
 from typing import Any
 
@@ -43,6 +44,9 @@ def cases() -> Iterator[Case]:
         yield f"{depth} objects, and no digest that fits", partial(_nested_objects, depth), status
     for digit in "0f":
         yield f"a digest of {digit}", partial(_with_digest, digit), "rejected"
+    for text in ('a "name"', "a \\ and no more", "\x7f", "\u00e9"):
+        yield f"a note {text!a}", partial(_with_note, text), "accepted"
+    yield "a character that has to be escaped and is not, and the digest of that", _with_raw_delete, "rejected"
     for tail in (b"", b"\n\n"):
         yield f"{tail!r} at the end", partial(_with_tail, tail), "malformed"
 
@@ -97,6 +101,16 @@ def _nested_objects(depth: int) -> bytes:
 
 def _with_digest(digit: str) -> bytes:
     return canonical_bytes({**subject(NOTHING), "digest": "sha256:" + digit * 64})
+
+
+def _with_note(text: str) -> bytes:
+    return canonical_bytes(sealed(subject(NOTHING) | {"notes": [text]}))
+
+
+def _with_raw_delete() -> bytes:
+    content = {key: value for key, value in subject(NOTHING).items() if key != "digest"}
+    body = canonical_bytes(content | {"notes": ["\x7f"]}).replace(b"\\u007f", b"\x7f")
+    return body.removesuffix(b"\n}\n") + f',\n "digest": "sha256:{sha256(body).hexdigest()}"\n}}\n'.encode()
 
 
 def _with_tail(tail: bytes) -> bytes:
