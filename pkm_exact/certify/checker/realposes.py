@@ -1,9 +1,10 @@
-"""The real poses: their number, isolating intervals of the parameter, boxes. Every interval is computed anew.
+"""The real poses: their number, isolating intervals of the parameter, boxes. Every interval is proved or computed anew.
 
 Real solutions are those with a real parameter, since (e, f) are rational functions of t over Q and t a linear form in
-(e, f). The rule of Descartes isolates the real roots, exactly (``descartes``). The grid cell that a coordinate lies in
-does not depend on a precision: there is one right answer, and the certificate must have it. But where the distance
-from a grid point is 2^-32 cells up to thousands of bits, it depends on what these tell; both cells hold the value.
+(e, f). The real roots are counted and looked up in the intervals that are listed, or isolated (``listed_roots``). The
+grid cell that a coordinate lies in does not depend on a precision: there is one right answer, and the certificate must
+have it. But where the distance from a grid point is 2^-32 cells up to thousands of bits, it depends on what these tell;
+both cells hold the value.
 """
 
 from __future__ import annotations
