@@ -46,15 +46,19 @@ def main() -> int:
 
 def _once(name: str, data: bytes) -> tuple[float, float, float]:
     """Processor seconds of a solve, of one with an elimination, and of a check."""
-    robot = read_robot(ROOT / "models" / f"{name}.toml")
-    problem = robot.problem(robot.configuration())
     by_elimination = partial(solve, policy=Policy(eliminate=True))
     eliminated, alone, checked = (
-        _seconds(by_elimination, problem),
-        _seconds(solve, problem),
+        _seconds(by_elimination, _problem(name)),
+        _seconds(solve, _problem(name)),
         _seconds(_accepted, check, data),
     )
     return alone, eliminated, checked
+
+
+def _problem(name: str) -> Any:
+    """The problem, read anew: one that was solved before knows what it was asked for then, such as its equations."""
+    robot = read_robot(ROOT / "models" / f"{name}.toml")
+    return robot.problem(robot.configuration())
 
 
 def _seconds(action: Any, *arguments: Any) -> float:
