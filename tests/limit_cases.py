@@ -121,6 +121,7 @@ def _entries() -> Iterator[tuple[str, Path_, Any, str]]:
     yield from _texts()
     yield from wrong_sorts()
     yield from _numbers()
+    yield from _intervals()
     yield from _polynomials()
     yield from _eliminations()
     yield from _boxes()
@@ -190,8 +191,36 @@ def _numbers() -> Iterator[tuple[str, Path_, Any, str]]:
     coefficient: Path_ = ("representation", "quaternion", 0, 1)
     for digits, status in ((1 << 16, "rejected"), ((1 << 16) + 1, "too-large")):
         yield DOUBLE, coefficient, "0x" + "9" * (digits - 2), status
-    for text in ("-0x0", "0x", "0x00", "0x0a", "0xg", "x1", "-1", "0x1 ", "", "0x-1", "1x1"):
+    wrong = (
+        "-0x0",
+        "0x",
+        "-0x",
+        "0x00",
+        "0x0a",
+        "-0x01",
+        "0xg",
+        "x1",
+        "-1",
+        "1",
+        "0x1 ",
+        " 0x1",
+        "",
+        "0x-1",
+        "--0x1",
+        "1x1",
+    )
+    stranger = ("+0x1", "0x1_1", "0xA", "0X1", "0x1\n", "0x1\u0663", "\u06630x1", "0x\ud800", "0x1\u00e9", "0x1\x7f")
+    for text in (*wrong, *stranger):
         yield DOUBLE, coefficient, text, "malformed"
+
+
+def _intervals() -> Iterator[tuple[str, Path_, Any, str]]:
+    interval: Path_ = ("poses", 0, "position", 0)
+    long, longer = "1" * 10_000, "1" * 10_001
+    for ends in (["01", "1/0"], ["1/0", "2"], ["1", "\ud800"], [long, "x"], [None, None], ["1"], ["1"] * 3, {"1": "2"}):
+        yield DOUBLE, interval, ends, "malformed"
+    yield DOUBLE, interval, [longer, longer], "too-large"
+    yield DOUBLE, interval, ["x", longer], "malformed"
 
 
 def _polynomials() -> Iterator[tuple[str, Path_, Any, str]]:

@@ -41,7 +41,7 @@ MOST_STEPS: Final = 16
 class RealRoot:
     """A root of a squarefree h: ``low`` itself if that is ``high``, otherwise the only one strictly between them.
 
-    ``sign`` is that of h at ``low``, where it is known and not 0.
+    ``sign`` is that of h at ``low``, and at ``high`` it is the other, where both are known and neither is 0.
     """
 
     def __init__(self, h: fmpz_poly, low: fmpq, high: fmpq, sign: int = 0) -> None:
@@ -50,10 +50,15 @@ class RealRoot:
         self._h = h
         self._size = int(h.length()), limbs(int(h.height_bits()))
         self._slope = h.derivative()
+        self._change = (low, high) if sign else None
         self._rises = (sign or signs_at(h, [low])[0] or signs_at(self._slope, [low])[0]) < 0
         self._bits = GUARD
         self._guess = (low + high) / 2
         self._step = FIRST_STEP
+
+    def is_known_to_change(self, low: fmpq, high: fmpq) -> bool:
+        """Whether it was said that h changes its sign between these."""
+        return self._change == (low, high)
 
     def narrow(self, bits: int) -> None:
         """Make the interval no wider than 2^-bits."""

@@ -19,7 +19,7 @@ from pkm_exact.certify.checker.spelling import (
     items,
     positive,
     rational,
-    rational_text,
+    rational_texts,
     read_sealed,
     text,
 )
@@ -308,5 +308,5 @@ def read_pose(value: Any, where: str) -> ListedPose:
 
 
 def _ends(value: Any, where: str) -> Ends:
-    low, high = items(value, where, 2, rational_text)
+    low, high = rational_texts(value, where, 2)
     return low, high

@@ -10,7 +10,7 @@ both cells hold the value.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Final, TypeAlias
 
 from flint import arb, arb_poly, ctx, fmpq, fmpz, fmpz_poly
@@ -138,16 +138,18 @@ def parameter_cells(h: fmpz_poly, roots: Sequence[RealRoot]) -> tuple[list[Cell]
     """The isolating intervals on the coarsest grid from 2^-32 on where each holds one root only, and its exponent."""
     for exponent in range(PARAMETER_EXPONENT, MAX_ISOLATION + 1):
         cells = [root.cell(exponent) for root in roots]
-        if len(set(cells)) == len(cells) and all(_holds_one_root(h, cell, exponent) for cell in cells):
+        if len(set(cells)) == len(cells) and all(map(partial(_holds_one_root, h, exponent), cells, roots)):
             return cells, exponent
     raise too_large(f"real poses: the roots are not told apart by a grid of 2^-{MAX_ISOLATION}")
 
 
-def _holds_one_root(h: fmpz_poly, cell: Cell, exponent: int) -> bool:
-    """Whether h is 0 at the cell's only point, or changes its sign between its ends."""
+def _holds_one_root(h: fmpz_poly, exponent: int, cell: Cell, root: RealRoot) -> bool:
+    """Whether h is 0 at the only point of a root's cell, or changes its sign between its ends."""
     low, high = (fmpq(end, fmpz(1) << exponent) for end in cell)
     if low == high:
         return value_at(h, low, ()) == 0
+    if root.is_known_to_change(low, high):
+        return True
     first, last = signs_at(h, [low, high])
     return first * last < 0
 

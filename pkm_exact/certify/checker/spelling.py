@@ -8,6 +8,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from hashlib import sha256
 from json.encoder import encode_basestring_ascii
+from math import gcd
 from typing import Any, Final, TypeVar
 
 from pkm_exact.certify.checker.budget import charge
@@ -29,6 +30,7 @@ _Value = TypeVar("_Value")
 
 _RATIONAL: Final = re.compile(r"(0|-?[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
 _MAX_DEPTH: Final = 16
+_DIGITS: Final = b"0123456789abcdef"
 _INTEGER_DIGITS: Final = 12
 _RATIONAL_DIGITS: Final = 600
 
@@ -39,16 +41,10 @@ def read_sealed(data: bytes) -> dict[str, Any]:
     content = _json(data)
     if not isinstance(content, dict) or not isinstance(content.get("digest"), str):
         raise malformed("file: not a JSON object with a digest")
-    if _depth(content) > _MAX_DEPTH:
-        raise malformed("file: brackets are nested too deeply")
     digest = content.pop("digest")
     # Without these bytes no text was written with an escape, and none has to be.
-    quote = encode_basestring_ascii if b"\\" in data or b"\x7f" in data else _in_quotes
-    try:
-        body = _canonical_bytes(content, quote)
-        whole = body.removesuffix(b"\n}\n") + f',\n "digest": {json.dumps(digest)}\n}}\n'.encode("ascii")
-    except RecursionError:
-        raise malformed("file: brackets are nested too deeply") from None
+    body = _canonical_bytes(content, is_plain=b"\\" not in data and b"\x7f" not in data)
+    whole = body.removesuffix(b"\n}\n") + f',\n "digest": {json.dumps(digest)}\n}}\n'.encode("ascii")
     if digest != f"sha256:{sha256(body).hexdigest()}":
         raise rejected("digest: differs from that of the content")
     if data != whole:
@@ -56,45 +52,33 @@ def read_sealed(data: bytes) -> dict[str, Any]:
     return content
 
 
-def _depth(content: object) -> int:
-    """How deeply values are nested, up to a level more than may be. Lines are indented, so depth makes a text long."""
-    level, depth = [content], 0
-    while level and depth <= _MAX_DEPTH:
-        depth += 1
-        inner = (
-            value.values() if isinstance(value, dict) else value for value in level if isinstance(value, dict | list)
-        )
-        level = [value for values in inner for value in values]
-    return depth
+def _canonical_bytes(content: object, *, is_plain: bool = False) -> bytes:
+    """The canonical form of what a file contains; texts that are plain need no escapes."""
+    return (_spelled(content, "\n", is_plain) + "\n").encode("ascii")
 
 
-def _canonical_bytes(content: object, quote: Callable[[str], str] = encode_basestring_ascii) -> bytes:
-    return (_spelled(content, "\n", quote) + "\n").encode("ascii")
-
-
-def _in_quotes(value: str) -> str:
-    return f'"{value}"'
-
-
-def _spelled(value: object, line: str, quote: Callable[[str], str]) -> str:
+def _spelled(value: object, line: str, is_plain: bool) -> str:
     """The canonical form of a value after this beginning of its line: an entry has a line, one space further in."""
     if isinstance(value, str):
-        return quote(value)
+        return f'"{value}"' if is_plain else encode_basestring_ascii(value)
+    if not value or not isinstance(value, list | dict):
+        return json.dumps(value)
     inner = f"{line} "
-    if isinstance(value, list) and value:
-        are_texts = {*map(type, value)} == {str}  # most lists
-        entries = map(quote, value) if are_texts else [_spelled(entry, inner, quote) for entry in value]
-        return f"[{inner}{f',{inner}'.join(entries)}{line}]"
-    if isinstance(value, dict) and value:
-        entries = [f"{quote(key)}: {_spelled(entry, inner, quote)}" for key, entry in value.items()]
-        return f"{{{inner}{f',{inner}'.join(entries)}{line}}}"
-    return json.dumps(value)
+    if len(inner) > _MAX_DEPTH:  # lines are indented: depth would make the text long
+        raise malformed("file: brackets are nested too deeply")
+    between = f",{inner}"
+    if isinstance(value, dict):
+        entries = [f"{_spelled(key, inner, is_plain)}: {_spelled(value[key], inner, is_plain)}" for key in value]
+        return f"{{{inner}{between.join(entries)}{line}}}"
+    if is_plain and {*map(type, value)} == {str}:  # most lists
+        return "".join((f'[{inner}"', f'",{inner}"'.join(value), f'"{line}]'))
+    return f"[{inner}{between.join([_spelled(entry, inner, is_plain) for entry in value])}{line}]"
 
 
 def _json(data: bytes) -> Any:
     if len(data) > MAX_BYTES:
         raise too_large(f"file: more than {MAX_BYTES} bytes")
-    if sum(map(data.count, (b",", b"[", b"{"))) > MAX_ENTRIES:
+    if len(data) > MAX_ENTRIES and sum(map(data.count, (b",", b"[", b"{"))) > MAX_ENTRIES:
         raise too_large(f"file: more than {MAX_ENTRIES} entries")
     try:
         return json.loads(
@@ -138,7 +122,7 @@ def items(value: object, where: str, length: int | None, read: Callable[[Any, st
     """The entries of a list of the given length (any if None), each read with ``read``."""
     if not isinstance(value, list) or (length is not None and len(value) != length):
         raise malformed(f"{where}: not a list" + (f" of {length}" if length is not None else ""))
-    return tuple(read(entry, f"{where}[{number}]") for number, entry in enumerate(value, 1))
+    return tuple([read(entry, f"{where}[{number}]") for number, entry in enumerate(value, 1)])
 
 
 def text(value: object, where: str) -> str:
@@ -183,16 +167,27 @@ def rational_text(value: object, where: str) -> str:
     return value
 
 
+def rational_texts(value: object, where: str, length: int) -> tuple[str, ...]:
+    """A list of so many such texts."""
+    if isinstance(value, list) and len(value) == length and all(map(_is_rational_text, value)):
+        return tuple(value)
+    return items(value, where, length, rational_text)  # says which one is not, and why
+
+
+def _is_rational_text(value: object) -> bool:
+    return isinstance(value, str) and len(value) <= MAX_RATIONAL_LENGTH and _RATIONAL.fullmatch(value) is not None
+
+
 def rational(value: object, where: str, digits: int = _RATIONAL_DIGITS) -> Fraction:
     """A rational number "p" or "p/q" in lowest terms, q > 1, each of at most 600 digits or another number of them."""
     written = rational_text(value, where)
-    parts = written.split("/")
-    if max(map(len, parts)) > digits:
+    numerator, _, denominator = written.partition("/")
+    if max(len(numerator), len(denominator)) > digits:
         raise too_large(f"{where}: more than {digits} digits")
-    number = Fraction(int(parts[0]), int(parts[-1]) if len(parts) == 2 else 1)
-    if str(number) != written:
+    p, q = int(numerator), int(denominator or 1)
+    if denominator and (q == 1 or gcd(p, q) > 1):
         raise malformed(f"{where}: not in lowest terms")
-    return number
+    return Fraction(p, q)
 
 
 def positive(value: object, where: str) -> Fraction:
@@ -209,10 +204,8 @@ def hexadecimal(value: object, where: str) -> int:
         raise malformed(f"{where}: not an integer in hexadecimal digits")
     if 4 * len(value) > MAX_COEFFICIENT_BITS:
         raise too_large(f"{where}: more than {MAX_COEFFICIENT_BITS} bits")
-    try:
-        number = int(value, 16)
-    except ValueError:
-        number = None
-    if number is None or hex(number) != value:  # what int() reads has other spellings too
+    digits = value[3:] if value.startswith("-0x") else value[2:] if value.startswith("0x") else ""
+    strange = digits.encode("ascii", "replace").translate(None, _DIGITS)
+    if not digits or strange or (digits[0] == "0" and value != "0x0"):
         raise malformed(f"{where}: not an integer in hexadecimal digits")
-    return number
+    return int(value, 16)

@@ -18,7 +18,7 @@ from pkm_exact.certify.checker.spelling import (
     integer,
     items,
     rational,
-    rational_text,
+    rational_texts,
     text,
 )
 from pkm_exact.certify.checker.system_supports import Subdivision
@@ -247,5 +247,5 @@ def _solution(value: Any, where: str, size: int) -> ListedPose:
 
 
 def _ends(value: Any, where: str) -> tuple[str, str]:
-    low, high = items(value, where, 2, rational_text)
+    low, high = rational_texts(value, where, 2)
     return low, high
