@@ -748,9 +748,18 @@ def _line(constants: Any, forms: Any = FORM) -> Content:
     return slices(LINE, forms, constants, _at, (0, 1))
 
 
+def _of_high_powers() -> Content:
+    """One solution, of which a = b = 1, c = 2; but a^8 c and b^9 were one monomial if exponents had three bits."""
+    names = tuple("abcdefghijklmnop")
+    texts = (*(f"{name}-1" for name in names[:2]), *(f"{name}-2" for name in names[2:]))
+    step = [*("0" + " 0" * k + " 2" for k in range(8)), *("1" + " 1" * k for k in range(9)), "2"]
+    return none(texts, "exact-elimination", ",".join(names), elimination=[step])
+
+
 CLAIMS: dict[str, Row] = {
     "none, a constant": (none(("5",), "exact-elimination", elimination=[]), "accepted"),
     "none, a constant alone": (none(("5",), "exact-elimination", "x", elimination=[]), "accepted"),
+    "none, of high powers": (_of_high_powers(), "rejected"),
     "none, where a row must be reduced by a multiple of an element": (
         none(
             ("y^2+x-2", "2*x^2*y+x*y+1", "x*y^2+x^2"),

@@ -12,6 +12,8 @@ from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.checker import elimination
 from pkm_exact.certify.checker.budget import Budget, spending
 from pkm_exact.certify.checker.elimination import Elimination
+from pkm_exact.certify.checker.packed_monomials import Tuples
+from pkm_exact.certify.checker.section import Polynomial
 
 CASES = Path(__file__).parent / "cases"
 
@@ -43,18 +45,25 @@ def test_robots_built_on_primes_of_the_first_checker(name: str, status: str) -> 
     assert both((CASES / f"{name}.json").read_bytes()).status == status
 
 
+def _begun(size: int, *elements: Polynomial) -> Elimination:
+    """With these elements, their first terms leading."""
+    packing = Tuples(size)
+    packed = ({packing.packed(monomial): value for monomial, value in element.items()} for element in elements)
+    return Elimination(packing, tuple(packed))
+
+
 def test_a_prime_of_the_last_step_leaves_no_less_than_there_is() -> None:
     """Two at x^2 = 1; nothing is told where no power of x is there."""
-    before = Elimination(1, ({(2,): 1, (0,): -1},))
+    before = _begun(1, {(2,): 1, (0,): -1})
     assert before.at_most([(0, (0,))], 5) == 2
-    assert Elimination(1, ()).at_most([], 5) is None
+    assert _begun(1).at_most([], 5) is None
 
 
 def test_residues_of_long_coefficients_are_charged_for() -> None:
     elements = ({(1,): 1 << 640_000, (0,): 1},)
     budget = Budget(0)
     with spending(budget):
-        assert Elimination(1, elements).at_most([(0, ())], 5) == 1
+        assert _begun(1, *elements).at_most([(0, ())], 5) == 1
     assert budget.spent > 10**6
 
 
@@ -74,7 +83,7 @@ def test_whatever_the_prime_is_no_fewer_are_left(
     """Of one element, whose first coefficient may be divisible by it: nothing is told then, or as much as is true."""
     monkeypatch.setattr(elimination, "_prime", lambda _: 7)
     element, number = ONE_UNKNOWN[name]
-    assert Elimination(1, (element,)).at_most(step, 5) == number
+    assert _begun(1, element).at_most(step, 5) == number
 
 
 def test_an_unknown_without_a_power_may_be_anything(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -83,4 +92,4 @@ def test_an_unknown_without_a_power_may_be_anything(monkeypatch: pytest.MonkeyPa
     line = {(1, 0): 1, (0, 0): -1}
     for other in ({(0, 1): 7, (0, 0): -1}, {(0, 2): 7, (1, 1): 1, (0, 0): -1}):
         for step in ([(1, ())], [(0, (1,)), (1, ())], [(0, (0,)), (0, (1,)), (0, ()), (1, ())]):
-            assert Elimination(2, (line, other)).at_most(step, 5) is None
+            assert _begun(2, line, other).at_most(step, 5) is None

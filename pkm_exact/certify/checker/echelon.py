@@ -4,9 +4,10 @@ Of sparse rows: by rational arithmetic, as long as that fills few places. A colu
 pivots. The one with the fewest entries is eliminated, by its shortest row, whatever stands on the left of it; rows
 that begin where no row is asked for need not be reduced any further. What is left is a dense matrix.
 
-Of a dense matrix: FLINT's. How long that takes depends on how large the numbers in the result are. Before it is begun,
-they are estimated from its image modulo a prime and one combination of its columns, which takes little; nothing else
-follows from it. Both follow from a digest of the matrix: none can be made for which they tell too little.
+Of a dense matrix: FLINT's. How long that takes depends on how large the numbers in the result are. Where what suffices
+for any that there can be is not little, they are estimated before it is begun, from its image modulo a prime and one
+combination of its columns, which takes little; nothing else follows from it. Both follow from a digest of the matrix:
+none can be made for which they tell too little.
 """
 
 from __future__ import annotations
@@ -27,6 +28,9 @@ from pkm_exact.certify.checker.budget import charge, limbs
 
 _FILLED: Final = 100
 """A pivot is taken if no more places than these can be filled on account of it."""
+
+_LITTLE: Final = 4 * 10**6
+"""Operations so few that it is not estimated whether fewer suffice."""
 
 Row: TypeAlias = dict[int, int]
 """Entries by column, none of them 0."""
@@ -50,12 +54,25 @@ def echelon_form(table: Sequence[Sequence[int]]) -> Echelon:
     Echelon(pivots=[0, 2], others=[1], denominator=2, numerators=[[4], [0]])
     """
     matrix = fmpz_mat(table)
-    charge(_cost(table, matrix))
+    most = _greatest_cost(table)
+    charge(most if most <= _LITTLE else _cost(table, matrix))
     reduced, denominator, rank = matrix.rref()
     pivots = pivots_of(reduced, int(rank))
     others = sorted(set(range(len(table[0]))) - set(pivots))
     numerators = [[int(row[column]) for column in others] for row in reduced.tolist()[: len(pivots)]]
     return Echelon(pivots, others, int(denominator), numerators)
+
+
+def _greatest_cost(table: Sequence[Sequence[int]]) -> int:
+    """Operations that suffice for the echelon form: its entries are minors, which are no larger than all rows allow."""
+    rows, columns = len(table), len(table[0])
+    rank = min(rows, columns)
+    sizes = sorted(max(map(int.bit_length, row)) + rank.bit_length() for row in table)
+    words = limbs(sum(sizes[-rank:]))
+    primes = 3 + 2 * words  # of about 60 bits each, for a numerator and a denominator
+    entries = rows * columns
+    modular = primes * (entries * rank // 3 + entries * (50 + 12 * limbs(sizes[-1])) + rank * columns * (100 + primes))
+    return modular + rank * entries * words * (30 + words // 8) // 3
 
 
 def _cost(table: Sequence[Sequence[int]], matrix: fmpz_mat) -> int:
@@ -155,10 +172,11 @@ class _Sparse:
         """Subtract a row from all others with an entry in a column."""
         first = self._rows[chosen]
         del self._leads[chosen]
-        for other in first:
-            self._places[other].discard(chosen)
         places = self._places
-        for place in places.pop(column):
+        for other in first:
+            places[other].discard(chosen)
+        there, places[column] = places[column], set()
+        for place in there:
             row, new, gone = _without(column, self._rows[place], first)
             self._rows[place] = row
             for other in new:
@@ -179,30 +197,34 @@ class _Sparse:
 def _without(column: int, row: Row, other: Row) -> tuple[Row, list[int], list[int]]:
     """A multiple of a row minus one of another row, which both have an entry in a column: the least that has none.
 
-    With the columns in which it has an entry and the row had none, and those that lost theirs, but for the column. The
-    row itself is used up.
+    With the columns in which it has an entry and the row had none, and those that lost theirs. The row itself is used
+    up. What is done takes little beside what led to the entries, and is charged for at once.
     """
-    lead, factor = other[column], row.pop(column)
-    charge(500 * (len(row) + len(other)) + lead.bit_length() * factor.bit_length() // 750)
-    common = gcd(lead, factor) if lead > 0 else -gcd(lead, factor)
-    scale, factor = lead // common, factor // common
+    lead, factor = other[column], row[column]
+    common = gcd(lead, factor)
+    scale, multiple = lead // common, factor // common
+    if scale < 0:
+        scale, multiple = -scale, -multiple
     if scale != 1:
         row = {place: scale * value for place, value in row.items()}
     new, gone = [], []
+    before = row.get
     for place, value in other.items():
-        if place == column:
-            continue
-        entry = row.get(place)
+        entry = before(place)
         if entry is None:
-            row[place] = -factor * value
+            row[place] = -multiple * value
             new.append(place)
-        elif entry := entry - factor * value:
+        elif entry := entry - multiple * value:
             row[place] = entry
         else:
             del row[place]
             gone.append(place)
     bits = sum(map(int.bit_length, row.values()))
-    charge(bits * bits // (600 * (len(row) + 1)))
+    charge(
+        500 * (len(row) + len(other))
+        + lead.bit_length() * factor.bit_length() // 750
+        + bits * bits // (600 * (len(row) + 1))
+    )
     return row if scale == 1 else _primitive(row, 1), new, gone
 
 

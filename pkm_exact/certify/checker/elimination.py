@@ -3,7 +3,8 @@
 Elements. The first ones are the rows of the reduced echelon form of the quadrics of the section (``section``), largest
 leading monomial first. Each step of an elimination names products of known elements and monomials; of the reduced
 echelon form of these products, the rows whose leading monomial no earlier element's divides become elements. Monomials
-are ordered by degree, then reverse lexicographically. Whatever is combined, every element vanishes at every pose.
+are ordered by degree, then reverse lexicographically (``packed_monomials``). Whatever is combined, every element
+vanishes at every pose.
 
 Bound. Every polynomial is, modulo the elements, a combination of the monomials that no leading monomial divides. If
 these are n, then the unknowns take at most n different values at poses, and a pose is determined by them. For the last
@@ -18,21 +19,22 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
-from itertools import count, product
-from math import prod
-from operator import add, le
+from itertools import count
 from typing import TypeAlias
 
 from flint import fmpz, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import pivots_of, reduced_rows
-from pkm_exact.certify.checker.section import Monomial, Polynomial, section
+from pkm_exact.certify.checker.packed_monomials import Code, Monomial, Packing, packing_for
+from pkm_exact.certify.checker.section import Polynomial, section
 from pkm_exact.certify.checker.study_motion import Leg, Metric
 from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_ENTRIES, MAX_ELIMINATION_TERMS, rejected, too_large
 
 Row: TypeAlias = tuple[int, tuple[int, ...]]
 """A product: index of an element, from 0, and the indices of the unknowns that multiply it."""
+Packed: TypeAlias = dict[Code, int]
+"""Coefficients by monomials, which are decreasing."""
 
 _TERM = 3000
 """Operations charged for a term that is multiplied or put into a matrix."""
@@ -42,33 +44,59 @@ _DIVISION = 2000
 
 @dataclass(frozen=True)
 class Elimination:
-    """Polynomials that vanish at all poses: ``elements``, terms in decreasing order, in ``size`` unknowns."""
+    """Polynomials that vanish at all poses: ``packed``, terms in decreasing order, in the unknowns of ``packing``."""
 
-    size: int
-    elements: tuple[Polynomial, ...]
+    packing: Packing
+    packed: tuple[Packed, ...]
+
+    @classmethod
+    def begun(cls, size: int, polynomials: Sequence[Polynomial]) -> Elimination:
+        """The rows of the reduced echelon form of polynomials in so many unknowns."""
+        degree = max((sum(monomial) for one in polynomials for monomial in one), default=0)
+        packing = packing_for(size, degree, sum(map(len, polynomials)))
+        return cls(packing, tuple(_echelon(_packed(polynomials, packing), packing, set())))
+
+    @property
+    def size(self) -> int:
+        """The number of unknowns."""
+        return self.packing.size
+
+    @cached_property
+    def elements(self) -> tuple[Polynomial, ...]:
+        """The polynomials, terms in decreasing order."""
+        unpacked = self.packing.unpacked
+        return tuple({unpacked(code): value for code, value in element.items()} for element in self.packed)
 
     def standard(self, most: int) -> list[Monomial]:
         """The monomials that no leading monomial of an element divides; rejects if there are more than ``most``."""
-        found = _standard(self._leading(), self.size, most)
+        found = _standard(set(map(self.packing.unpacked, self._leading())), self.size, most)
         if found is None:
             raise rejected(f"elimination: it leaves more than {most} monomials")
         return found
 
-    def products(self, step: Sequence[Row]) -> list[Polynomial]:
-        """The products of a step that ``require`` lets pass."""
-        return [_multiple(self.elements[index], factors) for index, factors in step]
+    def products(self, step: Sequence[Row]) -> list[Packed]:
+        """The products of a step that this is ``prepared`` for."""
+        return [self.packing.multiple(self.packed[index], factors) for index, factors in step]
 
-    def require(self, step: Sequence[Row], number: int) -> None:
-        """Reject a step, which has this number, of what there is not; refuse one that is too long."""
-        if any(index >= len(self.elements) or max(factors, default=0) >= self.size for index, factors in step):
+    def prepared(self, step: Sequence[Row], number: int) -> Elimination:
+        """The same, so that degrees may be as high, and terms as many, as after a step, which has this number.
+
+        Rejects a step of what there is not; refuses one that is too long.
+        """
+        if any(index >= len(self.packed) or max(factors, default=0) >= self.size for index, factors in step):
             raise rejected(f"elimination: step {number} names an element or an unknown that there is not")
-        _limit_terms(sum(len(self.elements[index]) for index, _ in step))
+        terms = sum(len(self.packed[index]) for index, _ in step)
+        _limit_terms(terms)
+        degrees = [self.packing.degree(_leading(element)) for element in self.packed]
+        degree = max([0, *degrees, *(degrees[index] + len(factors) for index, factors in step)])
+        packing = packing_for(self.size, degree, max(terms, sum(map(len, self.packed))))
+        return self if packing == self.packing else Elimination(packing, tuple(_packed(self.elements, packing)))
 
-    def followed(self, products: Sequence[Polynomial]) -> Elimination:
+    def followed(self, products: Sequence[Packed]) -> Elimination:
         """With the further elements that the products of a step yield."""
-        found = echelon(products, self._leading())
-        _limit_terms(sum(map(len, (*self.elements, *found))))
-        return Elimination(self.size, (*self.elements, *found))
+        found = _echelon(products, self.packing, self._leading())
+        _limit_terms(sum(map(len, (*self.packed, *found))))
+        return Elimination(self.packing, (*self.packed, *found))
 
     def at_most(self, step: Sequence[Row], most: int) -> int | None:
         """How many poses there are at most, by the products of a further step modulo a prime, with multiplicity.
@@ -76,36 +104,36 @@ class Elimination:
         None if these do not tell, or if it is more than ``most``. Any prime serves; one that follows from the elements
         nearly always tells what the step tells over Q, as no element can be built on it.
         """
-        prime = _prime(self.elements)
-        elements = [{monomial: value % prime for monomial, value in element.items()} for element in self.elements]
-        leading = {next(iter(element)) for element in elements if next(iter(element.values()))}
-        products = [_multiple(elements[index], factors) for index, factors in step]
+        prime, degree_of = _prime(self.packed), self.packing.degree
+        elements = [{code: value % prime for code, value in element.items()} for element in self.packed]
+        leading = {_leading(element) for element in elements if element[_leading(element)]}
+        products = [self.packing.multiple(elements[index], factors) for index, factors in step]
         columns = _columns(products)
         charge(len(products) * len(columns) * (50 + min(len(products), len(columns)) // 3))
-        place = {monomial: column for column, monomial in enumerate(columns)}
+        place = {code: column for column, code in enumerate(columns)}
         table = nmod_mat(len(products), len(columns), prime)
         for row, polynomial in enumerate(products):
-            for monomial, value in polynomial.items():
-                table[row, place[monomial]] = value
+            for code, value in polynomial.items():
+                table[row, place[code]] = value
         pivots = {columns[place] for place in pivots_of(*table.rref())}
         # Over Q a row may begin on the left of its pivot, in a column that has none: powers of this degree last.
-        degree = max((sum(monomial) for monomial in columns if monomial not in pivots), default=0)
-        lasting = leading.union(monomial for monomial in pivots if sum(monomial) >= degree)
-        powers = {monomial.index(max(monomial)) for monomial in lasting if max(monomial) == sum(monomial)}
+        degree = max((degree_of(code) for code in columns if code not in pivots), default=0)
+        lasting = leading.union(code for code in pivots if degree_of(code) >= degree)
+        powers = set(map(self.packing.unknown_of_power, lasting)) - {None}
         if len(powers) < self.size:
             return None
-        left = _standard(leading | pivots, self.size, most)
+        left = _standard(set(map(self.packing.unpacked, leading | pivots)), self.size, most)
         return None if left is None else len(left)
 
-    def _leading(self) -> set[Monomial]:
-        return set(map(_leading, self.elements))
+    def _leading(self) -> set[Code]:
+        return set(map(_leading, self.packed))
 
 
-def follow(size: int, first: Sequence[Polynomial], steps: Sequence[Sequence[Row]]) -> Elimination:
-    """The elements that the steps yield, beginning with the first ones, in so many unknowns."""
-    elimination = Elimination(size, tuple(first))
+def follow(begun: Elimination, steps: Sequence[Sequence[Row]]) -> Elimination:
+    """The elements that the steps yield, beginning with the first ones."""
+    elimination = begun
     for number, step in enumerate(steps, 1):
-        elimination.require(step, number)
+        elimination = elimination.prepared(step, number)
         elimination = elimination.followed(elimination.products(step))
     return elimination
 
@@ -113,11 +141,11 @@ def follow(size: int, first: Sequence[Polynomial], steps: Sequence[Sequence[Row]
 class Steps:
     """Steps of an elimination; the last one is not followed over Q if enough is proved modulo a prime."""
 
-    def __init__(self, size: int, first: Sequence[Polynomial], steps: Sequence[Sequence[Row]]) -> None:
-        self._before = follow(size, first, steps[:-1])
+    def __init__(self, begun: Elimination, steps: Sequence[Sequence[Row]]) -> None:
+        self._before = follow(begun, steps[:-1])
         self._last = steps[-1:]
         for step in self._last:
-            self._before.require(step, len(steps))
+            self._before = self._before.prepared(step, len(steps))
 
     def has_at_most(self, expected: int) -> bool:
         """Whether a prime proves that there are no more poses than expected, with multiplicity."""
@@ -134,8 +162,7 @@ class Steps:
 
 def eliminate(legs: Sequence[Leg], metric: Metric, steps: Sequence[Sequence[Row]]) -> Steps:
     """The steps, for a robot with legs."""
-    size, quadrics = section(legs, metric)
-    return Steps(size, echelon(quadrics), steps)
+    return Steps(Elimination.begun(*section(legs, metric)), steps)
 
 
 def _limit_terms(number: int) -> None:
@@ -145,26 +172,16 @@ def _limit_terms(number: int) -> None:
     charge(_TERM * number)
 
 
-def _order(monomial: Monomial) -> tuple[int, ...]:
-    """Sorting key of the degree reverse lexicographic order."""
-    return (sum(monomial), *(-exponent for exponent in reversed(monomial)))
+def _packed(polynomials: Sequence[Polynomial], packing: Packing) -> list[Packed]:
+    codes = {monomial: packing.packed(monomial) for monomial in {m for one in polynomials for m in one}}
+    return [{codes[monomial]: value for monomial, value in one.items()} for one in polynomials]
 
 
-def _leading(polynomial: Polynomial) -> Monomial:
+def _leading(polynomial: Packed) -> Code:
     return next(iter(polynomial))
 
 
-def _multiple(polynomial: Polynomial, factors: Sequence[int]) -> Polynomial:
-    """The polynomial times unknowns, given by their indices."""
-    if not factors:
-        return polynomial
-    shift = [0] * len(_leading(polynomial))
-    for factor in factors:
-        shift[factor] += 1
-    return {tuple(map(add, monomial, shift)): value for monomial, value in polynomial.items()}
-
-
-def echelon(polynomials: Sequence[Polynomial], leading: AbstractSet[Monomial] = frozenset()) -> list[Polynomial]:
+def _echelon(polynomials: Sequence[Packed], packing: Packing, leading: AbstractSet[Code]) -> list[Packed]:
     """The rows of the reduced echelon form over Q, as primitive integer polynomials, terms in decreasing order.
 
     Without those whose leading monomial one of ``leading`` divides.
@@ -172,26 +189,19 @@ def echelon(polynomials: Sequence[Polynomial], leading: AbstractSet[Monomial] = 
     charge(_TERM * sum(map(len, polynomials)))
     columns = _columns(polynomials)
     charge((100 + _DIVISION * len(leading)) * len(columns))
-    place = {monomial: column for column, monomial in enumerate(columns)}
-    known = {column for monomial, column in place.items() if _is_divisible(monomial, leading)} if leading else set()
-    found = reduced_rows([{place[monomial]: value for monomial, value in row.items()} for row in polynomials], known)
+    place = {code: column for column, code in enumerate(columns)}
+    known = packing.multiples(columns, leading)
+    found = reduced_rows([{place[code]: value for code, value in row.items()} for row in polynomials], known)
     rows = [found[pivot] for pivot in sorted(found) if pivot not in known]
     return [{columns[column]: row[column] for column in sorted(row)} for row in rows]
 
 
-def _columns(polynomials: Sequence[Polynomial]) -> list[Monomial]:
+def _columns(polynomials: Sequence[Packed]) -> list[Code]:
     """All monomials of some polynomials, decreasing."""
-    columns = sorted({monomial for polynomial in polynomials for monomial in polynomial}, key=_order, reverse=True)
+    columns = sorted({code for polynomial in polynomials for code in polynomial}, reverse=True)
     if len(polynomials) * len(columns) > MAX_ELIMINATION_ENTRIES:
         raise too_large(f"elimination: a matrix of more than {MAX_ELIMINATION_ENTRIES} entries")
     return columns
-
-
-def _is_divisible(monomial: Monomial, divisors: AbstractSet[Monomial]) -> bool:
-    """Whether one of the divisors divides a monomial: either those of the monomial are looked up, or all are tried."""
-    if prod(exponent + 1 for exponent in monomial) < len(divisors):
-        return not divisors.isdisjoint(product(*(range(exponent + 1) for exponent in monomial)))
-    return any(all(map(le, divisor, monomial)) for divisor in divisors)
 
 
 def _standard(leading: AbstractSet[Monomial], size: int, most: int) -> list[Monomial] | None:
@@ -212,7 +222,7 @@ def _standard(leading: AbstractSet[Monomial], size: int, most: int) -> list[Mono
     return found
 
 
-def _prime(elements: Sequence[Polynomial]) -> int:
+def _prime(elements: Sequence[Packed]) -> int:
     """A prime of 63 bits that follows from a digest of the coefficients; their residues are charged for, too."""
     charge(sum(500 + 100 * limbs(value.bit_length()) for element in elements for value in element.values()))
     text = ";".join(",".join(map(hex, element.values())) for element in elements)

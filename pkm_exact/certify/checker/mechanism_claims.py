@@ -149,7 +149,7 @@ def _filling(document: MechanismDocument, listed: _Listed) -> tuple[int, tuple[t
     steps = document.elimination or ()
     if steps and section.is_empty:
         raise rejected("elimination: a step names an element that there is not")
-    followed = Steps(section.size, section.elements, steps)
+    followed = Steps(section.elimination, steps)
     if followed.has_at_most(listed.weight):
         left = listed.weight
     else:

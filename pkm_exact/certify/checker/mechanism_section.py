@@ -20,7 +20,7 @@ from typing import Final, NamedTuple, TypeAlias
 from flint import fmpz_mat, fmpz_mpoly, fmpz_poly, nmod, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge
-from pkm_exact.certify.checker.elimination import echelon
+from pkm_exact.certify.checker.elimination import Elimination
 from pkm_exact.certify.checker.mechanism_forms import SIZE, Mechanism, Row, cleared, matrix
 from pkm_exact.certify.checker.section import RING, Polynomial, motion_quadrics, substituted, terms_of, unknown_powers
 from pkm_exact.certify.checker.solutions import primes_for
@@ -59,18 +59,23 @@ class Section:
     ----------
     free : list of int
         Places in ``ORDER`` of the unknowns.
-    elements : list of dict
-        Over the integers, primitive, in the order of an elimination; {1: 1} alone if there is no finite pose.
+    elimination : Elimination
+        The quadrics, before any step; 1 alone if there is no finite pose.
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
         forms = [*mechanism.integral, *mechanism.vanishing]
         while True:
             self.free, polynomials = _substituted(mechanism, forms)
-            self.elements = echelon(polynomials)
+            self.elimination = Elimination.begun(len(self.free), polynomials)
             if self.is_empty or not (found := [e for e in self.elements if _degree(e) == 1]):
                 return
             forms += [self._as_form(element) for element in found]
+
+    @property
+    def elements(self) -> tuple[Polynomial, ...]:
+        """The quadrics, over the integers, primitive."""
+        return self.elimination.elements
 
     @property
     def size(self) -> int:

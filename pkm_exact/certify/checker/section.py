@@ -9,14 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
-from itertools import combinations_with_replacement
+from itertools import chain, combinations_with_replacement
 from math import gcd
 from typing import Any, Final, TypeAlias
 
 from flint import Ordering, fmpz, fmpz_mat, fmpz_mpoly, fmpz_mpoly_ctx
 
 from pkm_exact.certify.checker.budget import charge, limbs
-from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Metric, combination, leg_form
+from pkm_exact.certify.checker.echelon import pivots_of
+from pkm_exact.certify.checker.packed_monomials import Monomial
+from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Metric, combination, leg_form, times
 
 ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
 """Coordinates; the legs are solved for those on the left first, and unknowns decrease in the monomial order."""
@@ -24,7 +26,6 @@ ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (
 _PLANE: Final = (("u3", 0), ("c3", 0), ("r13", 0), ("r23", 0), ("r31", 0), ("r32", 0), ("r33", -1))
 """What keeps a planar robot in the plane of the first two axes: these coordinates, minus 1 for r33, are 0."""
 
-Monomial: TypeAlias = tuple[int, ...]
 Polynomial: TypeAlias = dict[Monomial, int]
 """Coefficients by exponents."""
 
@@ -45,12 +46,11 @@ def _solved(legs: Sequence[Leg], metric: Metric) -> tuple[fmpz_mat, fmpz, list[i
         rows.append([*form[13:16], *form[10:13], form[16], *form[1:10], form[0]])
     if len(legs) == PLANAR_LEGS:
         rows += [[int(name == fixed) for name in ORDER] + [constant] for fixed, constant in _PLANE]
-    words = limbs(max(abs(value).bit_length() for row in rows for value in row))
+    words = limbs(max(map(int.bit_length, chain.from_iterable(rows))))
     charge(10**6 + len(rows) * words * (10**5 + 3000 * words))
     echelon, lead, rank = fmpz_mat(rows).rref()
-    size = len(ORDER)
-    pivots = [next(j for j in range(size + 1) if echelon[row, j] != 0) for row in range(rank)]
-    return echelon, lead, pivots, [j for j in range(size) if j not in pivots]
+    pivots = pivots_of(echelon, int(rank))
+    return echelon, lead, pivots, [j for j in range(len(ORDER)) if j not in pivots]
 
 
 def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Polynomial]]:
@@ -81,12 +81,16 @@ def terms_of(quadrics: Sequence[fmpz_mpoly], number: int) -> list[Polynomial]:
     """Quadrics in so many unknowns but for those that are 0, each divided by what its coefficients have in common."""
     monomials = _monomials(number)
     found = []
-    for terms in (quadric.to_dict() for quadric in quadrics if quadric):
-        values = [int(value) for value in terms.values()]
+    for quadric in quadrics:
+        if not quadric:
+            continue
+        values = [*map(int, quadric.coeffs())]
         words = limbs(max(map(int.bit_length, values)))
         charge(len(values) * (2000 + 4 * words * words))
         content = gcd(*values)
-        found.append({monomials[power]: value // content for power, value in zip(terms, values, strict=True)})
+        found.append(
+            {monomials[power]: value // content for power, value in zip(quadric.monoms(), values, strict=True)}
+        )
     return found
 
 
@@ -122,14 +126,15 @@ def motion_quadrics(values: Sequence[Any], metric: Metric) -> list[Any]:
                 rows = combination([volume // value for value in g], [r[i][k] * r[j][k] for k in range(3)])
                 found += [columns - g[i] * unit, rows - volume // g[i] * unit] if i == j else [columns, rows]
             (i1, i2), (j1, j2) = CYCLIC[i][1:], CYCLIC[j][1:]
-            found.append(g[j] * (r[i1][j1] * r[i2][j2] - r[i1][j2] * r[i2][j1]) - g[i] * (r[i][j] * one))
+            minor = r[i1][j1] * r[i2][j2] - r[i1][j2] * r[i2][j1]
+            found.append(times(g[j], minor) - times(g[i], r[i][j] * one))
         found.append(r[i][0] * u[0] + r[i][1] * u[1] + r[i][2] * u[2] - c[i] * one)
-        found.append(combination(g, [r[k][i] * c[k] for k in range(3)]) - g[i] * (u[i] * one))
+        found.append(combination(g, [r[k][i] * c[k] for k in range(3)]) - times(g[i], u[i] * one))
     found.append(combination(g, [value * value for value in c]) - s * one)
     found.append(combination(g, [value * value for value in u]) - s * one)
     for axis, up, down in CYCLIC:
         for i, j, k in CYCLIC:
             # The coordinate i of G R G^-1 (u x v) for the unit vector v along ``axis``, times g_up g_down.
-            image = g[down] * (r[i][up] * u[down]) - g[up] * (r[i][down] * u[up])
-            found.append(g[up] * g[down] * (c[j] * r[k][axis] - c[k] * r[j][axis]) - g[i] * image)
+            image = times(g[down], r[i][up] * u[down]) - times(g[up], r[i][down] * u[up])
+            found.append(times(g[up] * g[down], c[j] * r[k][axis] - c[k] * r[j][axis]) - times(g[i], image))
     return found

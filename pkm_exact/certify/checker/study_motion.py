@@ -71,22 +71,22 @@ def motion(e: Sequence[Any], f: Sequence[Any], metric: Metric) -> Motion:
     (((-1, 0, 0), (0, -1, 0), (0, 0, 1)), (5, 6, 7), 110)
     """
     volume = metric[0] * metric[1] * metric[2]
-    real = _times(volume, e[0] * e[0])
-    squares = [_times(metric[i], e[i + 1] * e[i + 1]) for i in range(3)]
+    real = times(volume, e[0] * e[0])
+    squares = [times(metric[i], e[i + 1] * e[i + 1]) for i in range(3)]
     norm = real + squares[0] + squares[1] + squares[2]
     rotation = [[norm] * 3 for _ in range(3)]
     position, turned = [norm] * 3, [norm] * 3
     for i, j, k in CYCLIC:
         rotation[i][i] = real + squares[i] - squares[j] - squares[k]
-        mixed, turn = e[i + 1] * e[j + 1], _times(metric[k], e[0] * e[k + 1])
+        mixed, turn = e[i + 1] * e[j + 1], times(metric[k], e[0] * e[k + 1])
         rotation[i][j] = 2 * metric[j] * (mixed - turn)
         rotation[j][i] = 2 * metric[i] * (mixed + turn)
-        even = _times(metric[j] * metric[k], e[0] * f[i + 1]) - e[i + 1] * f[0]
-        odd = _times(metric[j], e[j + 1] * f[k + 1]) - _times(metric[k], e[k + 1] * f[j + 1])
+        even = times(metric[j] * metric[k], e[0] * f[i + 1]) - e[i + 1] * f[0]
+        odd = times(metric[j], e[j + 1] * f[k + 1]) - times(metric[k], e[k + 1] * f[j + 1])
         position[i], turned[i] = even + odd, even - odd
     square = f[0] * f[0]
     for i, j, k in CYCLIC:
-        square = square + _times(metric[j] * metric[k], f[i + 1] * f[i + 1])
+        square = square + times(metric[j] * metric[k], f[i + 1] * f[i + 1])
     study = e[0] * f[0] + e[1] * f[1] + e[2] * f[2] + e[3] * f[3]
     return Motion(
         norm,
@@ -124,14 +124,14 @@ def leg_form(leg: Leg, metric: Metric) -> list[int]:
 
 def combination(scalars: Sequence[int], values: Sequence[Any]) -> Any:
     """The sum of the products, in any ring."""
-    total = _times(scalars[0], values[0])
+    total = times(scalars[0], values[0])
     for scalar, value in zip(scalars[1:], values[1:], strict=True):
         if scalar:
-            total = total + _times(scalar, value)
+            total = total + times(scalar, value)
     return total
 
 
-def _times(scalar: int, value: Any) -> Any:
+def times(scalar: int, value: Any) -> Any:
     """A multiple, in any ring; most metrics are 1."""
     return value if scalar == 1 else scalar * value
 

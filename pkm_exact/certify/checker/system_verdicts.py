@@ -11,7 +11,7 @@ from flint import fmpz_poly, nmod_poly
 
 from pkm_exact.certify.checker.budget import TooMuchError, attempting, charge
 from pkm_exact.certify.checker.claims import check_listed_multiplicities
-from pkm_exact.certify.checker.elimination import Elimination, echelon, follow
+from pkm_exact.certify.checker.elimination import Elimination, follow
 from pkm_exact.certify.checker.multiplicity import multiplicities_by
 from pkm_exact.certify.checker.solutions import modulo, primitive_part
 from pkm_exact.certify.checker.system_document import Points, SystemDocument, Witness
@@ -218,7 +218,7 @@ def _counted_at_infinity(document: SystemDocument, points: Points, weighed: Weig
 
 def _eliminated(document: SystemDocument) -> Elimination:
     """The elements that the steps of the certificate yield."""
-    return follow(document.size, echelon(document.polynomials), document.elimination or ())
+    return follow(Elimination.begun(document.size, document.polynomials), document.elimination or ())
 
 
 def _by_elimination(document: SystemDocument, points: Points, weighed: Weighed) -> _Proved:
@@ -262,7 +262,7 @@ def _infinitely_many(document: SystemDocument, witness: Witness) -> Iterator[str
         if witness.forms or witness.slices or document.points is None:
             raise rejected("witness: fewer polynomials need a representation, and neither forms nor slices")
         charge(10**6)
-        if len(echelon(polynomials)) >= document.size:
+        if len(Elimination.begun(document.size, polynomials).packed) >= document.size:
             raise rejected("witness: the polynomials are not fewer than the variables")
     else:
         yield from _more_than_bound(document, witness)
