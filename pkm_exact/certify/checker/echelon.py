@@ -29,6 +29,9 @@ from pkm_exact.certify.checker.budget import charge, limbs
 _FILLED: Final = 100
 """A pivot is taken if no more places than these can be filled on account of it."""
 
+_SHORT: Final = 128
+"""Bits up to which the entries of a row, on an average, are not divided by what they have in common."""
+
 _LITTLE: Final = 4 * 10**6
 """Operations so few that it is not estimated whether fewer suffice."""
 
@@ -195,7 +198,7 @@ class _Sparse:
 
 
 def _without(column: int, row: Row, other: Row) -> tuple[Row, list[int], list[int]]:
-    """A multiple of a row minus one of another row, which both have an entry in a column: the least that has none.
+    """A multiple of a row minus one of another row, which both have an entry in a column: one that has none.
 
     With the columns in which it has an entry and the row had none, and those that lost theirs. The row itself is used
     up. What is done takes little beside what led to the entries, and is charged for at once.
@@ -225,7 +228,8 @@ def _without(column: int, row: Row, other: Row) -> tuple[Row, list[int], list[in
         + lead.bit_length() * factor.bit_length() // 750
         + bits * bits // (600 * (len(row) + 1))
     )
-    return row if scale == 1 else _primitive(row, 1), new, gone
+    is_short = bits <= _SHORT * len(row)
+    return row if scale == 1 or is_short else _primitive(row, 1), new, gone
 
 
 def _primitive(row: Row, sign: int) -> Row:

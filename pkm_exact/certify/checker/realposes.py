@@ -125,6 +125,8 @@ def cell_ends(low: fmpz, high: fmpz, exponent: int) -> Ends:
 def _spelled(number: fmpz, exponent: int) -> str:
     """The rational number number / 2^exponent in lowest terms."""
     value = int(number)
+    if value & 1:
+        return str(number) + _denominator(exponent)
     twos = min((value & -value).bit_length() - 1, exponent) if value else exponent
     return str(fmpz(value >> twos)) + _denominator(exponent - twos)
 

@@ -23,7 +23,10 @@ from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Met
 ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
 """Coordinates; the legs are solved for those on the left first, and unknowns decrease in the monomial order."""
 
-_PLANE: Final = (("u3", 0), ("c3", 0), ("r13", 0), ("r23", 0), ("r31", 0), ("r32", 0), ("r33", -1))
+_PLANE: Final = tuple(
+    [int(name == fixed) for name in ORDER] + [-int(fixed == "r33")]
+    for fixed in ("u3", "c3", "r13", "r23", "r31", "r32", "r33")
+)
 """What keeps a planar robot in the plane of the first two axes: these coordinates, minus 1 for r33, are 0."""
 
 Polynomial: TypeAlias = dict[Monomial, int]
@@ -45,7 +48,7 @@ def _solved(legs: Sequence[Leg], metric: Metric) -> tuple[fmpz_mat, fmpz, list[i
         form = leg_form(leg, metric)  # on (1, R, C, u, s)
         rows.append([*form[13:16], *form[10:13], form[16], *form[1:10], form[0]])
     if len(legs) == PLANAR_LEGS:
-        rows += [[int(name == fixed) for name in ORDER] + [constant] for fixed, constant in _PLANE]
+        rows += _PLANE
     words = limbs(max(map(int.bit_length, chain.from_iterable(rows))))
     charge(10**6 + len(rows) * words * (10**5 + 3000 * words))
     echelon, lead, rank = fmpz_mat(rows).rref()

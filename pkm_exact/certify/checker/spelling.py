@@ -30,6 +30,9 @@ _Value = TypeVar("_Value")
 
 _RATIONAL: Final = re.compile(r"(0|-?[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
 _MAX_DEPTH: Final = 16
+_LINES: Final = tuple("\n" + depth * " " for depth in range(_MAX_DEPTH + 1))
+"""How lines begin, by how many brackets are around them."""
+_TEXTS: Final = {str}
 _DIGITS: Final = b"0123456789abcdef"
 _INTEGER_DIGITS: Final = 12
 _RATIONAL_DIGITS: Final = 600
@@ -54,25 +57,26 @@ def read_sealed(data: bytes) -> dict[str, Any]:
 
 def _canonical_bytes(content: object, *, is_plain: bool = False) -> bytes:
     """The canonical form of what a file contains; texts that are plain need no escapes."""
-    return (_spelled(content, "\n", is_plain) + "\n").encode("ascii")
+    return (_spelled(content, 0, is_plain) + "\n").encode("ascii")
 
 
-def _spelled(value: object, line: str, is_plain: bool) -> str:
-    """The canonical form of a value after this beginning of its line: an entry has a line, one space further in."""
-    if isinstance(value, str):
+def _spelled(value: Any, depth: int, is_plain: bool) -> str:
+    """The canonical form of a value with so many around it: an entry has a line, one space further in than these."""
+    kind = type(value)
+    if kind is str:
         return f'"{value}"' if is_plain else encode_basestring_ascii(value)
-    if not value or not isinstance(value, list | dict):
+    if not value or (kind is not list and kind is not dict):
         return json.dumps(value)
-    inner = f"{line} "
-    if len(inner) > _MAX_DEPTH:  # lines are indented: depth would make the text long
+    if depth + 1 >= _MAX_DEPTH:  # lines are indented: depth would make the text long
         raise malformed("file: brackets are nested too deeply")
-    between = f",{inner}"
-    if isinstance(value, dict):
-        entries = [f"{_spelled(key, inner, is_plain)}: {_spelled(value[key], inner, is_plain)}" for key in value]
-        return f"{{{inner}{between.join(entries)}{line}}}"
-    if is_plain and {*map(type, value)} == {str}:  # most lists
-        return "".join((f'[{inner}"', f'",{inner}"'.join(value), f'"{line}]'))
-    return f"[{inner}{between.join([_spelled(entry, inner, is_plain) for entry in value])}{line}]"
+    line, inner = _LINES[depth], _LINES[depth + 1]
+    if kind is dict:
+        pairs = [f"{_spelled(key, depth, is_plain)}: {_spelled(value[key], depth + 1, is_plain)}" for key in value]
+        return f"{{{inner}{f',{inner}'.join(pairs)}{line}}}"
+    if is_plain and {*map(type, value)} == _TEXTS:  # most lists
+        between = f'",{inner}"'
+        return f'[{inner}"{between.join(value)}"{line}]'
+    return f"[{inner}{f',{inner}'.join([_spelled(entry, depth + 1, is_plain) for entry in value])}{line}]"
 
 
 def _json(data: bytes) -> Any:

@@ -108,11 +108,13 @@ def leg_form(leg: Leg, metric: Metric) -> list[int]:
     [-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 4]
     """
     scale = lcm(*(value.denominator for value in (*leg.base, *leg.platform)))
-    base, platform = ([int(value * scale) for value in point] for point in (leg.base, leg.platform))
+    base, platform = (
+        [value.numerator * (scale // value.denominator) for value in point] for point in (leg.base, leg.platform)
+    )
     a, b = ([g * x for g, x in zip(metric, point, strict=True)] for point in (base, platform))
-    square, part = leg.length_squared * scale**2, leg.length_squared.denominator
+    square, part = leg.length_squared.numerator * scale**2, leg.length_squared.denominator
     row = [
-        part * (sum(map(mul, a, base)) + sum(map(mul, b, platform))) - int(square * part),
+        part * (sum(map(mul, a, base)) + sum(map(mul, b, platform))) - square,
         *(-2 * part * x * y for x in a for y in platform),
         *(-2 * part * scale * x for x in a),
         *(2 * part * scale * x for x in b),
