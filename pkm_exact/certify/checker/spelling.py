@@ -30,7 +30,7 @@ _Value = TypeVar("_Value")
 
 _RATIONAL: Final = re.compile(r"(0|-?[1-9][0-9]*)(?:/([1-9][0-9]*))?", re.ASCII)
 _MAX_DEPTH: Final = 16
-_LINES: Final = tuple("\n" + depth * " " for depth in range(_MAX_DEPTH + 1))
+_LINES: Final = tuple("\n" + depth * " " for depth in range(_MAX_DEPTH))
 """How lines begin, by how many brackets are around them."""
 _TEXTS: Final = {str}
 _DIGITS: Final = b"0123456789abcdef"
