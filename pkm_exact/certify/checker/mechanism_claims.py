@@ -12,7 +12,6 @@ from pkm_exact.certify.checker.document import Representation
 from pkm_exact.certify.checker.elimination import Elimination, Steps
 from pkm_exact.certify.checker.infinity_points import check_infinity
 from pkm_exact.certify.checker.mechanism_document import MechanismDocument
-from pkm_exact.certify.checker.mechanism_motion import check_mechanism_motion
 from pkm_exact.certify.checker.mechanism_section import Section, is_finite, solutions_at_most
 from pkm_exact.certify.checker.mechanism_solutions import are_regular, irregular_factors
 from pkm_exact.certify.checker.multiplicity import multiplicities_of
@@ -222,6 +221,8 @@ def _require_isolated(document: MechanismDocument, count: int) -> None:
 
 def _moving(document: MechanismDocument) -> Iterator[str]:
     """A set of positive dimension that is proved; isolated solutions beside it need boxes."""
+    from pkm_exact.certify.checker.mechanism_motion import check_mechanism_motion  # few certificates need it
+
     if document.self_motion is None:
         raise rejected("claim: positive-dimensional-proved, but no self-motion is given")
     if document.route is not None:
