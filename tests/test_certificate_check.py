@@ -24,7 +24,7 @@ import pkm_exact
 from pkm_exact.certify.build import canonical_bytes, certificate, sealed
 from pkm_exact.certify.check import Status, Verdict, check_bytes
 from pkm_exact.certify.checker import document, elimination, multiplicity, realposes, solutions, spelling, verdict
-from pkm_exact.certify.checker.descartes import real_roots
+from pkm_exact.certify.checker.descartes import RealRoot, real_roots
 from pkm_exact.certify.checker.section import section
 from pkm_exact.certify.checker.study_motion import CYCLIC, Motion, leg_form, leg_lines, motion
 from pkm_exact.claim import Claim, CompletenessRoute
@@ -301,6 +301,16 @@ def test_standard_monomials() -> None:
 
 
 # Real roots and cells
+
+
+def test_nothing_is_cut_at_a_sign_that_is_not_known() -> None:
+    """Of (x - 1) .. (x - 60) values between roots have no digit that is right at the first precision."""
+    h = prod((fmpz_poly([-root, 1]) for root in range(1, 61)), start=fmpz_poly([1]))
+    for number in range(1, 61):
+        for left, right in ((2, 1), (1, 2)):
+            root = RealRoot(h, number - fmpq(left, 5), number + fmpq(right, 5))
+            root.narrow(20)
+            assert root.low <= number <= root.high <= root.low + fmpq(1, 1 << 20)
 
 
 def test_isolating_intervals_are_the_cells_of_the_coarsest_grid() -> None:
