@@ -32,7 +32,7 @@ def main() -> int:
     """Run, and print a Markdown table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rows", type=int, default=64, help="rows (default 64)")
-    parser.add_argument("--runs", type=int, default=4, help="times that all rows are solved (default 4)")
+    parser.add_argument("--runs", type=int, default=8, help="times that all rows are solved (default 8)")
     arguments = parser.parse_args()
     for library in ("OPENBLAS", "MKL", "OMP"):
         os.environ[f"{library}_NUM_THREADS"] = "1"

@@ -89,6 +89,13 @@ def test_answers_do_not_depend_on_it_for_random_robots(seed: int, monkeypatch: P
     assert (by_seeds.isolated, by_seeds.poses) == (by_paths.isolated, by_paths.poses)
 
 
+def test_points_at_infinity_are_no_solutions_however_small_corrections_are(monkeypatch: Patch) -> None:
+    """There the equations have no isolated solution, and where Newton's method leads depends on roundings."""
+    monkeypatch.setattr(module, "GREATEST_CHANGE", np.inf)
+    for name in ("mssm", "3-rps"):
+        assert len(seeds(shipped(name)).points) == COUNTS[name]
+
+
 def test_no_path_is_tracked_where_seeds_do(monkeypatch: Patch) -> None:
     _no_paths(monkeypatch)
     assert solve_krawczyk(shipped("mssm")).method == "krawczyk"

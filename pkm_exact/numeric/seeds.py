@@ -20,6 +20,8 @@ from pkm_exact.numeric.tracker import polished
 
 ENOUGH = 1e-8
 """Corrections of this size are the last ones."""
+NOTHING = 1e-13
+"""N(e) that is relatively smaller is 0 as far as doubles tell: at infinity, where small steps mean nothing."""
 SMALL = 1e-14
 """Relative singular values below which directions of f are taken for undetermined."""
 
@@ -63,8 +65,11 @@ def seeds_of_each(legs: Complex) -> list[Complex]:
         are_finite = np.isfinite(points).all(axis=1)
         points[~are_finite] = 1
         points, change = polished(points, section_quadrics(legs, SPATIAL), enough=ENOUGH)
-        good = (are_finite & (change < GREATEST_CHANGE)).reshape(count, -1)
-    return [rows[chosen] for rows, chosen in zip(points.reshape(count, -1, 8), good, strict=True)]
+        e = points[:, :4]
+        is_infinite = np.abs((e * e).sum(axis=1)) < NOTHING * (np.abs(e) ** 2).sum(axis=1)
+        good = are_finite & ~is_infinite & (change < GREATEST_CHANGE)
+    chosen = zip(points.reshape(count, -1, 8), good.reshape(count, -1), strict=True)
+    return [rows[are_good] for rows, are_good in chosen]
 
 
 def study_points(values: Complex) -> Complex:

@@ -164,48 +164,57 @@ def _with_multiples(second: Real) -> Real:
     return table
 
 
+def _known(second: Real) -> Real:
+    """(k, 10, 21, 47): x_i times 1, x and b, in x_0 a, then 1, x, b, a, then x_0 b."""
+    known, axes = np.zeros((len(second), INNER, A, OTHERS + THREE)), np.arange(INNER)
+    known[:, axes, 0, OTHERS + 1 + axes] = 1
+    known[:, :, 1:ONE, OTHERS:-THIRD] = second
+    known[:, :, ONE:, OTHERS + 1] = second[..., 0]  # x_i b_k is x_0 times x_i x_k
+    known[:, :, ONE:, OTHERS + ONE : OTHERS + A] = second[..., 1:ONE]
+    known[:, :, ONE:, :OTHERS] = second[..., A:]
+    known[:, :, ONE:, -THIRD:] = second[..., ONE:A]
+    return known
+
+
 def _third(second: Real) -> Real:
     """(k, 10, 29, 39): x_i times each of 1, x, b and a, in 1, x, b, a and f.
 
     For each j, x_j a is in the relations x_i (x_j x_k) = x_j (x_i x_k) alone, with the same coefficients for all j.
     """
-    several, (i, k) = len(second), _tables().led
-    # The same in x_0 a, then 1, x, b, a, then x_0 b; rows of x_i a are left 0.
-    known, axes = np.zeros((several, INNER, TWO, OTHERS + THREE)), np.arange(INNER)
-    known[:, axes, 0, OTHERS + 1 + axes] = 1
-    known[:, :, 1:ONE, OTHERS:-THIRD] = second
-    known[:, :, ONE:A, OTHERS + 1] = second[..., 0]  # x_i b_k is x_0 times x_i x_k
-    known[:, :, ONE:A, OTHERS + ONE : OTHERS + A] = second[..., 1:ONE]
-    known[:, :, ONE:A, :OTHERS] = second[..., A:]
-    known[:, :, ONE:A, -THIRD:] = second[..., ONE:A]
-    led = second[:, 1:FURTHER]
-    rows = (second.reshape(several, 1, -1, TWO) @ known[:, 1:FURTHER]).reshape(several, len(LED), INNER, INNER, -1)
-    rows -= led[:, :, None] @ known[:, None]
-    # With x_1 a and x_2 a before, and without x_j a.
+    several, (i, k), known = len(second), _tables().led, _known(second)
+    led, rest = second[:, 1:FURTHER], INNER - LED[-1]
+    # Without x_i a and x_j a; j = 2 or further.
+    rows = second[:, LED[-1] :, :, :A].reshape(several, 1, -1, A) @ known[:, 1:FURTHER]
+    rows = rows.reshape(several, len(LED), rest, INNER, -1)
+    others = led[..., :A].reshape(several, 1, -1, A) @ known[:, LED[-1] :]
+    rows -= others.reshape(several, rest, len(LED), INNER, -1).swapaxes(1, 2)
+    # With x_1 a and x_2 a before.
     blocks = np.zeros((several, INNER - FURTHER, len(i), len(LED) * OTHERS + rows.shape[-1]))
     blocks[:, :, : INNER - 1, :OTHERS] = second[:, FURTHER:, 1:, A:]
     blocks[:, :, INNER - 1 :, OTHERS : 2 * OTHERS] = second[:, FURTHER:, 2:, A:]
-    blocks[..., 2 * OTHERS :] = rows[:, i, FURTHER:, k].transpose(1, 2, 0, 3)
-    first = np.concatenate([second[:, 2, 1:, A:], -second[:, 1, 1:, A:], rows[:, 0, 2, 1:]], axis=2)
+    blocks[..., 2 * OTHERS :] = rows[:, i, 1:, k].transpose(1, 2, 0, 3)
+    first = np.concatenate([second[:, 2, 1:, A:], -second[:, 1, 1:, A:], rows[:, 0, 0, 1:]], axis=2)
     rotation, triangle = np.linalg.qr(led[:, i, k, A:], mode="complete")
-    turned = _turned(rotation)[:, None] @ blocks
-    free = np.concatenate([turned[:, :, OTHERS:].reshape(several, -1, first.shape[2]), first], axis=1)
+    solving = _turned(rotation).copy()
+    solving[:, :OTHERS] = np.linalg.solve(triangle[:, :OTHERS], solving[:, :OTHERS])
+    solved = solving[:, None] @ blocks
+    free = np.concatenate([solved[:, :, OTHERS:].reshape(several, -1, first.shape[2]), first], axis=1)
     few = _solved(free, 3 * OTHERS)  # x_1 a, x_2 a, x_0 a
-    further = np.linalg.solve(triangle[:, None, :OTHERS], turned[:, :, :OTHERS])
-    products = few.reshape(several, 3, OTHERS, THREE)
-    below = known[..., OTHERS:].copy()
-    below[:, :, ONE:A] += known[:, :, ONE:A, :OTHERS] @ products[:, -1:]
-    below[:, 0, A:], below[:, 1:FURTHER, A:] = products[:, -1], products[:, :-1]
-    below[:, FURTHER:, A:] = further[..., : 3 * OTHERS] @ few[:, None] + further[..., 3 * OTHERS :]
+    below = np.empty((several, INNER, TWO, THREE))
+    below[:, :, :A] = known[..., OTHERS:]
+    below[:, :, ONE:A] += second[..., A:] @ few[:, None, 2 * OTHERS :]
+    below[:, 0, A:] = few[:, 2 * OTHERS :]
+    below[:, 1:FURTHER, A:] = few[:, : 2 * OTHERS].reshape(several, 2, OTHERS, THREE)
+    below[:, FURTHER:, A:] = solved[:, :, :OTHERS, : 3 * OTHERS] @ few[:, None] + solved[:, :, :OTHERS, 3 * OTHERS :]
     return below
 
 
 def _products_with_first(below: Real) -> Real:
     """(k, 40, 40): x_0 times each of 1, x, b, a, f, e."""
     several = len(below)
-    free = np.zeros((several, 1, OTHERS, TWO))
-    free[..., ONE:A], free[..., A:] = -below[:, :1, A:, TWO:], np.eye(OTHERS)
-    moved = free @ below  # x_j n
+    free = np.empty((several, 1, OTHERS, SECOND))
+    free[..., :INNER], free[..., INNER:] = -below[:, :1, A:, TWO:], np.eye(OTHERS)
+    moved = free @ below[:, :, ONE:]  # x_j n
     products = moved[:, 1:].reshape(several, -1, THREE)
     low = products[..., :TWO] @ below[:, 0] - (moved[:, :1, :, :TWO] @ below[:, 1:]).reshape(several, -1, THREE)
     fourth = _normal_forms(products[..., TWO:], low, 1)  # x_0 f
