@@ -22,6 +22,8 @@ ENOUGH = 1e-8
 """Corrections of this size are the last ones."""
 NOTHING = 1e-13
 """N(e) that is relatively smaller is 0 as far as doubles tell: at infinity, where small steps mean nothing."""
+FITTED = 1e-3
+"""N(e) that is relatively smaller is not divided by."""
 SMALL = 1e-14
 """Relative singular values below which directions of f are taken for undetermined."""
 
@@ -82,10 +84,15 @@ def study_points(values: Complex) -> Complex:
     count = np.arange(len(values))
     largest = np.argmax(np.abs(np.einsum("pii->pi", squares)), axis=1)
     e = squares[count, largest] / np.sqrt(squares[count, largest, largest])[:, None]
-    size = np.linalg.norm(e, axis=1)[:, None]
-    matrices = np.einsum("pi,kij->pkj", e / size, mixed)
-    right = np.concatenate([values[:, 1:7], np.zeros((len(values), 1))], axis=1)
-    f = _fitting(matrices, right[:, :, None])[:, :, 0] / size
+    # With Study's condition the columns of the six equations are orthogonal, where N(e) is not small.
+    norms = (e * e).sum(axis=1)
+    f = (values[:, 1:7, None] * e[:, None]).reshape(len(e), -1) @ mixed[:6].reshape(-1, 4) / (2 * norms)[:, None]
+    sizes = np.linalg.norm(e, axis=1)
+    rest = np.flatnonzero(~(np.abs(norms) > FITTED * sizes**2))
+    if len(rest):
+        unit = e[rest] / sizes[rest, None]
+        right = np.concatenate([values[rest, 1:7], np.zeros((len(rest), 1))], axis=1)
+        f[rest] = _fitting(np.einsum("pi,kij->pkj", unit, mixed), right[:, :, None])[:, :, 0] / sizes[rest, None]
     return np.concatenate([e, f], axis=1)
 
 
