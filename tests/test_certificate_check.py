@@ -267,12 +267,12 @@ def test_the_section_consists_of_poses() -> None:
         c = [Fraction(random.randrange(-5, 6), 2) for _ in range(3)]
         placed = motion(e, _translation(e, c, g), g)
         values = [x / placed.norm for x in (*placed.turned, *placed.position, placed.square, *sum(placed.rotation, ()))]
-        size, quadrics = section(_legs_at(placed, g, random), g)
-        assert size == 10
-        assert all(max(map(sum, quadric)) <= 2 for quadric in quadrics)
+        packing, quadrics = section(_legs_at(placed, g, random), g)
+        assert packing.size == 10
+        assert all(max(map(packing.degree, quadric)) <= 2 for quadric in quadrics)
         free = [fmpq(x.numerator, x.denominator) for x in values[6:]]  # six legs give u and C on a general robot
         for quadric in quadrics:
-            assert sum(value * _power(free, monomial) for monomial, value in quadric.items()) == 0
+            assert sum(value * _power(free, packing.unpacked(code)) for code, value in quadric.items()) == 0
 
 
 def _legs_at(placed: Motion, g: tuple[int, int, int], random: Random) -> list[Distance]:

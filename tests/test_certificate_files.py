@@ -285,3 +285,18 @@ def test_names_of_files_are_printed_safely(tmp_path: Path, capsys: Capture) -> N
         captured = capsys.readouterr()
         assert "\x1b" not in chain.from_iterable((captured.out, captured.err))
         assert all(line.count("malformed") <= 1 for line in captured.out.splitlines())
+
+
+def test_python_may_be_set_to_read_few_digits() -> None:
+    """A form with a number of 700 digits, which is not the one of its data: it was an exception."""
+    content = golden("2-ups-u")
+    content["robot"]["constraints"][0]["forms"][0][0] = "1" * 700
+    script = "import sys; from pkm_exact.certify import check; print(check.check_bytes(sys.stdin.buffer.read()).status)"
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        input=canonical_bytes(sealed(content)),
+        env=os.environ | {"PYTHONINTMAXSTRDIGITS": "640"},
+        capture_output=True,
+        check=True,
+    )
+    assert done.stdout.decode().strip() == "rejected"

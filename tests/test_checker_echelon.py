@@ -93,6 +93,16 @@ def test_what_entries_have_in_common_is_counted() -> None:
     assert budget.spent > common.bit_length() ** 2 // 1000
 
 
+def test_few_long_rows_are_not_taken_for_dense_ones() -> None:
+    """They have nothing to do with each other: as a dense matrix they took a minute's work, and a second."""
+    random, budget = Random(7), Budget(10**9)
+    rows = [{k: random.getrandbits(60_000) | 1, 10 + k: random.getrandbits(60_000) | 1} for k in range(10)]
+    with spending(budget):
+        found = reduced_rows(rows)
+    assert sorted(found) == list(range(10))
+    assert budget.spent < 10**7
+
+
 def _some_rows(rows: int, columns: int, filled: float, seed: str) -> list[dict[int, int]]:
     random = Random(seed)
     table = [{k: random.randint(-9, 9) for k in range(columns) if random.random() < filled} for _ in range(rows)]

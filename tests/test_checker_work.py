@@ -16,6 +16,8 @@ from pkm_exact.certify import check, pure
 from pkm_exact.certify.build import certificate_bytes
 from pkm_exact.certify.checker.budget import Budget, spending
 from pkm_exact.certify.checker.descartes import real_roots
+from pkm_exact.certify.checker.mechanism_forms import GROUPS, Mechanism, at_point, distance
+from pkm_exact.certify.checker.mechanism_section import Section
 from pkm_exact.certify.checker.realposes import parameter_cells
 from pkm_exact.geometry.reader import robot_from_toml
 from pkm_exact.geometry.robot import Robot
@@ -97,3 +99,20 @@ def _long(number: int) -> list[list[str]]:
     return [
         [str(Fraction(random.getrandbits(500) + 1, random.getrandbits(500) + 2)) for _ in "xyz"] for _ in range(number)
     ]
+
+
+def test_linear_elements_with_long_numbers_cost_no_more_than_the_forms() -> None:
+    """A fixed joint and three legs, in two rounds. The squares of the longest numbers would be thirty times as much."""
+    random = Random(8)
+
+    def point() -> tuple[Fraction, Fraction, Fraction]:
+        x, y, z = (Fraction(random.getrandbits(27), random.getrandbits(27) | 1) for _ in range(3))
+        return x, y, z
+
+    legs = [distance((1, 1, 1), point(), point(), point()[0]) for _ in range(3)]
+    mechanism = Mechanism(GROUPS["spatial"], (1, 1, 1), (at_point((1, 1, 1), point(), point()), *legs))
+    budget = Budget(10**9)
+    with spending(budget):
+        found = Section(mechanism)
+    assert (found.size, found.is_empty) == (6, False)
+    assert budget.spent < 2 * 10**9

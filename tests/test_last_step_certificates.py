@@ -38,6 +38,7 @@ def test_longer_legs(name: str) -> None:
         ("planar-total-5-false", "rejected"),
         ("planar-total-4", "accepted"),
         ("last-step-on-a-prime", "rejected"),
+        ("singular-scaled-by-a-prime", "accepted"),
     ],
 )
 def test_robots_built_on_primes_of_the_first_checker(name: str, status: str) -> None:

@@ -39,10 +39,11 @@ class Budget:
 
     def charge(self, operations: int) -> None:
         """Count operations that are about to be done; refuses if they exceed what is left."""
-        if self.attempt is not None and self.spent + operations > self.attempt:
+        spent = self.spent + operations
+        if self.attempt is not None and spent > self.attempt:
             raise TooMuchError
-        self.spent += operations
-        if self.spent > self.limit:
+        self.spent = spent
+        if spent > self.limit:
             raise too_large(
                 f"work: checking takes more than {self.limit} operations, all that a file of {self.size} bytes may cost"
             )

@@ -13,8 +13,7 @@ from pkm_exact.certify.checker.elimination import Row, eliminate
 from pkm_exact.certify.checker.krawczyk import Isolated
 from pkm_exact.certify.checker.multiplicity import (
     are_simple,
-    is_multiple,
-    multiple_factors,
+    dependent_factors,
     multiplicities,
 )
 from pkm_exact.certify.checker.selfmotion import check_self_motion
@@ -136,45 +135,50 @@ def _solutions_listed(document: Document, representation: Representation) -> Ite
 def _proved(document: Document, representation: Representation) -> _Proved:
     """The strongest claim that the certificate proves."""
     number = int(representation.eliminant.degree())
-    simple = are_simple(representation, document.legs, document.metric)
     if document.elimination is not None:
-        total, multiple = _filling(document, representation, document.elimination, simple)
+        total, multiple = _filling(document, representation, document.elimination)
         return _Proved("complete", "exact-elimination", total, multiple)
+    simple = are_simple(representation, document.legs, document.metric)
     if simple and number == GREATEST_NUMBER and len(document.legs) > PLANAR_LEGS:
         return _Proved("complete", "refined-bezout", number)
     return _Proved("not-proven-complete", None, number if simple else None)
 
 
 def _filling(
-    document: Document, representation: Representation, steps: Sequence[Sequence[Row]], simple: bool
+    document: Document, representation: Representation, steps: Sequence[Sequence[Row]]
 ) -> tuple[int, tuple[tuple[fmpz_poly, int], ...]]:
     """Number of all solutions with multiplicity, and the factors of h at multiple ones; those listed must be all.
 
     They are if they fill what the elimination leaves, simple ones once and singular ones twice; or else if the algebra
-    on what is left has no more distinct solutions. It then tells the multiplicities.
+    on what is left has no more distinct solutions. It then tells the multiplicities. Where there is room for each once,
+    all are simple: at one with dependent leg lines the legs and the motions have a tangent in common.
     """
     legs, metric = document.legs, document.metric
     number = int(representation.eliminant.degree())
     followed = eliminate(legs, metric, steps)
-    multiple = () if simple else multiple_factors(representation, legs, metric)
-    weight = number + sum(int(factor.degree()) for factor in multiple)
-    are_multiple = all(is_multiple(factor, representation, legs, metric) for factor in multiple)
-    if are_multiple and followed.has_at_most(weight):
-        left = weight
-    else:
-        left = len(followed.elimination.standard(GREATEST_NUMBER))
-    if simple and left > number:
-        raise rejected(f"elimination: it leaves {left} monomials, but the {number} solutions are proved simple")
-    if left == weight and are_multiple:
-        return left, tuple((factor, 2) for factor in multiple)
-    algebra = quotient_algebra(followed.elimination)
+    room = followed.room(2 * number)
+    if room is None:
+        room = len(followed.elimination.standard(GREATEST_NUMBER))
+    if room == number:
+        return number, ()
+    dependent = dependent_factors(representation, legs, metric)
+    weight = number + sum(int(factor.degree()) for factor in dependent)
+    doubled = tuple((factor, 2) for factor in dependent)
+    if room == weight:
+        return room, doubled
+    basis = followed.elimination.standard(GREATEST_NUMBER)
+    if len(basis) == weight:
+        return weight, doubled
+    if not dependent:
+        raise rejected(f"elimination: it leaves {len(basis)} monomials, but the {number} solutions are proved simple")
+    algebra = quotient_algebra(followed.elimination, basis)
     if algebra is None or algebra.distinct_solutions() != number:
-        raise rejected(f"elimination: it leaves {left} monomials, the solutions are not proved to fill them")
+        raise rejected(f"elimination: it leaves {len(basis)} monomials, the solutions are not proved to fill them")
     found = multiplicities(algebra, representation, legs, metric)
     if found is None:
         raise rejected("elimination: no form in its unknowns tells the multiple solutions apart")
     # Not what a prime left: that bounds the number, but may be more.
-    return len(algebra.basis), tuple((factor, multiplicity) for factor, multiplicity in found if multiplicity > 1)
+    return len(basis), tuple((factor, multiplicity) for factor, multiplicity in found if multiplicity > 1)
 
 
 def _check_total(claimed: int, number: int, proved: int | None) -> None:

@@ -1,8 +1,9 @@
 """The reduced echelon form of an integer matrix over Q.
 
-Of sparse rows: by rational arithmetic, as long as that fills few places. A column in which a row begins is one of the
-pivots. The one with the fewest entries is eliminated, by its shortest row, whatever stands on the left of it; rows
-that begin where no row is asked for need not be reduced any further. What is left is a dense matrix.
+Of sparse rows, unless they are few and short: by rational arithmetic, as long as that fills few places. A column in
+which a row begins is one of the pivots. The one with the fewest entries is eliminated, by its shortest row, whatever
+stands on the left of it; rows that begin where no row is asked for need not be reduced any further. What is left is a
+dense matrix.
 
 Of a dense matrix: FLINT's. How long that takes depends on how large the numbers in the result are. Where what suffices
 for any that there can be is not little, they are estimated before it is begun, from its image modulo a prime and one
@@ -34,6 +35,10 @@ _SHORT: Final = 128
 
 _LITTLE: Final = 4 * 10**6
 """Operations so few that it is not estimated whether fewer suffice."""
+
+_WORD: Final = 1 << 64
+_SMALL: Final = 200
+"""Entries of a matrix of numbers of one word that is taken for a dense one at once: FLINT needs little for it."""
 
 Row: TypeAlias = dict[int, int]
 """Entries by column, none of them 0."""
@@ -120,14 +125,17 @@ def pivots_of(echelon: nmod_mat | fmpz_mat, rank: int) -> list[int]:
 def reduced_rows(rows: Iterable[Row], known: AbstractSet[int] = frozenset()) -> dict[int, Row]:
     """The rows of the reduced echelon form of a sparse matrix by pivot, each times what makes it coprime integers.
 
-    No row is 0. Of pivots that are ``known`` not all are there.
+    No row is 0. Of pivots that are ``known`` not all need be there.
 
     Examples
     --------
     >>> reduced_rows([{0: 2, 1: 4, 2: 6}, {0: 1, 1: 2, 2: 4}])
-    {2: {2: 1}, 0: {0: 1, 1: 2}}
+    {0: {0: 1, 1: 2}, 2: {2: 1}}
     """
-    sparse = _Sparse(list(rows))
+    listed = list(rows)
+    if _are_few_and_short(listed):
+        return _of_dense(listed)
+    sparse = _Sparse(listed)
     steps = sparse.steps(known)
     found = _of_dense(sparse.left())
     # What is left has no entries in the columns of steps; where some are known, these are known.
@@ -136,6 +144,12 @@ def reduced_rows(rows: Iterable[Row], known: AbstractSet[int] = frozenset()) -> 
             row, _, _ = _without(column, row, found[column])
         found[pivot] = _primitive(row, row[pivot])
     return found
+
+
+def _are_few_and_short(rows: Sequence[Row]) -> bool:
+    return len(rows) * len(set().union(*rows)) <= _SMALL and all(
+        -_WORD < value < _WORD for row in rows for value in row.values()
+    )
 
 
 class _Sparse:

@@ -26,16 +26,13 @@ from flint import fmpz, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import pivots_of, reduced_rows
-from pkm_exact.certify.checker.packed_monomials import Code, Monomial, Packing, packing_for
+from pkm_exact.certify.checker.packed_monomials import Code, Monomial, Packed, Packing, packing_for
 from pkm_exact.certify.checker.section import Polynomial, section
 from pkm_exact.certify.checker.study_motion import Leg, Metric
 from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_ENTRIES, MAX_ELIMINATION_TERMS, rejected, too_large
 
 Row: TypeAlias = tuple[int, tuple[int, ...]]
 """A product: index of an element, from 0, and the indices of the unknowns that multiply it."""
-Packed: TypeAlias = dict[Code, int]
-"""Coefficients by monomials, which are decreasing."""
-
 _TERM = 3000
 """Operations charged for a term that is multiplied or put into a matrix."""
 _DIVISION = 2000
@@ -54,7 +51,12 @@ class Elimination:
         """The rows of the reduced echelon form of polynomials in so many unknowns."""
         degree = max((sum(monomial) for one in polynomials for monomial in one), default=0)
         packing = packing_for(size, degree, sum(map(len, polynomials)))
-        return cls(packing, tuple(_echelon(_packed(polynomials, packing), packing, set())))
+        return cls.reduced(packing, _packed(polynomials, packing))
+
+    @classmethod
+    def reduced(cls, packing: Packing, polynomials: Sequence[Packed]) -> Elimination:
+        """The rows of the reduced echelon form of polynomials, terms in any order."""
+        return cls(packing, tuple(_echelon(polynomials, packing, set())))
 
     @property
     def size(self) -> int:
@@ -66,6 +68,11 @@ class Elimination:
         """The polynomials, terms in decreasing order."""
         unpacked = self.packing.unpacked
         return tuple({unpacked(code): value for code, value in element.items()} for element in self.packed)
+
+    @property
+    def lowest_degree(self) -> int | None:
+        """The lowest degree of an element; None if there is none."""
+        return min(map(self.packing.degree, self._leading()), default=None)
 
     def standard(self, most: int) -> list[Monomial]:
         """The monomials that no leading monomial of an element divides; rejects if there are more than ``most``."""
@@ -147,9 +154,9 @@ class Steps:
         for step in self._last:
             self._before = self._before.prepared(step, len(steps))
 
-    def has_at_most(self, expected: int) -> bool:
-        """Whether a prime proves that there are no more poses than expected, with multiplicity."""
-        return any(self._before.at_most(step, expected) == expected for step in self._last)
+    def room(self, most: int) -> int | None:
+        """For how many poses a prime leaves room, with multiplicity; None if for more, or it does not tell."""
+        return next((self._before.at_most(step, most) for step in self._last), None)
 
     @cached_property
     def elimination(self) -> Elimination:
@@ -162,7 +169,7 @@ class Steps:
 
 def eliminate(legs: Sequence[Leg], metric: Metric, steps: Sequence[Sequence[Row]]) -> Steps:
     """The steps, for a robot with legs."""
-    return Steps(Elimination.begun(*section(legs, metric)), steps)
+    return Steps(Elimination.reduced(*section(legs, metric)), steps)
 
 
 def _limit_terms(number: int) -> None:

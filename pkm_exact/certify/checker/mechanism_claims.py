@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from flint import fmpz_poly
 
@@ -11,10 +12,12 @@ from pkm_exact.certify.checker.claims import check_listed_multiplicities
 from pkm_exact.certify.checker.document import Representation
 from pkm_exact.certify.checker.elimination import Elimination, Steps
 from pkm_exact.certify.checker.infinity_points import check_infinity
-from pkm_exact.certify.checker.mechanism_document import MechanismDocument
+from pkm_exact.certify.checker.mechanism_document import Infinity, MechanismDocument
+from pkm_exact.certify.checker.mechanism_forms import Mechanism
 from pkm_exact.certify.checker.mechanism_section import Section, is_finite, solutions_at_most
 from pkm_exact.certify.checker.mechanism_solutions import are_regular, irregular_factors
 from pkm_exact.certify.checker.multiplicity import multiplicities_of
+from pkm_exact.certify.checker.packed_monomials import Monomial
 from pkm_exact.certify.checker.solutions import primitive_part
 from pkm_exact.certify.checker.traceform import quotient_algebra
 from pkm_exact.certify.checker.verdict import GREATEST_NUMBER, rejected
@@ -27,20 +30,37 @@ class _Listed:
     Attributes
     ----------
     distinct : int
-    simple : bool
-        Whether all are proved simple.
-    irregular : tuple of fmpz_poly
-        The factors of h at whose roots the constraints are dependent: there the weight is 2.
+    representation : Representation or None
+        If there is none, all are proved simple, in boxes, or there is nothing listed.
+    mechanism : Mechanism
     """
 
     distinct: int
-    simple: bool
-    irregular: tuple[fmpz_poly, ...] = ()
+    representation: Representation | None
+    mechanism: Mechanism
+
+    @cached_property
+    def irregular(self) -> tuple[fmpz_poly, ...]:
+        """The factors of h at whose roots the constraints are dependent: there the weight is 2."""
+        found, mechanism = self.representation, self.mechanism
+        if found is None or are_regular(primitive_part(found.eliminant), found, mechanism):
+            return ()
+        return tuple(irregular_factors(found, mechanism))
+
+    @property
+    def simple(self) -> bool:
+        """Whether all are proved simple."""
+        return not self.irregular
 
     @property
     def weight(self) -> int:
         """The sum of all weights: multiplicities sum to it at least."""
         return self.distinct + sum(int(factor.degree()) for factor in self.irregular)
+
+    @property
+    def doubled(self) -> tuple[tuple[fmpz_poly, int], ...]:
+        """The factors at whose roots multiplicities are 2, if they sum to the weight."""
+        return tuple((factor, 2) for factor in self.irregular)
 
 
 @dataclass(frozen=True)
@@ -94,51 +114,60 @@ def _check_parts(document: MechanismDocument) -> None:
 
 
 def _listed(document: MechanismDocument) -> _Listed:
+    representation, mechanism = document.representation, document.mechanism
     if document.isolated is not None:
-        return _Listed(document.isolated.count, simple=True)
-    representation = document.representation
+        return _Listed(document.isolated.count, None, mechanism)
     if representation is None:
         if document.poses:
             raise rejected("representation: missing, but poses are listed")
-        return _Listed(0, simple=True)
-    number = int(representation.eliminant.degree())
-    if are_regular(primitive_part(representation.eliminant), representation, document.mechanism):
-        return _Listed(number, simple=True)
-    irregular = tuple(irregular_factors(representation, document.mechanism))
-    return _Listed(number, not irregular, irregular)
+        return _Listed(0, None, mechanism)
+    return _Listed(int(representation.eliminant.degree()), representation, mechanism)
 
 
 def _proved(document: MechanismDocument, listed: _Listed) -> Generator[str, None, _Proved]:
-    """The strongest claim that the certificate proves; a generator that returns it."""
+    """The strongest claim that the certificate proves; a generator that returns it.
+
+    Where there is room for each solution once, all are simple: at others the constraints and the motions have a tangent
+    in common.
+    """
     mechanism = document.mechanism
-    doubled = tuple((factor, 2) for factor in listed.irregular)
     complete = "complete" if listed.distinct else "inconsistent"
     if document.infinity is not None:
-        if mechanism.group.dimension != 6:
-            raise rejected("infinity: points at infinity are counted for spatial motions only")
-        if mechanism.quadrics:
-            raise rejected("infinity: points at infinity are not counted where there are cylinders")
-        yield from check_infinity(document.infinity, mechanism)
-        if listed.weight + document.infinity.multiplicity != GREATEST_NUMBER:
-            raise rejected(
-                f"infinity: {listed.weight} finite and {document.infinity.multiplicity} at infinity are not "
-                f"{GREATEST_NUMBER}, the degree of the motions"
-            )
-        if not is_finite(mechanism):
-            raise rejected("section: not proved finite")
-        yield "section: finite, points at infinity included"
-        return _Proved(complete, "counting-at-infinity", listed.weight, doubled)
+        yield from _check_infinity(document.infinity, listed)
+        return _Proved(complete, "counting-at-infinity", listed.weight, listed.doubled)
     if document.elimination is not None:
         total, multiple = _filling(document, listed)
         return _Proved(complete, "exact-elimination", total, multiple)
-    if listed.distinct and listed.simple and listed.distinct == mechanism.bound:
+    if mechanism.least_bound <= listed.distinct == mechanism.bound and listed.simple:
         route = "refined-bezout" if mechanism.bound == mechanism.degree_bound else "product-bound"
         return _Proved("complete", route, listed.distinct)
-    if document.route == "modular-rank" and solutions_at_most(mechanism) == listed.weight:
-        return _Proved(complete, "modular-rank", listed.weight, doubled)
+    if document.route == "modular-rank":
+        room = solutions_at_most(mechanism)
+        if room == listed.distinct:
+            return _Proved(complete, "modular-rank", room)
+        if room == listed.weight:
+            return _Proved(complete, "modular-rank", room, listed.doubled)
     if not listed.distinct and document.claim == "positive-dimensional-detected":
         return _Proved(document.claim, None, 0)
     return _Proved("not-proven-complete", None, listed.distinct if listed.simple else None)
+
+
+def _check_infinity(infinity: Infinity, listed: _Listed) -> Iterator[str]:
+    """The solutions listed and the points at infinity are as many as the degree of the motions."""
+    mechanism = listed.mechanism
+    if mechanism.group.dimension != 6:
+        raise rejected("infinity: points at infinity are counted for spatial motions only")
+    if mechanism.quadrics:
+        raise rejected("infinity: points at infinity are not counted where there are cylinders")
+    yield from check_infinity(infinity, mechanism)
+    if listed.weight + infinity.multiplicity != GREATEST_NUMBER:
+        raise rejected(
+            f"infinity: {listed.weight} finite and {infinity.multiplicity} at infinity are not "
+            f"{GREATEST_NUMBER}, the degree of the motions"
+        )
+    if not is_finite(mechanism):
+        raise rejected("section: not proved finite")
+    yield "section: finite, points at infinity included"
 
 
 def _filling(document: MechanismDocument, listed: _Listed) -> tuple[int, tuple[tuple[fmpz_poly, int], ...]]:
@@ -149,31 +178,35 @@ def _filling(document: MechanismDocument, listed: _Listed) -> tuple[int, tuple[t
     if steps and section.is_empty:
         raise rejected("elimination: a step names an element that there is not")
     followed = Steps(section.elimination, steps)
-    if followed.has_at_most(listed.weight):
-        left = listed.weight
-    else:
-        left = len(followed.elimination.standard(mechanism.degree_bound))
-    if listed.weight == left:
-        return left, tuple((factor, 2) for factor in listed.irregular)
-    if listed.simple or document.representation is None:
+    room = followed.room(2 * listed.distinct)
+    if room is None:
+        room = len(followed.elimination.standard(mechanism.degree_bound))
+    if room == listed.distinct:
+        return room, ()
+    if room == listed.weight:
+        return room, listed.doubled
+    basis = followed.elimination.standard(mechanism.degree_bound)
+    if len(basis) == listed.weight:
+        return len(basis), listed.doubled
+    if listed.simple or listed.representation is None:
         raise rejected(
-            f"elimination: it leaves {left} monomials, the solutions listed are proved to fill {listed.weight}"
+            f"elimination: it leaves {len(basis)} monomials, the solutions listed are proved to fill {listed.weight}"
         )
-    return left, _by_algebra(followed.elimination, document.representation, document, section.free, listed)
+    return len(basis), _by_algebra(followed.elimination, basis, listed.representation, listed, section.free)
 
 
 def _by_algebra(
     elimination: Elimination,
+    basis: Sequence[Monomial],
     representation: Representation,
-    document: MechanismDocument,
-    free: Sequence[int],
     listed: _Listed,
+    free: Sequence[int],
 ) -> tuple[tuple[fmpz_poly, int], ...]:
     """The multiple factors, as the algebra that the elimination leaves tells them."""
-    algebra = quotient_algebra(elimination)
+    algebra = quotient_algebra(elimination, basis)
     if algebra is None or algebra.distinct_solutions() != listed.distinct:
         raise rejected("elimination: the solutions are not proved to fill the monomials that it leaves")
-    found = multiplicities_of(algebra, representation, document.mechanism.metric, free)
+    found = multiplicities_of(algebra, representation, listed.mechanism.metric, free)
     if found is None:
         raise rejected("elimination: no form in its unknowns tells the multiple solutions apart")
     return tuple((factor, multiplicity) for factor, multiplicity in found if multiplicity > 1)
@@ -184,7 +217,7 @@ def _check_total(document: MechanismDocument, listed: _Listed, proved: _Proved) 
     claimed = document.complex_solutions
     if proved.total is not None and claimed != proved.total:
         raise rejected(f"complex solutions: {claimed} claimed, {proved.total} proved")
-    if not listed.distinct <= claimed <= max(listed.distinct, document.mechanism.bound):
+    if claimed != listed.distinct and not listed.distinct < claimed <= document.mechanism.bound:
         raise rejected(f"complex solutions: {claimed} claimed, {listed.distinct} distinct ones proved")
 
 

@@ -5,7 +5,7 @@ The forms that it spells out for each constraint are computed from the constrain
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -47,7 +47,17 @@ from pkm_exact.certify.checker.mechanism_forms import (
     linear,
     on_line,
 )
-from pkm_exact.certify.checker.spelling import choice, count, entries, integer, items, positive, rational, text
+from pkm_exact.certify.checker.spelling import (
+    choice,
+    count,
+    entries,
+    integer,
+    items,
+    positive,
+    rational,
+    rational_as_text,
+    text,
+)
 from pkm_exact.certify.checker.study_motion import Metric, Point
 from pkm_exact.certify.checker.verdict import malformed, rejected
 
@@ -215,10 +225,15 @@ def read_constraint(value: Any, where: str, metric: Metric) -> Constraint:
     text(name, f"{where}.name")
     read = [reader(entry, f"{where}.{key}") for (key, reader), entry in zip(fields.items(), data, strict=True)]
     constraint = made(metric, *read)
-    forms = items(spelled, f"{where}.forms", None, _form)
-    if forms != constraint.forms:
+    written = [[rational_as_text(value) for value in form] for form in constraint.forms]
+    # Otherwise it is said what is wrong with them, if it is not that they are others.
+    if (spelled != written or _are_long(written)) and items(spelled, f"{where}.forms", None, _form) != constraint.forms:
         raise rejected(f"{where}: its forms are not those of its data")
     return constraint
+
+
+def _are_long(forms: Sequence[Sequence[str]]) -> bool:
+    return max((len(value) for form in forms for value in form), default=0) > _FORM_DIGITS
 
 
 def _infinity(value: Any) -> Infinity:

@@ -19,6 +19,7 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import chain
 from math import lcm
+from operator import mul
 from types import MappingProxyType
 from typing import Any, Final, TypeAlias
 
@@ -140,6 +141,11 @@ class Constraint:
     quadric: Quadric | None = None
     leg: Leg | None = None
 
+    @cached_property
+    def integral(self) -> list[Row]:
+        """The linear forms, each times a denominator."""
+        return [tuple(cleared(form)) for form in self.linear]
+
     @property
     def forms(self) -> tuple[Form, ...]:
         """All forms that a certificate spells out for it."""
@@ -164,7 +170,7 @@ class Mechanism:
         """The quadrics of all cylinders."""
         return [constraint.quadric for constraint in self.constraints if constraint.quadric is not None]
 
-    @property
+    @cached_property
     def vanishing(self) -> tuple[Row, ...]:
         """The forms that vanish on all motions of the group."""
         return self.group.forms(self.metric)
@@ -176,7 +182,7 @@ class Mechanism:
     @cached_property
     def integral(self) -> list[Row]:
         """The linear forms, each times a denominator."""
-        return [tuple(cleared(form)) for form in self.linear]
+        return [row for constraint in self.constraints for row in constraint.integral]
 
     @property
     def rank(self) -> int:
@@ -193,6 +199,11 @@ class Mechanism:
         if not any(form[0] for form in linear):
             bounds.append(group.squareless_degree << cylinders)
         return min(bounds)
+
+    @property
+    def least_bound(self) -> int:
+        """What the bound is at least, whatever the forms are."""
+        return self.group.plain_degree << len(self.quadrics)
 
     @property
     def degree_bound(self) -> int:
@@ -267,11 +278,27 @@ _NONE: Final = (_ZERO,) * 3
 
 
 def distance(metric: Metric, base: Point, platform: Point, square: Fraction) -> Constraint:
-    """A leg of squared length ``square``."""
-    turned, position = _scaled(metric, platform, 2), _scaled(metric, base, -2)
-    constant = (_sum(turned, platform) - _sum(position, base)) / 2 - square
-    form = _joined(1, turned, position, [x * y for x in position for y in platform], constant)
+    """A leg of squared length ``square``: in integers, as there are many of its kind."""
+    (a, a_divisor), (b, b_divisor) = (_numerators(point) for point in (base, platform))
+    position = [-2 * g * x for g, x in zip(metric, a, strict=True)]
+    turned = [2 * g * y for g, y in zip(metric, b, strict=True)]
+    rotation = [x * y for x in position for y in b]
+    both = a_divisor * b_divisor
+    norms = sum(map(mul, turned, b)) * a_divisor**2 - sum(map(mul, position, a)) * b_divisor**2
+    constant = _fraction(norms // 2, both * both) - square
+    parts = ((turned, b_divisor), (position, a_divisor), (rotation, both))
+    form = (Fraction(1), *(_fraction(value, divisor) for part, divisor in parts for value in part), constant)
     return Constraint((form,), leg=Leg(base, platform, square))
+
+
+def _numerators(point: Point) -> tuple[list[int], int]:
+    """Integer coordinates, and what they are divided by."""
+    divisor = lcm(*(value.denominator for value in point))
+    return [value.numerator * (divisor // value.denominator) for value in point], divisor
+
+
+def _fraction(value: int, divisor: int) -> Fraction:
+    return Fraction(value) if divisor == 1 else Fraction(value, divisor)
 
 
 def _in_plane(metric: Metric, normal: Sequence[Fraction], offset: Fraction, platform: Point) -> Form:

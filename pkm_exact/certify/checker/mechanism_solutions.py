@@ -16,7 +16,7 @@ from flint import fmpq_poly, fmpz_poly
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.document import Representation
-from pkm_exact.certify.checker.mechanism_forms import Form, Mechanism, cleared, quadric_value, quantities
+from pkm_exact.certify.checker.mechanism_forms import Form, Mechanism, quadric_value, quantities
 from pkm_exact.certify.checker.multiplicity import Residue, determinant
 from pkm_exact.certify.checker.solutions import (
     algebraic_cost,
@@ -66,7 +66,7 @@ def _check_solutions(representation: Representation, mechanism: Mechanism) -> It
     yield "motion: e.f = 0 and N(e) is not 0, every solution is a rigid motion"
     values = quantities(placed)
     for number, constraint in enumerate(mechanism.constraints, 1):
-        held = [combination(cleared(form), values) for form in constraint.linear]
+        held = [combination(form, values) for form in constraint.integral]
         if constraint.quadric is not None:
             held.append(quadric_value(constraint.quadric, values, placed.norm))
         if not all(vanishes(value, h0) for value in held):
@@ -119,7 +119,9 @@ def _row(form: Sequence[int], mechanism: Mechanism, placed: Motion) -> list[Any]
     return [*force, *moment]
 
 
-def are_regular(factor: fmpz_poly, representation: Representation, mechanism: Mechanism) -> bool:
+def are_regular(
+    factor: fmpz_poly, representation: Representation, mechanism: Mechanism, *, briefly: bool = False
+) -> bool:
     """Whether the rows are proved to have full rank at every root of a primitive factor of h, modulo some prime."""
     if len(mechanism.linear) + len(mechanism.quadrics) < mechanism.group.dimension:
         return False
@@ -130,7 +132,7 @@ def are_regular(factor: fmpz_poly, representation: Representation, mechanism: Me
         matrix = _rows_at([modulo(x, p) for x in numerators], modulo(factor, p), mechanism)
         return determinant(_square(matrix, mechanism.group.dimension)).value
 
-    return proved_coprime(factor, minor)
+    return proved_coprime(factor, minor, briefly=briefly)
 
 
 def irregular_factors(representation: Representation, mechanism: Mechanism) -> list[fmpz_poly]:
@@ -138,7 +140,7 @@ def irregular_factors(representation: Representation, mechanism: Mechanism) -> l
     factors = irreducible_factors(primitive_part(representation.eliminant))
     if mechanism.rank + len(mechanism.quadrics) < mechanism.group.dimension:
         return factors
-    doubtful = [factor for factor in factors if not are_regular(factor, representation, mechanism)]
+    doubtful = [factor for factor in factors if not are_regular(factor, representation, mechanism, briefly=True)]
     return [factor for factor in doubtful if _rank(factor, representation, mechanism) < mechanism.group.dimension]
 
 

@@ -42,13 +42,18 @@ def are_simple(representation: Representation, legs: Sequence[Leg], metric: Metr
     return _is_proved_simple(primitive_part(representation.eliminant), representation, legs, metric)
 
 
-def multiple_factors(representation: Representation, legs: Sequence[Leg], metric: Metric) -> tuple[fmpz_poly, ...]:
-    """The irreducible factors of h at whose roots the solution is not proved simple."""
+def dependent_factors(representation: Representation, legs: Sequence[Leg], metric: Metric) -> tuple[fmpz_poly, ...]:
+    """The irreducible factors of h at whose roots the leg lines are dependent; at others they are not. Exact."""
     factors = irreducible_factors(primitive_part(representation.eliminant))
-    return tuple(factor for factor in factors if not _is_proved_simple(factor, representation, legs, metric))
+    doubtful = [
+        factor for factor in factors if not _is_proved_simple(factor, representation, legs, metric, briefly=True)
+    ]
+    return tuple(factor for factor in doubtful if are_dependent(factor, representation, legs, metric))
 
 
-def _is_proved_simple(factor: fmpz_poly, representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
+def _is_proved_simple(
+    factor: fmpz_poly, representation: Representation, legs: Sequence[Leg], metric: Metric, *, briefly: bool = False
+) -> bool:
     """Whether the leg lines are proved independent at every root of a primitive factor of h, modulo some prime."""
 
     def determinant(p: int) -> Any:
@@ -56,10 +61,10 @@ def _is_proved_simple(factor: fmpz_poly, representation: Representation, legs: S
         charge(_PRODUCTS * 40000)
         return _lines_determinant([modulo(x, p) for x in numerators], modulo(factor, p), legs, metric)
 
-    return proved_coprime(factor, determinant)
+    return proved_coprime(factor, determinant, briefly=briefly)
 
 
-def is_multiple(factor: fmpz_poly, representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
+def are_dependent(factor: fmpz_poly, representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
     """Whether the leg lines are dependent at every root of an irreducible factor of h, over Q."""
     numerators = (*representation.quaternion, *representation.translation)
     charge(_PRODUCTS * algebraic_cost(factor, representation, 4 * len(legs)))

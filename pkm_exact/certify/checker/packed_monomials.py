@@ -28,6 +28,8 @@ Monomial: TypeAlias = tuple[int, ...]
 """Exponents."""
 Code: TypeAlias = Any
 """What stands for a monomial: an integer, or a tuple of them. They are ordered as the monomials are."""
+Packed: TypeAlias = dict[Code, int]
+"""A polynomial: coefficients by what stands for the monomials."""
 
 BITS: Final = 60
 """Bits of an integer that stands for a monomial."""

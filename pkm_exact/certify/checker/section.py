@@ -17,7 +17,7 @@ from flint import Ordering, fmpz, fmpz_mat, fmpz_mpoly, fmpz_mpoly_ctx
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import pivots_of
-from pkm_exact.certify.checker.packed_monomials import Monomial
+from pkm_exact.certify.checker.packed_monomials import Code, Monomial, Packed, Packing, packing_for
 from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Metric, combination, leg_form, times
 
 ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
@@ -31,6 +31,9 @@ _PLANE: Final = tuple(
 
 Polynomial: TypeAlias = dict[Monomial, int]
 """Coefficients by exponents."""
+
+Quadric: TypeAlias = tuple[tuple[tuple[int, int], int], ...]
+"""Coefficients of products of two values, after their places, of which the first is not the larger one."""
 
 RING: Final = fmpz_mpoly_ctx.get(("x",), Ordering.lex)
 """Quadrics in unknowns are polynomials in x^1, x^3, x^9, ..: the exponents of a monomial are digits to base 3."""
@@ -56,22 +59,22 @@ def _solved(legs: Sequence[Leg], metric: Metric) -> tuple[fmpz_mat, fmpz, list[i
     return echelon, lead, pivots, [j for j in range(len(ORDER)) if j not in pivots]
 
 
-def section(legs: Sequence[Leg], metric: Metric) -> tuple[int, list[Polynomial]]:
-    """Number of unknowns, and the quadrics that vanish at the poses (with 1, if no finite pose can exist)."""
+def section(legs: Sequence[Leg], metric: Metric) -> tuple[Packing, list[Packed]]:
+    """The quadrics that vanish at the poses (with 1, if no finite pose can exist), and their monomials."""
     echelon, lead, pivots, free = _solved(legs, metric)
     quadrics = [RING.constant(1)] if len(ORDER) in pivots else []
     quadrics += motion_quadrics(substituted(echelon, lead, pivots, free), metric)
-    return len(free), terms_of(quadrics, len(free))
+    return terms_of(quadrics, len(free))
 
 
 def substituted(echelon: fmpz_mat, lead: fmpz | int, pivots: Sequence[int], free: Sequence[int]) -> list[fmpz_mpoly]:
     """``lead`` times the coordinates and 1, as the forms leave them, in the free ones."""
-    size = len(ORDER)
+    size = echelon.ncols() - 1
     powers = dict(zip((*free, size), unknown_powers(len(free)), strict=True))
     values = [RING.from_dict({(powers.get(j, 0),): lead}) for j in range(size + 1)]
-    for row, pivot in enumerate(pivots):
+    for row, pivot in zip(echelon.tolist(), pivots, strict=False):
         if pivot < size:
-            values[pivot] = RING.from_dict({(power,): -echelon[row, j] for j, power in powers.items()})
+            values[pivot] = RING.from_dict({(power,): -row[j] for j, power in powers.items() if row[j]})
     return values
 
 
@@ -80,43 +83,80 @@ def unknown_powers(number: int) -> list[int]:
     return [3**place for place in range(number)] + [0]
 
 
-def terms_of(quadrics: Sequence[fmpz_mpoly], number: int) -> list[Polynomial]:
-    """Quadrics in so many unknowns but for those that are 0, each divided by what its coefficients have in common."""
-    monomials = _monomials(number)
-    found = []
-    for quadric in quadrics:
-        if not quadric:
-            continue
+def terms_of(quadrics: Sequence[fmpz_mpoly], number: int) -> tuple[Packing, list[Packed]]:
+    """Quadrics in so many unknowns but for those that are 0 or multiples of others, primitive, in any order."""
+    present = [quadric for quadric in quadrics if quadric]
+    packing = packing_for(number, 2, sum(map(len, present)))
+    codes = _codes(packing)
+    found: dict[tuple[int, int, int], list[Packed]] = {}
+    for quadric in present:
         values = [*map(int, quadric.coeffs())]
         words = limbs(max(map(int.bit_length, values)))
         charge(len(values) * (2000 + 4 * words * words))
-        content = gcd(*values)
-        found.append(
-            {monomials[power]: value // content for power, value in zip(quadric.monoms(), values, strict=True)}
-        )
-    return found
+        content = gcd(*values) if values[0] > 0 else -gcd(*values)
+        if content != 1:
+            values = [value // content for value in values]
+        alike = found.setdefault((len(values), values[0], values[-1]), [])
+        polynomial = dict(zip(map(codes.__getitem__, quadric.monoms()), values, strict=True))
+        if polynomial not in alike:
+            alike.append(polynomial)
+    return packing, [*chain.from_iterable(found.values())]
 
 
-@lru_cache(maxsize=len(ORDER))
-def _monomials(number: int) -> dict[tuple[int, ...], Monomial]:
-    """The monomials of degree 2 at most in so many unknowns, by the powers of x that stand for them."""
+@lru_cache(maxsize=2 * len(ORDER))
+def _codes(packing: Packing) -> dict[tuple[int, ...], Code]:
+    """The monomials of degree 2 at most, by the powers of x that stand for them."""
+    number = packing.size
     powers = unknown_powers(number)
     return {
-        (powers[i] + powers[j],): tuple((i == place) + (j == place) for place in range(number))
+        (powers[i] + powers[j],): packing.packed(tuple((i == place) + (j == place) for place in range(number)))
         for i, j in combinations_with_replacement(range(number + 1), 2)
     }
 
 
-def motion_quadrics(values: Sequence[Any], metric: Metric) -> list[Any]:
+def motion_quadrics(values: Sequence[fmpz_mpoly], metric: Metric) -> list[fmpz_mpoly]:
+    """The quadrics of ``motion_forms`` at polynomials for the coordinates and for 1."""
+    sizes = (int(x.height_bits()) for value in values for x in value.coeffs())
+    words = limbs(max(sizes, default=0)) + limbs(max(metric).bit_length())
+    charge(2 * 10**7 + words * (10**6 + 2000 * words))
+    return evaluated(motion_forms(metric), values)
+
+
+def evaluated(quadrics: Sequence[Quadric], values: Sequence[fmpz_mpoly]) -> list[fmpz_mpoly]:
+    """Quadrics at polynomials; most have products in common, many of which are 0."""
+    products: dict[tuple[int, int], fmpz_mpoly] = {}
+    found = []
+    for quadric in quadrics:
+        total = RING.constant(0)
+        for places, coefficient in quadric:
+            product = products.get(places)
+            if product is None:
+                product = products[places] = values[places[0]] * values[places[1]]
+            if product:
+                total += times(coefficient, product)
+        found.append(total)
+    return found
+
+
+@lru_cache(maxsize=16)
+def motion_forms(metric: Metric) -> tuple[Quadric, ...]:
+    """The quadrics that define the rigid motions, in the coordinates and 1, each divided by what it has in common."""
+    powers = unknown_powers(len(ORDER))
+    places = {powers[i] + powers[j]: (i, j) for i, j in combinations_with_replacement(range(len(powers)), 2)}
+    quadrics = []
+    for form in _motion_quadrics([RING.from_dict({(power,): 1}) for power in powers], metric):
+        content = gcd(*map(int, form.coeffs()))
+        quadrics.append(tuple((places[power], int(value) // content) for (power,), value in form.to_dict().items()))
+    return tuple(quadrics)
+
+
+def _motion_quadrics(values: Sequence[Any], metric: Metric) -> list[Any]:
     """R^T G R = G, R G^-1 R^T = G^-1, cof R = G R G^-1, R u = C, R^T G C = G u, C.C = u.u = s,
     C x (R v) = G R G^-1 (u x v) for the unit vectors v: they hold for rigid motions, and with R = (r_ij) for no others.
 
     Each is multiplied by numbers of the metric where it would have others in denominators, and homogeneous in the
     coordinates and the last value, which stands for 1.
     """
-    sizes = (int(x.height_bits()) for value in values for x in value.coeffs())
-    words = limbs(max(sizes, default=0)) + limbs(max(metric).bit_length())
-    charge(2 * 10**7 + words * (10**6 + 2000 * words))
     g, volume = metric, metric[0] * metric[1] * metric[2]
     u, c, s, one = values[0:3], values[3:6], values[6], values[16]
     r = [values[7 + 3 * i : 10 + 3 * i] for i in range(3)]

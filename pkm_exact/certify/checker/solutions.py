@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from hashlib import sha256
+from itertools import islice
 from math import gcd, prod
 from typing import Any, Final
 
@@ -144,9 +145,13 @@ def algebraic_cost(factor: fmpz_poly, representation: Representation, degree: in
     return 4 * polynomials_cost(2 * int(factor.length()), degree * words)
 
 
-def proved_coprime(h0: fmpz_poly, image: Callable[[int], nmod_poly]) -> bool:
-    """Whether h0 is coprime, modulo one of the primes, to a polynomial over Z that is given by its images."""
-    usable = (p for p in primes_for(h0) if int(h0.leading_coefficient()) % p)
+def proved_coprime(h0: fmpz_poly, image: Callable[[int], nmod_poly], *, briefly: bool = False) -> bool:
+    """Whether h0 is coprime, modulo one of the primes, to a polynomial over Z that is given by its images.
+
+    Briefly: modulo the first of those that follow from h0, which few polynomials meet by accident.
+    """
+    primes = islice(primes_for(h0), len(PRIMES), len(PRIMES) + 1) if briefly else primes_for(h0)
+    usable = (p for p in primes if int(h0.leading_coefficient()) % p)
     for p in usable:
         charge(100 * int(h0.length()) ** 2)
         if modulo(h0, p).gcd(image(p)).degree() == 0:

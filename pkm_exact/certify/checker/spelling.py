@@ -11,6 +11,8 @@ from json.encoder import encode_basestring_ascii
 from math import gcd
 from typing import Any, Final, TypeVar
 
+from flint import fmpz
+
 from pkm_exact.certify.checker.budget import charge
 from pkm_exact.certify.checker.verdict import (
     MAX_BYTES,
@@ -188,10 +190,21 @@ def rational(value: object, where: str, digits: int = _RATIONAL_DIGITS) -> Fract
     numerator, _, denominator = written.partition("/")
     if max(len(numerator), len(denominator)) > digits:
         raise too_large(f"{where}: more than {digits} digits")
-    p, q = int(numerator), int(denominator or 1)
+    p, q = _integer(numerator), _integer(denominator or "1")
     if denominator and (q == 1 or gcd(p, q) > 1):
         raise malformed(f"{where}: not in lowest terms")
     return Fraction(p, q)
+
+
+def _integer(digits: str) -> int:
+    """The number; of more digits than Python may be set to read (PYTHONINTMAXSTRDIGITS), as FLINT reads it."""
+    return int(digits) if len(digits) <= _RATIONAL_DIGITS else int(fmpz(digits))
+
+
+def rational_as_text(value: Fraction) -> str:
+    """The text of a rational number that ``rational`` reads; of one as long as may be."""
+    numerator = str(fmpz(value.numerator))
+    return numerator if value.denominator == 1 else f"{numerator}/{fmpz(value.denominator)}"
 
 
 def positive(value: object, where: str) -> Fraction:

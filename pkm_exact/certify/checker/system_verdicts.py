@@ -231,7 +231,7 @@ def _by_elimination(document: SystemDocument, points: Points, weighed: Weighed) 
             filled = _filling(document, points, weighed, left)
             if filled.total == left:
                 return _Proved("complete", left, filled.factors, _left_line(left))
-    algebra = quotient_algebra(elimination, MOST_SOLUTIONS)
+    algebra = quotient_algebra(elimination, elimination.standard(MOST_SOLUTIONS))
     if algebra is None or algebra.distinct_solutions() != points.eliminant.degree():
         raise rejected("elimination: the solutions are not proved to fill what it leaves")
     h0 = primitive_part(points.eliminant)

@@ -12,8 +12,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
-from typing import NamedTuple
 
 from flint import fmpz, fmpz_mat, nmod_mat, nmod_poly
 
@@ -22,20 +22,24 @@ from pkm_exact.certify.checker.echelon import echelon_form
 from pkm_exact.certify.checker.elimination import Elimination, shifted
 from pkm_exact.certify.checker.packed_monomials import Monomial
 from pkm_exact.certify.checker.section import Polynomial
-from pkm_exact.certify.checker.verdict import GREATEST_NUMBER
 
 
-class _Fractions(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class _Fractions:
     """A matrix of rationals in lowest terms: numerators, and one denominator."""
 
     numerators: fmpz_mat
     denominator: fmpz
 
-    @property
+    @cached_property
     def words(self) -> int:
         """Size of the largest number."""
-        largest = max((abs(value) for value in self.numerators.entries()), default=fmpz(0))
-        return limbs(max(int(largest.bit_length()), int(self.denominator.bit_length())))
+        return limbs(max(map(fmpz.bit_length, (self.denominator, *self.numerators.entries()))))
+
+    @cached_property
+    def denominator_words(self) -> int:
+        """Size of the denominator."""
+        return limbs(self.denominator.bit_length())
 
     def times(self, other: _Fractions) -> _Fractions:
         """The product of matrices."""
@@ -48,7 +52,7 @@ class _Fractions(NamedTuple):
 def _reduced(numerators: fmpz_mat, denominator: fmpz) -> _Fractions:
     """The fractions in lowest terms."""
     entries = numerators.entries()
-    words = limbs(max((int(value.bit_length()) for value in (denominator, *entries)), default=0))
+    words = limbs(max(map(fmpz.bit_length, (denominator, *entries))))
     charge(len(entries) * (1500 + 2 * words * words))
     common = denominator
     for value in entries:
@@ -63,11 +67,11 @@ def _combined(terms: Sequence[tuple[int, _Fractions]], divisor: int, size: int) 
     """The combination of row vectors, divided by a number."""
     common = fmpz(1)
     for _, vector in terms:
-        charge(1000 + 4 * limbs(int(common.bit_length())) * limbs(int(vector.denominator.bit_length())))
+        charge(1000 + 4 * limbs(common.bit_length()) * vector.denominator_words)
         common = common.lcm(vector.denominator)
-    total = fmpz_mat(1, size)
+    total, bits = fmpz_mat(1, size), common.bit_length()
     for value, vector in terms:
-        words = limbs(int(common.bit_length()) + abs(value).bit_length()) + vector.words
+        words = limbs(bits + value.bit_length()) + vector.words
         charge(size * (1500 + words * words))
         total += vector.numerators * (value * (common // vector.denominator))
     return _reduced(total, common * divisor)
@@ -157,18 +161,17 @@ def _stacked(rows: Sequence[_Fractions]) -> _Fractions:
     """One matrix of all rows."""
     common = fmpz(1)
     for row in rows:
-        charge(1000 + 4 * limbs(int(common.bit_length())) * limbs(int(row.denominator.bit_length())))
+        charge(1000 + 4 * limbs(common.bit_length()) * row.denominator_words)
         common = common.lcm(row.denominator)
     width = rows[0].numerators.ncols()
-    words = limbs(int(common.bit_length()))
+    words = limbs(common.bit_length())
     charge(sum(width * (500 + words * row.words) for row in rows))
     entries = [value * (common // row.denominator) for row in rows for value in row.numerators.entries()]
     return _reduced(fmpz_mat(len(rows), width, entries), common)
 
 
-def quotient_algebra(elimination: Elimination, most: int = GREATEST_NUMBER) -> Algebra | None:
-    """The algebra of all poses, or None if the matrices do not commute or an element is not 0 in it."""
-    basis = elimination.standard(most)
+def quotient_algebra(elimination: Elimination, basis: Sequence[Monomial]) -> Algebra | None:
+    """The algebra of all poses on the monomials left, or None if matrices do not commute or an element is not 0."""
     algebra = Algebra(tuple(basis), tuple(_Reduction(elimination, basis).matrices()))
     return algebra if algebra.commutes() and algebra.vanish(elimination.elements) else None
 
