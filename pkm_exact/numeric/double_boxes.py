@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from operator import neg
 from typing import Any, Final
 
 import numpy as np
@@ -308,10 +309,12 @@ def _halves(support: tuple[int, ...]) -> tuple[NDArray[np.intp], tuple[NDArray[n
 
 def box_at(exponents: Sequence[int], grid: Sequence[Sequence[int]], support: Sequence[int]) -> Box:
     """Of the box and its conjugate, the one whose first coordinate that is not real has a positive imaginary part."""
-    sign = next((-1 if imaginary < 0 else 1 for _, imaginary in grid if imaginary), 1)
+    real, imaginary = zip(*grid, strict=True)
+    is_turned = any(imaginary) and next(filter(None, imaginary)) < 0
+    pairs = zip(real, map(neg, imaginary) if is_turned else imaginary, strict=True)
     if len(support) == 8:
-        return Box((exponents[0], exponents[1]), tuple([(real, sign * imaginary) for real, imaginary in grid]))
+        return Box((exponents[0], exponents[1]), tuple(pairs))
     centre = [(0, 0)] * 8
-    for index, (real, imaginary) in zip(support, grid, strict=True):
-        centre[index] = (real, sign * imaginary)
+    for index, pair in zip(support, pairs, strict=True):
+        centre[index] = pair
     return Box((exponents[0], exponents[1]), tuple(centre))

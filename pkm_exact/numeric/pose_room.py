@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache
 from itertools import chain, islice
+from operator import attrgetter
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -107,15 +108,14 @@ def _have_room(several: Sequence[Asked]) -> NDArray[np.bool_]:
 
 def _ends(poses: Sequence[Pose]) -> Real:
     """(p, 16, 2): those of position, rotation and quaternion, rounded."""
-    parts = [part for pose in poses for part in (pose.position, *pose.rotation, pose.quaternion)]
-    cells = [interval.cell for part in parts for interval in part]
+    parts = (part for pose in poses for part in (pose.position, *pose.rotation, pose.quaternion))
+    intervals = [*chain.from_iterable(parts)]
+    cells = [*map(attrgetter("cell"), intervals)]
     if None in cells:
-        intervals = chain.from_iterable(parts)
         ends = np.array([(float(interval.lo), float(interval.hi)) for interval in intervals])
     else:
-        flat = np.fromiter(chain.from_iterable(filter(None, cells)), np.float64, 3 * len(cells))
-        numbers = flat.reshape(-1, 3)
-        ends = np.ldexp(numbers[:, :2], -numbers[:, 2:].astype(np.intp))
+        *numbers, exponents = zip(*cells, strict=True)
+        ends = np.ldexp(np.array(numbers, dtype=np.float64), -np.array(exponents, dtype=np.intp)).T
     return ends.reshape(len(poses), -1, 2)
 
 

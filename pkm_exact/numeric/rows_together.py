@@ -70,9 +70,15 @@ def _guesses(problems: Sequence[ForwardProblem], start: StartSection) -> dict[in
     if rest and start.has_long_paths and has_seeds(problems[0]):
         few = [rest[first : first + SEEDED] for first in range(0, len(rest), SEEDED)]
         seeded = [points for rows in few for points in seeds_of_each(legs[rows])]
-        for row, points in zip(rest, _rational(seeded, section), strict=True):
-            found[row] = without_conjugates(points)
+        for row, points, rational in zip(rest, seeded, _rational(seeded, section), strict=True):
+            are_all = _count(points) == problems[0].solution_bound
+            found[row] = rational if are_all else without_conjugates(rational)
     return found
+
+
+def _count(points: Complex) -> int:
+    """How many projective points, of norm 1, there are with the conjugates of those that are not real."""
+    return 2 * len(points) - int(np.count_nonzero(np.abs((points * points).sum(axis=1)) > 1 - SAME))
 
 
 def _rational(rows: Sequence[Complex], section: Section) -> list[Complex]:
