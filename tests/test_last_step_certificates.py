@@ -12,8 +12,7 @@ from pkm_exact.certify.build import canonical_bytes, sealed
 from pkm_exact.certify.checker import elimination
 from pkm_exact.certify.checker.budget import Budget, spending
 from pkm_exact.certify.checker.elimination import Elimination
-from pkm_exact.certify.checker.packed_monomials import Tuples
-from pkm_exact.certify.checker.section import Polynomial
+from pkm_exact.certify.checker.packed_monomials import Polynomial, Tuples
 
 CASES = Path(__file__).parent / "cases"
 

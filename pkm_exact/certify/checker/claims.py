@@ -156,9 +156,7 @@ def _filling(
     legs, metric = document.legs, document.metric
     number = int(representation.eliminant.degree())
     followed = eliminate(legs, metric, steps)
-    room = followed.room(2 * number)
-    if room is None:
-        room = len(followed.elimination.standard(GREATEST_NUMBER))
+    room = followed.room(2 * number, GREATEST_NUMBER)
     if room == number:
         return number, ()
     dependent = dependent_factors(representation, legs, metric)

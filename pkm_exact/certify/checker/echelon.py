@@ -37,6 +37,8 @@ _LITTLE: Final = 4 * 10**6
 """Operations so few that it is not estimated whether fewer suffice."""
 
 _WORD: Final = 1 << 64
+"""Numbers of one word are smaller."""
+
 _SMALL: Final = 200
 """Entries of a matrix of numbers of one word that is taken for a dense one at once: FLINT needs little for it."""
 

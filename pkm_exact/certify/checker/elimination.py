@@ -26,8 +26,8 @@ from flint import fmpz, nmod_mat
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import pivots_of, reduced_rows
-from pkm_exact.certify.checker.packed_monomials import Code, Monomial, Packed, Packing, packing_for
-from pkm_exact.certify.checker.section import Polynomial, section
+from pkm_exact.certify.checker.packed_monomials import Code, Monomial, Packed, Packing, Polynomial, packing_for
+from pkm_exact.certify.checker.section import section
 from pkm_exact.certify.checker.study_motion import Leg, Metric
 from pkm_exact.certify.checker.verdict import MAX_ELIMINATION_ENTRIES, MAX_ELIMINATION_TERMS, rejected, too_large
 
@@ -154,9 +154,13 @@ class Steps:
         for step in self._last:
             self._before = self._before.prepared(step, len(steps))
 
-    def room(self, most: int) -> int | None:
-        """For how many poses a prime leaves room, with multiplicity; None if for more, or it does not tell."""
-        return next((self._before.at_most(step, most) for step in self._last), None)
+    def room(self, few: int, most: int) -> int:
+        """For how many poses there is room at most, with multiplicity; rejects if for more than ``most``.
+
+        A prime tells it, if it tells that these are few, or else the monomials that are left over Q.
+        """
+        found = next((self._before.at_most(step, few) for step in self._last), None)
+        return len(self.elimination.standard(most)) if found is None else found
 
     @cached_property
     def elimination(self) -> Elimination:

@@ -178,9 +178,7 @@ def _filling(document: MechanismDocument, listed: _Listed) -> tuple[int, tuple[t
     if steps and section.is_empty:
         raise rejected("elimination: a step names an element that there is not")
     followed = Steps(section.elimination, steps)
-    room = followed.room(2 * listed.distinct)
-    if room is None:
-        room = len(followed.elimination.standard(mechanism.degree_bound))
+    room = followed.room(2 * listed.distinct, mechanism.degree_bound)
     if room == listed.distinct:
         return room, ()
     if room == listed.weight:

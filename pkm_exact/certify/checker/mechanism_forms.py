@@ -234,8 +234,7 @@ def matrix(rows: Sequence[Sequence[int]]) -> fmpz_mat:
 
 def cleared(form: Sequence[Fraction | int]) -> list[int]:
     """The form times the least common denominator of its coefficients."""
-    denominator = lcm(*(value.denominator for value in form))
-    return [value.numerator * (denominator // value.denominator) for value in form]
+    return _numerators(form)[0]
 
 
 def quantities(placed: Motion) -> list[Any]:
@@ -291,10 +290,10 @@ def distance(metric: Metric, base: Point, platform: Point, square: Fraction) -> 
     return Constraint((form,), leg=Leg(base, platform, square))
 
 
-def _numerators(point: Point) -> tuple[list[int], int]:
-    """Integer coordinates, and what they are divided by."""
-    divisor = lcm(*(value.denominator for value in point))
-    return [value.numerator * (divisor // value.denominator) for value in point], divisor
+def _numerators(values: Sequence[Fraction | int]) -> tuple[list[int], int]:
+    """The numbers times their least common denominator, and this."""
+    denominator = lcm(*(value.denominator for value in values))
+    return [value.numerator * (denominator // value.denominator) for value in values], denominator
 
 
 def _fraction(value: int, divisor: int) -> Fraction:

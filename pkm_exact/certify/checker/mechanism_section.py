@@ -24,9 +24,9 @@ from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import pivots_of
 from pkm_exact.certify.checker.elimination import Elimination
 from pkm_exact.certify.checker.mechanism_forms import SIZE, Mechanism, cleared, matrix
+from pkm_exact.certify.checker.packed_monomials import Polynomial
 from pkm_exact.certify.checker.section import (
     RING,
-    Polynomial,
     Quadric,
     evaluated,
     motion_forms,

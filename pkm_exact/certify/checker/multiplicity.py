@@ -48,7 +48,7 @@ def dependent_factors(representation: Representation, legs: Sequence[Leg], metri
     doubtful = [
         factor for factor in factors if not _is_proved_simple(factor, representation, legs, metric, briefly=True)
     ]
-    return tuple(factor for factor in doubtful if are_dependent(factor, representation, legs, metric))
+    return tuple(factor for factor in doubtful if _are_dependent(factor, representation, legs, metric))
 
 
 def _is_proved_simple(
@@ -64,7 +64,7 @@ def _is_proved_simple(
     return proved_coprime(factor, determinant, briefly=briefly)
 
 
-def are_dependent(factor: fmpz_poly, representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
+def _are_dependent(factor: fmpz_poly, representation: Representation, legs: Sequence[Leg], metric: Metric) -> bool:
     """Whether the leg lines are dependent at every root of an irreducible factor of h, over Q."""
     numerators = (*representation.quaternion, *representation.translation)
     charge(_PRODUCTS * algebraic_cost(factor, representation, 4 * len(legs)))

@@ -26,6 +26,8 @@ from typing import Any, Final, TypeAlias
 
 Monomial: TypeAlias = tuple[int, ...]
 """Exponents."""
+Polynomial: TypeAlias = dict[Monomial, int]
+"""Coefficients by exponents."""
 Code: TypeAlias = Any
 """What stands for a monomial: an integer, or a tuple of them. They are ordered as the monomials are."""
 Packed: TypeAlias = dict[Code, int]

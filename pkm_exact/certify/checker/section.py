@@ -17,7 +17,7 @@ from flint import Ordering, fmpz, fmpz_mat, fmpz_mpoly, fmpz_mpoly_ctx
 
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import pivots_of
-from pkm_exact.certify.checker.packed_monomials import Code, Monomial, Packed, Packing, packing_for
+from pkm_exact.certify.checker.packed_monomials import Code, Packed, Packing, packing_for
 from pkm_exact.certify.checker.study_motion import CYCLIC, PLANAR_LEGS, Leg, Metric, combination, leg_form, times
 
 ORDER: Final = ("u1", "u2", "u3", "c1", "c2", "c3", "s", *(f"r{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)))
@@ -28,9 +28,6 @@ _PLANE: Final = tuple(
     for fixed in ("u3", "c3", "r13", "r23", "r31", "r32", "r33")
 )
 """What keeps a planar robot in the plane of the first two axes: these coordinates, minus 1 for r33, are 0."""
-
-Polynomial: TypeAlias = dict[Monomial, int]
-"""Coefficients by exponents."""
 
 Quadric: TypeAlias = tuple[tuple[tuple[int, int], int], ...]
 """Coefficients of products of two values, after their places, of which the first is not the larger one."""

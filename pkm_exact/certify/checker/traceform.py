@@ -20,8 +20,7 @@ from flint import fmpz, fmpz_mat, nmod_mat, nmod_poly
 from pkm_exact.certify.checker.budget import charge, limbs
 from pkm_exact.certify.checker.echelon import echelon_form
 from pkm_exact.certify.checker.elimination import Elimination, shifted
-from pkm_exact.certify.checker.packed_monomials import Monomial
-from pkm_exact.certify.checker.section import Polynomial
+from pkm_exact.certify.checker.packed_monomials import Monomial, Polynomial
 
 
 @dataclass(frozen=True, eq=False)
